@@ -1,0 +1,48 @@
+# footfit. `make demo` and `make test` need Python 3.11 or newer and make; nothing else.
+PYTHON ?= python3
+VENV := .venv
+BIN := $(VENV)/bin
+STAMP := $(VENV)/.ready
+
+.PHONY: demo test check format lint types contracts tests bench torture clean help
+
+help:            ## this list
+	@grep -E '^[a-z]+:.*##' $(MAKEFILE_LIST) | sed 's/:.*##/\t/'
+
+$(VENV)/.user: pyproject.toml
+	$(PYTHON) -m venv $(VENV)
+	$(BIN)/python -m pip install --quiet --upgrade pip
+	$(BIN)/python -m pip install --quiet --editable .
+	@touch $@
+
+$(STAMP): $(VENV)/.user
+	$(BIN)/python -m pip install --quiet --editable '.[test]'
+	@touch $@
+
+demo: $(VENV)/.user  ## set up, ingest the sample lasts, match a sample foot, draw it
+	$(BIN)/footfit demo demo --force
+
+test: $(STAMP)   ## set up and run every test
+	$(BIN)/python -m pytest -n 2 -q
+
+check: format lint types contracts test  ## what CI runs
+
+format: $(STAMP) ## is the code formatted?
+	$(BIN)/ruff format --check .
+
+lint: $(STAMP)   ## ruff
+	$(BIN)/ruff check .
+
+types: $(STAMP)  ## mypy --strict
+	$(BIN)/mypy
+
+contracts: $(STAMP)  ## the layers of docs/architecture.md
+	$(BIN)/lint-imports
+
+bench: $(STAMP)  ## the benchmarks' tables (make bench WRITE=--write puts them into docs/)
+	$(BIN)/python -m pip install --quiet --editable '.[bench]'
+	@set -e; for b in alignment flare curvature speed; do $(BIN)/python benchmarks/$$b.py $(WRITE); done
+
+clean:           ## remove what make made
+	rm -rf $(VENV) demo dist build .pytest_cache .mypy_cache .ruff_cache .hypothesis .import_linter_cache
+	find . -name __pycache__ -type d -prune -exec rm -rf {} +

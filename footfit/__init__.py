@@ -1,0 +1,3 @@
+"""footfit: which shoe last fits this foot, and why?"""
+
+__version__ = "0.1.0"

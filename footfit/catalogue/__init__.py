@@ -1,0 +1,1 @@
+"""The only owner of SQL: schema, engine, migrations, store, search."""

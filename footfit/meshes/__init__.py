@@ -1,0 +1,1 @@
+"""The only owner of mesh files: read, units, clean, decimate, write."""

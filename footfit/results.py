@@ -1,0 +1,345 @@
+"""What passes between the layers: frozen dataclasses of plain, picklable values.
+
+A length ends in ``_mm``, an angle in ``_deg``; arrays are float64 unless said. Array fields
+are never written to after construction.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Literal
+
+if TYPE_CHECKING:
+    import numpy as np
+    from numpy.typing import NDArray
+
+    from footfit.geometry.flare import FlareProfile
+
+    Floats = NDArray[np.float64]
+    Ints = NDArray[np.int64]
+
+SideName = Literal["left", "right"]
+Confidence = Literal["sure", "low", "undecided"]
+Method = Literal["footfit", "paper", "paper-literal"]
+SearchBy = Literal["fit", "flare", "shape"]
+
+
+@dataclass(frozen=True, slots=True)
+class Measured:
+    """A measured value with its standard deviation, or the reason why there is none."""
+
+    value: float | None
+    sd: float | None = None
+    reason: str | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class Measure:
+    """One row of a shape's measures: a new measure is a new row, never a new column."""
+
+    name: str
+    measured: Measured
+    definition: str
+
+
+@dataclass(frozen=True, slots=True)
+class Notice:
+    """A warning: a stable ``code`` for scripts, a ``message`` for people."""
+
+    code: str
+    message: str
+
+
+# ---------------------------------------------------------------- meshes
+
+
+@dataclass(frozen=True, slots=True)
+class MeshInfo:
+    """What the file was.
+
+    ``vertices`` and ``faces`` count what is left after welding and cleaning, ``sha256`` is of
+    the file's bytes, ``unit_scale`` takes the file's coordinates to mm, ``units`` is
+    "mm", "cm", "m", "in" or "scaled" (``--known-length``), ``units_source`` is
+    "declared", "detected" or "known-length".
+    """
+
+    path: str | None
+    sha256: str
+    format: str
+    vertices: int
+    faces: int
+    watertight: bool
+    units: str
+    units_source: str
+    unit_scale: float
+
+
+@dataclass(frozen=True, slots=True)
+class Scan:
+    """A mesh ready for geometry: mm, welded, cleaned, wound outward.
+
+    ``vertices_mm`` is (n, 3) float64 in the file's own axes, ``faces`` is (m, 3) int64.
+    """
+
+    info: MeshInfo
+    vertices_mm: Floats
+    faces: Ints
+    warnings: tuple[Notice, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class MeshCopy:
+    """A last's mesh as the catalogue keeps it: canonical mm, decimated, compressed.
+
+    ``error_mm`` is the largest measured distance between the copy and the mesh it stands for,
+    ``data`` the compressed bytes of ``meshes.copies``.
+    """
+
+    data: bytes
+    faces: int
+    error_mm: float
+
+
+# ---------------------------------------------------------------- alignment
+
+
+@dataclass(frozen=True, slots=True)
+class SideVerdict:
+    """Left or right, how surely, and who said so.
+
+    ``score`` is the mirror-odd score S of the detection, + for a right shape; ``source`` is
+    "given" or "detected". ``side`` is None only where it is undecided.
+    """
+
+    side: SideName | None
+    confidence: Confidence
+    score: float
+    source: str
+
+
+@dataclass(frozen=True, slots=True)
+class PoseQuality:
+    """How well the pose is settled; see ``docs/alignment.md``.
+
+    ``cost`` of the fit to the reference shapes, ``margin`` to the best other pose, ``support``
+    the share of the sole under the plane, ``sole`` whether there is one, ``kind`` "foot" or
+    "last": the reference shape that fits best.
+    """
+
+    cost: float
+    margin: float
+    support: float
+    sole: bool
+    kind: str
+
+
+@dataclass(frozen=True, slots=True)
+class Eigenframe:
+    """The paper's frame of one mesh (Eq. 1-5), signs and order settled by the canonical frame.
+
+    ``centroid_mm`` (3,) in the file's axes; ``eigenvectors`` (3, 3) as rows in the file's
+    axes, a rotation; ``eigenvalues_mm2`` (3,), descending. A left shape is mirrored before
+    Eq. 1 where it is compared (``paper_transform``); the frame itself is of the mesh as it is.
+    """
+
+    centroid_mm: Floats
+    eigenvectors: Floats
+    eigenvalues_mm2: Floats
+
+
+@dataclass(frozen=True, slots=True)
+class Reference:
+    """The reference last: its name, OM_E (Eq. 6) and its centroid in its canonical frame.
+
+    ``om_e`` (3, 3) has the eigenvectors as columns in the canonical frame.
+    """
+
+    last: str
+    om_e: Floats
+    centroid_mm: Floats
+
+
+@dataclass(frozen=True, slots=True)
+class Alignment:
+    """One mesh, aligned.
+
+    ``transform`` (4, 4) takes the file's coordinates to aligned mm (rotation, translation and
+    the unit's scale, never a mirror). ``canonical_transform`` (4, 4) is the same for method
+    "footfit"; for the paper's methods it is still footfit's. ``reference`` is the last whose
+    OM_E was used, None for method "footfit" without one.
+    """
+
+    info: MeshInfo
+    method: Method
+    side: SideVerdict
+    transform: Floats
+    canonical_transform: Floats
+    eigenframe: Eigenframe
+    pose: PoseQuality
+    reference: Reference | None
+    length_mm: float
+    warnings: tuple[Notice, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class AlignedScan:
+    """An alignment with its mesh in the canonical frame.
+
+    ``vertices_mm`` (n, 3) canonical and not mirrored, ``faces`` (m, 3) wound outward.
+    """
+
+    alignment: Alignment
+    vertices_mm: Floats
+    faces: Ints
+
+
+# ---------------------------------------------------------------- profile
+
+
+@dataclass(frozen=True, slots=True)
+class Profiled:
+    """A mesh aligned, measured and profiled: what ingest stores and match ranks."""
+
+    aligned: AlignedScan
+    flare: FlareProfile
+    measures: tuple[Measure, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class SurfaceCurvature:
+    """Per-vertex curvature of a surface in 1/mm, (n,) each; NaN where it is undefined.
+
+    ``k1`` <= ``k2``; convex is positive; ``radius_mm`` 0 is the paper's one ring.
+    """
+
+    info: MeshInfo
+    radius_mm: float
+    vertices_mm: Floats
+    faces: Ints
+    k1: Floats
+    k2: Floats
+    mean: Floats
+    gaussian: Floats
+    source_to_vertex: Ints
+    warnings: tuple[Notice, ...]
+
+
+# ---------------------------------------------------------------- catalogue
+
+
+@dataclass(frozen=True, slots=True)
+class LastLabels:
+    """What people say of a last; kept as given and never trusted over its geometry."""
+
+    name: str
+    style: str | None = None
+    size: str | None = None
+    size_system: str | None = None
+    width_label: str | None = None
+    heel_height_mm: float | None = None
+    family: str | None = None
+    parent: str | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class LastRecord:
+    """A last as the catalogue holds it, without its mesh.
+
+    ``paper_transform`` (4, 4) takes the file's coordinates (mirrored in its first axis for a
+    left last) to the reference's frame by the paper's Eq. 8; None while there is no reference.
+    ``upgraded_from`` names the older flare definition that this profile replaces.
+    """
+
+    labels: LastLabels
+    info: MeshInfo
+    side: SideVerdict
+    pose: PoseQuality
+    eigenframe: Eigenframe
+    canonical_transform: Floats
+    paper_transform: Floats | None
+    length_mm: float
+    flare: FlareProfile
+    measures: tuple[Measure, ...]
+    warnings: tuple[Notice, ...]
+    upgraded_from: str | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class IngestOutcome:
+    """What became of one file: ``status`` is added, unchanged, replaced or refused."""
+
+    path: str
+    status: str
+    last: str | None
+    side: SideName | None
+    flare_angle_deg: float | None
+    error: str | None
+    exit: int
+    code: str | None
+    warnings: tuple[Notice, ...] = ()
+    reference: bool = False
+
+
+@dataclass(frozen=True, slots=True)
+class CatalogueFacts:
+    """What ``catalogue-info`` says: where the file is, what it holds, what it keeps of whom."""
+
+    path: str
+    bytes: int
+    lasts: int
+    reference: str | None
+    schema_revision: str
+    definitions: tuple[tuple[str, int], ...]
+    styles: tuple[tuple[str, int], ...]
+    size_systems: tuple[tuple[str, int], ...]
+    sides: tuple[tuple[str, int], ...]
+    mesh_copies: int
+    mesh_copy_bytes: int
+    worst_copy_error_mm: float | None
+
+
+# ---------------------------------------------------------------- match
+
+
+@dataclass(frozen=True, slots=True)
+class FlareDifference:
+    """The profile distance D and the flare angle's difference, last minus foot."""
+
+    distance: float
+    delta_deg: float
+    parts: tuple[tuple[str, float], ...]
+
+
+@dataclass(frozen=True, slots=True)
+class Candidate:
+    """One last of the answer; None where a later version will measure it."""
+
+    rank: int
+    last: str
+    style: str | None
+    size: str | None
+    size_system: str | None
+    width_label: str | None
+    side: SideName | None
+    mirrored: bool
+    distance: float
+    flare: FlareDifference
+    clearance_mm: tuple[tuple[str, Measured], ...]
+    verdict: str | None
+    why: str
+    tied_with: tuple[str, ...]
+    record: LastRecord
+
+
+@dataclass(frozen=True, slots=True)
+class Match:
+    """One customer's answer: one foot, or two with ``--pair``."""
+
+    feet: tuple[Profiled, ...]
+    by: SearchBy
+    profile: str
+    catalogue_lasts: int
+    reference: str | None
+    candidates: tuple[Candidate, ...]
+    rejected: tuple[tuple[str, int], ...]
+    warnings: tuple[Notice, ...]
