@@ -10,13 +10,8 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Literal
 
 if TYPE_CHECKING:
-    import numpy as np
-    from numpy.typing import NDArray
-
+    from footfit.geometry.arrays import Floats, Ints
     from footfit.geometry.flare import FlareProfile
-
-    Floats = NDArray[np.float64]
-    Ints = NDArray[np.int64]
 
 SideName = Literal["left", "right"]
 Confidence = Literal["sure", "low", "undecided"]
