@@ -74,12 +74,15 @@ class Scan:
     """A mesh ready for geometry: mm, welded, cleaned, wound outward.
 
     ``vertices_mm`` is (n, 3) float64 in the file's own axes, ``faces`` is (m, 3) int64.
+    ``source_to_vertex`` is, for each vertex of the file, its row of ``vertices_mm``, -1 where it
+    was dropped; None for a scan that no file stands behind.
     """
 
     info: MeshInfo
     vertices_mm: Floats
     faces: Ints
     warnings: tuple[Notice, ...]
+    source_to_vertex: Ints | None = None
 
 
 @dataclass(frozen=True, slots=True)
