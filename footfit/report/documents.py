@@ -1,0 +1,228 @@
+"""One JSON document per answer about meshes; docs/json.md lists every key.
+
+A document is a dict of plain values. `json_line` writes it: one line, keys sorted, no NaN.
+"""
+
+from __future__ import annotations
+
+import json
+import re
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from footfit import __version__
+from footfit.report.numbers import (
+    MILLIMETRE_DIGITS,
+    RATIO_DIGITS,
+    Json,
+    degrees,
+    millimetres,
+    nested,
+    ratio,
+)
+from footfit.report.parts import (
+    clearance_part,
+    flare_part,
+    measures_part,
+    mesh_part,
+    pose_part,
+    reference_part,
+    side_part,
+    warnings_part,
+)
+
+if TYPE_CHECKING:
+    from footfit.errors import FootfitError
+    from footfit.geometry.arrays import Floats
+    from footfit.results import (
+        Alignment,
+        Candidate,
+        IngestOutcome,
+        Match,
+        Profiled,
+        SurfaceCurvature,
+    )
+
+QUANTILES = (0.05, 0.5, 0.95)
+
+# What json.dumps leaves in place and a reader could take for the end of a line, or cannot
+# encode as UTF-8: file names that were no text arrive as lone surrogates.
+_UNSAFE = re.compile("[\x7f-\x9f\u2028\u2029\ud800-\udfff]")
+
+
+def document(command: str, keys: Json) -> Json:
+    """``keys`` under the command's schema and this version."""
+    return {"schema": f"footfit.{command}/1", "footfit_version": __version__, **keys}
+
+
+def json_line(document: Json) -> str:
+    r"""One document as one line of UTF-8 text, without the line's end.
+
+    Raises
+    ------
+    ValueError
+        A number is not finite: the documents of this package never hold one.
+
+    Examples
+    --------
+    >>> json_line({"b": 1.5, "a": "Müller\n\u2028"})
+    '{"a":"Müller\\n\\u2028","b":1.5}'
+    """
+    text = json.dumps(
+        document, sort_keys=True, ensure_ascii=False, allow_nan=False, separators=(",", ":")
+    )
+    return _UNSAFE.sub(lambda match: f"\\u{ord(match[0]):04x}", text)
+
+
+def error_document(error: FootfitError) -> Json:
+    """``footfit.error/1``: the last line of stderr, and a failed mesh's line on stdout."""
+    return document(
+        "error",
+        {
+            "code": error.code,
+            "exit": int(error.exit),
+            "message": error.message,
+            "path": error.path,
+        },
+    )
+
+
+def align_document(alignment: Alignment) -> Json:
+    """``footfit.align/1``."""
+    frame = alignment.eigenframe
+    return document(
+        "align",
+        {
+            "mesh": mesh_part(alignment.info),
+            **side_part(alignment.side),
+            "method": alignment.method,
+            "transform": nested(alignment.transform, RATIO_DIGITS),
+            "eigenvalues_mm2": nested(frame.eigenvalues_mm2, MILLIMETRE_DIGITS),
+            "eigenvectors": nested(frame.eigenvectors, RATIO_DIGITS),
+            "centroid_mm": nested(frame.centroid_mm, MILLIMETRE_DIGITS),
+            "reference": reference_part(alignment.reference),
+            "pose": pose_part(alignment.pose),
+            "length_mm": millimetres(alignment.length_mm),
+            "warnings": warnings_part(alignment.warnings),
+        },
+    )
+
+
+def flare_document(profiled: Profiled) -> Json:
+    """``footfit.flare/1``."""
+    alignment = profiled.aligned.alignment
+    return document(
+        "flare",
+        {
+            "mesh": mesh_part(alignment.info),
+            **side_part(alignment.side),
+            **flare_part(profiled.flare),
+            "warnings": warnings_part(alignment.warnings),
+        },
+    )
+
+
+def match_document(match: Match) -> Json:
+    """``footfit.match/1``: one customer, one foot or two."""
+    return document(
+        "match",
+        {
+            "feet": [foot_part(foot) for foot in match.feet],
+            "by": match.by,
+            "profile": match.profile,
+            "catalogue": {"lasts": match.catalogue_lasts, "reference": match.reference},
+            "candidates": [candidate_part(candidate) for candidate in match.candidates],
+            "rejected": {
+                "count": sum(count for _, count in match.rejected),
+                "by_reason": dict(match.rejected),
+            },
+            "warnings": warnings_part(match.warnings),
+        },
+    )
+
+
+def foot_part(foot: Profiled) -> Json:
+    """One foot of a match."""
+    alignment = foot.aligned.alignment
+    return {
+        "mesh": mesh_part(alignment.info),
+        **side_part(alignment.side),
+        "measures": measures_part(foot.measures),
+        "flare": flare_part(foot.flare),
+        "warnings": warnings_part(alignment.warnings),
+    }
+
+
+def candidate_part(candidate: Candidate) -> Json:
+    """One last of a match, null where it is not measured."""
+    flare = candidate.flare
+    return {
+        "rank": candidate.rank,
+        "last": candidate.last,
+        "style": candidate.style,
+        "size": candidate.size,
+        "size_system": candidate.size_system,
+        "width_label": candidate.width_label,
+        "side": candidate.side,
+        "mirrored": candidate.mirrored,
+        "distance": ratio(candidate.distance),
+        "flare": {
+            "distance": ratio(flare.distance),
+            "delta_deg": degrees(flare.delta_deg),
+            "parts": {name: ratio(part) for name, part in flare.parts},
+        },
+        "clearance_mm": clearance_part(candidate.clearance_mm),
+        "verdict": candidate.verdict,
+        "why": candidate.why,
+        "tied_with": list(candidate.tied_with),
+    }
+
+
+def ingest_document(outcome: IngestOutcome) -> Json:
+    """``footfit.ingest-last/1``: what became of one file."""
+    return document(
+        "ingest-last",
+        {
+            "path": outcome.path,
+            "status": outcome.status,
+            "last": outcome.last,
+            "side": outcome.side,
+            "flare_angle_deg": degrees(outcome.flare_angle_deg),
+            "error": outcome.error,
+            "code": outcome.code,
+            "exit": outcome.exit,
+            "reference": outcome.reference,
+            "warnings": warnings_part(outcome.warnings),
+        },
+    )
+
+
+def curvature_document(curvature: SurfaceCurvature, *, output: str | None = None) -> Json:
+    """``footfit.curvature/1``: the spread of each curvature; the file holds every vertex."""
+    return document(
+        "curvature",
+        {
+            "mesh": mesh_part(curvature.info),
+            "radius_mm": millimetres(curvature.radius_mm),
+            "defined_vertices": int(np.count_nonzero(np.isfinite(curvature.mean))),
+            "k1_per_mm": spread_part(curvature.k1),
+            "k2_per_mm": spread_part(curvature.k2),
+            "mean_per_mm": spread_part(curvature.mean),
+            "gaussian_per_mm2": spread_part(curvature.gaussian),
+            "output": output,
+            "warnings": warnings_part(curvature.warnings),
+        },
+    )
+
+
+def spread_part(values: Floats) -> Json:
+    """The 5 %, 50 % and 95 % quantiles over the defined vertices; null where there is none."""
+    defined = values[np.isfinite(values)]
+    if not len(defined):
+        return {f"p{round(100 * level):02d}": None for level in QUANTILES}
+    quantiles = np.quantile(defined, QUANTILES)
+    return {
+        f"p{round(100 * level):02d}": ratio(float(value))
+        for level, value in zip(QUANTILES, quantiles, strict=True)
+    }

@@ -1,0 +1,182 @@
+"""The pieces that several JSON documents share."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import asdict
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from footfit.geometry.flare import CHANNELS
+from footfit.report.numbers import (
+    RATIO_DIGITS,
+    Json,
+    degrees,
+    measured_value,
+    millimetres,
+    nested,
+    ratio,
+)
+from footfit.results import Measured
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable, Sequence
+
+    from footfit.geometry.arrays import Floats
+    from footfit.geometry.flare import FlareProfile
+    from footfit.results import (
+        LastRecord,
+        Measure,
+        MeshInfo,
+        Notice,
+        PoseQuality,
+        Reference,
+        SideVerdict,
+    )
+
+FIT_NAMES = ("length", "ball_width", "ball_girth", "heel_width", "instep_girth")
+"""The measures and clearances that every document names, measured or not."""
+
+NOT_YET = Measured(None, reason="this version does not measure it")
+
+
+def mesh_part(info: MeshInfo) -> Json:
+    """What the file was."""
+    return {
+        "path": info.path,
+        "sha256": info.sha256,
+        "vertices": info.vertices,
+        "faces": info.faces,
+        "watertight": info.watertight,
+        "units": info.units,
+        "units_source": info.units_source,
+    }
+
+
+def side_part(side: SideVerdict) -> Json:
+    """Left or right, how surely, and who said so: three keys of the document itself."""
+    return {
+        "side": side.side,
+        "side_confidence": {"word": side.confidence, "score": ratio(side.score)},
+        "side_source": side.source,
+    }
+
+
+def pose_part(pose: PoseQuality) -> Json:
+    """How well the pose is settled."""
+    return {
+        "cost": ratio(pose.cost),
+        "margin": ratio(pose.margin),
+        "support": ratio(pose.support),
+        "sole": pose.sole,
+    }
+
+
+def reference_part(reference: Reference | None) -> Json | None:
+    """The reference last and its OM_E (Eq. 6), or null."""
+    if reference is None:
+        return None
+    return {"last": reference.last, "om_e": nested(reference.om_e, RATIO_DIGITS)}
+
+
+def warnings_part(warnings: Iterable[Notice]) -> list[Json]:
+    """Every warning as a code for scripts and a message for people."""
+    return [{"code": notice.code, "message": notice.message} for notice in warnings]
+
+
+def flare_part(flare: FlareProfile) -> Json:
+    """The flare profile with its whole definition."""
+    curvature: Json = {}
+    for channel in CHANNELS:
+        values = flare.curvature.get(channel)
+        curvature[channel] = None if values is None else nested(values, RATIO_DIGITS)
+    return {
+        "flare_angle_deg": degrees(flare.angle_deg),
+        "flare_angle_sd_deg": degrees(flare.angle_sd_deg),
+        "class": flare.flare_class,
+        "definition": finite(asdict(flare.definition)),
+        "stations": nested(flare.stations, RATIO_DIGITS),
+        "heading_deg": nested(flare.heading_deg, 3),
+        "curvature": curvature,
+    }
+
+
+def measures_part(measures: Iterable[Measure]) -> Json:
+    """Every measure by its name; the ones every document names are never missing."""
+    taken = {measure.name: measure.measured for measure in measures}
+    return measured_parts(taken)
+
+
+def clearance_part(clearance_mm: Sequence[tuple[str, Measured]]) -> Json:
+    """Every clearance by its zone; the ones every document names are never missing."""
+    return measured_parts(dict(clearance_mm))
+
+
+def measured_parts(taken: dict[str, Measured]) -> Json:
+    """``taken`` as JSON values, completed with the names that every document has."""
+    complete = dict.fromkeys(FIT_NAMES, NOT_YET) | taken
+    return {name: measured_value(measured) for name, measured in complete.items()}
+
+
+def finite(value: object) -> object:
+    """A definition's parameters as JSON can carry them: unrounded, and finite or null.
+
+    Examples
+    --------
+    >>> finite({"sd": 0.1, "limit": float("inf"), "windows": ((0.08, 0.3),)})
+    {'sd': 0.1, 'limit': None, 'windows': [[0.08, 0.3]]}
+    """
+    if isinstance(value, dict):
+        return {str(key): finite(item) for key, item in value.items()}
+    if isinstance(value, tuple | list | np.ndarray):
+        return [finite(item) for item in value]
+    if isinstance(value, float | np.floating):
+        return float(value) if math.isfinite(value) else None
+    return int(value) if isinstance(value, np.integer) else value
+
+
+def paper_frame_angle_deg(record: LastRecord) -> float | None:
+    """How far the paper's frame is turned from footfit's, for one last; None without one.
+
+    Both transforms are compared as rotations of the file's own axes into the frame of a right
+    shape: the paper's takes a left last mirrored in its first axis, footfit's does not mirror.
+    """
+    if record.paper_transform is None:
+        return None
+    left = record.side.side == "left"
+    file_mirror = np.diag([-1.0, 1.0, 1.0]) if left else np.eye(3)
+    frame_mirror = np.diag([1.0, -1.0, 1.0]) if left else np.eye(3)
+    paper = _rotation(record.paper_transform) @ file_mirror
+    footfit = frame_mirror @ _rotation(record.canonical_transform)
+    turn = paper @ footfit.T
+    skew = turn - turn.T
+    sine = 0.5 * math.sqrt(skew[2, 1] ** 2 + skew[0, 2] ** 2 + skew[1, 0] ** 2)
+    return math.degrees(math.atan2(sine, 0.5 * (float(np.trace(turn)) - 1.0)))
+
+
+def _rotation(transform: Floats) -> Floats:
+    """The rotation of a similarity, without its scale."""
+    linear = transform[:3, :3]
+    rotation: Floats = linear / math.cbrt(abs(float(np.linalg.det(linear))))
+    return rotation
+
+
+def last_part(record: LastRecord, *, reference: str | None) -> Json:
+    """One line of the library: the labels as given, the geometry as measured."""
+    labels = record.labels
+    return {
+        "last": labels.name,
+        "style": labels.style,
+        "size": labels.size,
+        "size_system": labels.size_system,
+        "width_label": labels.width_label,
+        "heel_height_mm": millimetres(labels.heel_height_mm),
+        "family": labels.family,
+        "parent": labels.parent,
+        "side": record.side.side,
+        "length_mm": millimetres(record.length_mm),
+        "flare_angle_deg": degrees(record.flare.angle_deg),
+        "class": record.flare.flare_class,
+        "reference": labels.name == reference,
+    }
