@@ -1,0 +1,160 @@
+"""The curves that a last is drawn from: plan widths, side view, sections. Lengths over L.
+
+The proportions follow common last-making practice: heel about a quarter of the length wide, ball
+three eighths, seat and tread joined by the shank, cone a third of the length high.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+from scipy.interpolate import CubicSpline, PchipInterpolator
+
+Floats = np.ndarray
+Curve = Callable[[Floats], Floats]
+
+BALL_STATION = 0.67
+
+# toe shape: half widths at .84, .92 and 1.0 as shares of the ball's, and the length of the cap
+TOES = {
+    "round": (0.86, 0.73, 0.62, 0.14),
+    "almond": (0.80, 0.60, 0.46, 0.13),
+    "square": (0.90, 0.81, 0.74, 0.085),
+    "pointed": (0.70, 0.43, 0.25, 0.085),
+}
+
+
+@dataclass(frozen=True, slots=True)
+class Widths:
+    """Half width of the widest row and the end caps' factor, on a grid of stations."""
+
+    half: Floats
+    cap: Floats
+
+
+def _cap(distance: Floats, length: float) -> Floats:
+    """Rounds an end off: 0 at it, 1 from ``length`` on, with a finite radius in plan."""
+    u = np.clip(1.0 - distance / length, 0.0, 1.0)
+    return np.sqrt(1.0 - u**2.5)
+
+
+def widths(s: Floats, *, ball: float, heel: float, waist: float, toe_shape: str) -> Widths:
+    """Half widths at stations ``s`` (n,) of a last of the given full widths; 0 beyond its ends."""
+    t1, t2, t3, toe_length = TOES[toe_shape]
+    b, h, w = ball / 2.0, heel / 2.0, waist / 2.0
+    mid = 0.5 * (w + b)
+    nodes = CubicSpline(
+        [0.0, 0.09, 0.17, 0.30, 0.42, 0.55, BALL_STATION, 0.76, 0.84, 0.92, 1.0],
+        [0.93 * h, 0.985 * h, h, 0.5 * (h + w) * 1.005, w, 1.01 * mid, b, 0.965 * b]
+        + [t1 * b, t2 * b, t3 * b],
+        bc_type="natural",
+    )
+    inside = np.clip(s, 0.0, 1.0)
+    cap = _cap(inside, 0.13) * _cap(1.0 - inside, toe_length)
+    return Widths(nodes(inside) * cap * ((s >= 0.0) & (s <= 1.0)), cap)
+
+
+def crest_shape(s: Floats, cone_length: float) -> tuple[Floats, Floats, Floats]:
+    """How sections close at the top, per station (n,): width kept, sharpness, ridge swing.
+
+    The first is the share of the width that the wall's taper keeps, the second the exponent of
+    the closing (high: a flat top with an edge, 2: round), the third 0-1 the ridge's way to
+    the medial side.
+    """
+    c = cone_length
+    keep = PchipInterpolator(
+        [0.0, 0.10, c - 0.05, c + 0.06, 0.52, 0.66, 0.80, 1.0],
+        [0.50, 0.40, 0.31, 0.30, 0.42, 0.66, 0.82, 0.90],
+    )
+    power = PchipInterpolator(
+        [0.0, c - 0.06, c + 0.05, 0.52, 0.66, 1.0], [26.0, 26.0, 6.0, 2.8, 2.4, 2.2]
+    )
+    swing = np.exp(-0.5 * ((s - 0.56) / 0.15) ** 2)
+    return keep(s), power(s), swing
+
+
+@dataclass(frozen=True, slots=True)
+class SideView:
+    """The last seen from the side, in the contact plane's frame; functions of the station.
+
+    ``pitch_deg`` is the angle between the contact plane and the floor of the drafted pose.
+    """
+
+    bottom: Curve
+    crest: Curve
+    crown: Curve
+    widest: Curve
+    pitch_deg: float
+
+
+def _smoother(t: Floats) -> Floats:
+    t = np.clip(t, 0.0, 1.0)
+    return t**3 * (10.0 - 15.0 * t + 6.0 * t**2)
+
+
+def _drafted_bottom(x: Floats, heel: float, spring: float) -> Floats:
+    """Height of the sole's middle over the floor the shoe will stand on."""
+    shank = heel * (1.0 - _smoother((x - 0.06) / 0.58))
+    hollow = 0.010 * np.exp(-0.5 * ((x - 0.43) / 0.09) ** 2)
+    toe = spring * np.clip((x - 0.67) / 0.33, 0.0, None) ** 2.2
+    return shank + hollow + toe
+
+
+def _sole_slope(x: Floats, z: Floats, width: Floats) -> float:
+    """Slope dz/dx of the robust line under the sole (weights fall off with the height over it)."""
+    level, slope = 0.0, 0.0
+    weight = width.copy()
+    for tau in np.concatenate([np.geomspace(0.06, 0.02, 12), np.full(15, 0.02)]):
+        slope, level = np.polyfit(x, z, 1, w=np.sqrt(weight))
+        height = (z - level - slope * x) / np.hypot(1.0, slope)
+        tilt = np.arctan(np.gradient(z, x)) - np.arctan(slope)
+        weight = width * np.exp(-((height / tau) ** 2)) * np.cos(tilt) ** 4
+    return float(slope)
+
+
+THICKNESS = (  # of the forepart over the sole's middle, at stations
+    (0.22, 0.30, 0.38, 0.46, 0.54, 0.62, 0.70, 0.80, 0.90, 1.00, 1.10),
+    (0.520, 0.425, 0.345, 0.283, 0.232, 0.187, 0.150, 0.117, 0.097, 0.086, 0.080),
+)
+
+
+def side_view(*, heel: float, spring: float, cone: float, cone_length: float) -> SideView:
+    """The side view of a last drafted on a heel of height ``heel``, laid onto its contact plane."""
+    x = np.linspace(-0.15, 1.1, 1251)
+    bottom = _drafted_bottom(x, heel, spring)
+    vamp = bottom + CubicSpline(*THICKNESS)(x + 0.34 - cone_length)
+    vamp = np.where(x < 0.25, vamp[np.searchsorted(x, 0.25)] + (0.25 - x), vamp)
+    comb = heel + cone + 0.0 * x
+    crest = -0.012 * np.logaddexp(-vamp / 0.012, -comb / 0.012)  # a soft minimum
+    inside = (x >= 0.0) & (x <= 1.0)
+    seat = 0.12 + 0.06 * np.exp(-0.5 * ((x[inside] - 0.67) / 0.15) ** 2)
+    pitch = -np.arctan(_sole_slope(x[inside], bottom[inside], seat))
+    turned = [
+        (x * np.cos(pitch) - z * np.sin(pitch), x * np.sin(pitch) + z * np.cos(pitch))
+        for z in (bottom, crest)
+    ]
+    ends = np.interp([0.0, 1.0], x, turned[0][0])
+    floor = float(turned[0][1][inside].min())
+    scale = 1.0 / (ends[1] - ends[0])
+    (bottom_s, bottom_z), (crest_s, crest_z) = (
+        ((u - ends[0]) * scale, (z - floor) * scale) for u, z in turned
+    )
+    low = PchipInterpolator(
+        [0.0, 0.15, 0.42, 0.60, 0.72, 0.85, 1.0], [0.074, 0.074, 0.070, 0.062, 0.056, 0.046, 0.038]
+    )
+    crown = PchipInterpolator(
+        [0.0, 0.15, 0.42, 0.66, 0.85, 1.0], [0.010, 0.010, 0.005, 0.012, 0.009, 0.007]
+    )
+
+    def bottom_at(s: Floats) -> Floats:
+        return np.interp(s, bottom_s, bottom_z)
+
+    def crest_at(s: Floats) -> Floats:
+        return np.interp(s, crest_s, crest_z)
+
+    def widest_at(s: Floats) -> Floats:
+        return bottom_at(s) + low(np.clip(s, 0.0, 1.0))
+
+    return SideView(bottom_at, crest_at, crown, widest_at, float(np.degrees(pitch)))

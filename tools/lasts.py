@@ -1,0 +1,427 @@
+"""A parametric shoe last whose plan centre line, and so whose flare, is known.
+
+What is planted
+---------------
+A last is drawn straight, in coordinates (s along, d across, z up), and then bent in plan along
+a curve c(s) of known heading: the point (s, d, z) goes to (c(s) + d n(s), z). Every section
+normal to c is therefore the straight section unchanged. In it the widest row of the wall is
+at d = +w(s) and d = -w(s), lies less than 0.10 L above the section's lowest point, and is an
+edge row of the mesh. So c is, by construction, *the mid-point of the two extremes of the lower
+band, normal to itself*: the definition of the flare's centre line, without any smoothing.
+
+What makes the two sides of a real outline differ in plan (medial waist cut, MT1 ahead of
+MT5, the toe turned to the big toe) is planted in c itself: a cut of depth 2o on the medial side
+is a centre line moved by o to the lateral side and a half width less by o. With
+:func:`plain` these are zero and c is one smooth bend. What differs above or under the widest
+row (instep ridge, arch, the feather line's cut at the waist) leaves c alone.
+
+Canonical pose of a right last: x from heel to toe, y medial positive, z up, z = 0 the contact
+plane (robust plane of the sole, moved to its lowest point), x = 0 the rearmost point, y = 0 the
+heel's middle; x runs along the principal plan axis. A left last is the mirror image.
+
+Examples
+--------
+>>> vertices_mm, faces = last_mesh(LastSpec(length_mm=270.0, flare_deg=6.0, rings=40, segments=32))
+>>> round(float(np.ptp(vertices_mm[:, 0])), 6)
+270.0
+>>> round(true_flare_deg(LastSpec(flare_deg=6.0)), 6)
+6.0
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, fields, replace
+from typing import Literal
+
+import numpy as np
+
+from tools.last_profiles import SideView, Widths, crest_shape, side_view, widths
+
+Floats = np.ndarray
+Ints = np.ndarray
+ToeShape = Literal["round", "almond", "square", "pointed"]
+
+REARFOOT = (0.08, 0.30)  # stations whose mean heading is the flare angle's base
+FOREFOOT = (0.55, 0.80)
+_GRID = np.linspace(-0.1, 1.1, 4801)  # stations on which the planted heading is integrated
+
+
+@dataclass(frozen=True, slots=True)
+class LastSpec:
+    """All that makes one last.
+
+    Lengths are mm; ``None`` for a width takes the usual share of the length. ``flare_deg`` is
+    the true flare angle: mean heading over stations .55-.80 minus mean heading over .08-.30,
+    whatever the other fields are. ``rings`` are the sections from heel to toe, ``segments`` the
+    corners of each: the mesh has about 2 x rings x segments faces.
+
+    ``waist_cut_mm``, ``joint_bulge_mm`` and ``toe_turn_deg`` shape the planted centre line.
+    ``arch_mm`` (the medial feather line's rise at the waist), ``arch_cut_mm`` (how far it goes
+    in under the widest row) and ``ridge_mm`` (the instep ridge's way to the medial side) do not.
+    """
+
+    length_mm: float = 270.0
+    ball_width_mm: float | None = None
+    heel_width_mm: float | None = None
+    waist_width_mm: float | None = None
+    heel_height_mm: float = 25.0
+    toe_spring_mm: float = 12.0
+    flare_deg: float = 8.0
+    toe_shape: ToeShape = "round"
+    toe_turn_deg: float = 5.0
+    waist_cut_mm: float = 5.0
+    joint_bulge_mm: float = 2.5
+    mt1_station: float = 0.72
+    mt5_station: float = 0.62
+    arch_mm: float = 5.0
+    arch_cut_mm: float = 13.0
+    ridge_mm: float = 9.0
+    cone_height_mm: float | None = None
+    cone_length: float = 0.34
+    side: Literal["left", "right"] = "right"
+    rings: int = 160
+    segments: int = 110
+
+
+SHARES = {  # of the length, where the spec says None
+    "ball_width_mm": 0.365,
+    "heel_width_mm": 0.250,
+    "waist_width_mm": 0.272,
+    "cone_height_mm": 0.345,
+}
+
+
+def plain(spec: LastSpec) -> LastSpec:
+    """The same last with one smooth bend: no waist cut, no joint bulge, no turn of the toe."""
+    return replace(spec, waist_cut_mm=0.0, joint_bulge_mm=0.0, toe_turn_deg=0.0)
+
+
+def graded(spec: LastSpec, length_mm: float) -> LastSpec:
+    """The same last in another length: every length in mm grows alike, so no ratio changes."""
+    ratio = length_mm / spec.length_mm
+    names = [f.name for f in fields(spec) if f.name.endswith("_mm")]
+    values = {name: getattr(spec, name) for name in names}
+    return replace(spec, **{name: v * ratio for name, v in values.items() if v is not None})
+
+
+def share(spec: LastSpec, name: str) -> float:
+    """The length field ``name`` over the length."""
+    value = getattr(spec, name)
+    return SHARES[name] if value is None else float(value) / spec.length_mm
+
+
+# ------------------------------------------------------------------ the planted curve
+
+
+def _bell(s: Floats, centre: float, sd: float) -> Floats:
+    return np.exp(-0.5 * ((s - centre) / sd) ** 2)
+
+
+def _bell_slope(s: Floats, centre: float, sd: float) -> Floats:
+    return -(s - centre) / sd**2 * _bell(s, centre, sd)
+
+
+def _offset_slope(spec: LastSpec, s: Floats) -> Floats:
+    """Slope of the centre line's own wave: half the difference of the two sides' outlines."""
+    bulge = share(spec, "joint_bulge_mm")
+    joints = _bell_slope(s, spec.mt1_station, 0.09) - _bell_slope(s, spec.mt5_station, 0.09)
+    cut = share(spec, "waist_cut_mm") * _bell_slope(s, 0.42, 0.085)
+    return 0.5 * (bulge * joints - cut)
+
+
+def _ramp(s: Floats, centre: float, width: float) -> Floats:
+    return 0.5 * (1.0 + np.tanh((s - centre) / width))
+
+
+def _window_mean(values: Floats, window: tuple[float, float]) -> float:
+    """Mean over a window of stations of values given on ``_GRID`` (exact for the interpolant)."""
+    steps = np.diff(_GRID) * 0.5 * (values[1:] + values[:-1])
+    integral = np.concatenate(([0.0], np.cumsum(steps)))
+    low, high = np.interp(window, _GRID, integral)
+    return float((high - low) / (window[1] - window[0]))
+
+
+def _window_change(values: Floats) -> float:
+    return _window_mean(values, FOREFOOT) - _window_mean(values, REARFOOT)
+
+
+def _heading(spec: LastSpec) -> Floats:
+    """The planted heading (radians) on ``_GRID``, before the last is turned onto its axis."""
+    bend = _ramp(_GRID, 0.45, 0.14)
+    toe = np.radians(spec.toe_turn_deg) * _ramp(_GRID, 0.87, 0.05)
+    wave = toe + np.arctan(_offset_slope(spec, _GRID))
+    amount = (np.radians(spec.flare_deg) - _window_change(wave)) / _window_change(bend)
+    return amount * bend + wave
+
+
+@dataclass(frozen=True, slots=True)
+class _Plan:
+    """The planted curve over the length, and what brings it into the canonical pose."""
+
+    heading: Floats
+    x: Floats
+    y: Floats
+    scale: float
+    origin: tuple[float, float]
+
+    def at(self, s: Floats) -> tuple[Floats, Floats, Floats]:
+        """x, y (over the length) and heading (radians) at stations ``s``."""
+        x, y, heading = (np.interp(s, _GRID, v) for v in (self.x, self.y, self.heading))
+        return x, y, heading
+
+
+def _curve(heading: Floats) -> tuple[Floats, Floats]:
+    steps = np.diff(_GRID)
+    middle = 0.5 * (heading[1:] + heading[:-1])
+    x = np.concatenate(([0.0], np.cumsum(steps * np.cos(middle))))
+    y = np.concatenate(([0.0], np.cumsum(steps * np.sin(middle))))
+    return x - np.interp(0.0, _GRID, x), y - np.interp(0.0, _GRID, y)
+
+
+def _plan(spec: LastSpec, half_width: Floats) -> _Plan:
+    """The curve turned so that the principal axis of the plan outline is x, and its scale.
+
+    ``half_width`` is given on ``_GRID``; the plan figure is the strip of that half width.
+    """
+    heading = _heading(spec)
+    yaw = 0.0
+    for _ in range(4):
+        heading = heading - yaw
+        x, y = _curve(heading)
+        weight = half_width * np.gradient(_GRID)
+        x0, y0 = np.average(x, weights=weight), np.average(y, weights=weight)
+        across = half_width**2 / 3.0  # the strip's own second moment, along its normal
+        sxx = np.sum(weight * ((x - x0) ** 2 + across * np.sin(heading) ** 2))
+        syy = np.sum(weight * ((y - y0) ** 2 + across * np.cos(heading) ** 2))
+        sxy = np.sum(weight * ((x - x0) * (y - y0) - across * np.sin(heading) * np.cos(heading)))
+        yaw = 0.5 * float(np.arctan2(2.0 * sxy, sxx - syy))
+    inside = half_width > 0.0
+    edges = np.concatenate([x - side * half_width * np.sin(heading) for side in (-1, 1)])
+    ends = edges[np.tile(inside, 2)]
+    heel = (_GRID >= 0.02) & (_GRID <= 0.10)
+    return _Plan(
+        heading, x, y, 1.0 / float(np.ptp(ends)), (float(ends.min()), float(y[heel].mean()))
+    )
+
+
+def _planted(spec: LastSpec) -> tuple[_Plan, Widths]:
+    shape = widths(
+        _GRID,
+        ball=share(spec, "ball_width_mm"),
+        heel=share(spec, "heel_width_mm"),
+        waist=share(spec, "waist_width_mm"),
+        toe_shape=spec.toe_shape,
+    )
+    return _plan(spec, shape.half), shape
+
+
+def true_heading_deg(spec: LastSpec, s: Floats) -> Floats:
+    """Heading of the planted centre line of the right last, in degrees against x.
+
+    Parameters
+    ----------
+    spec : LastSpec
+    s : (n,) array
+        Stations: the share of the planted curve's arc length, 0 at the heel, 1 at the toe.
+
+    Returns
+    -------
+    (n,) array
+        Degrees, + towards medial.
+    """
+    return np.degrees(_planted(spec)[0].at(np.asarray(s, dtype=float))[2])
+
+
+def true_flare_deg(spec: LastSpec) -> float:
+    """Mean planted heading over stations .55-.80 minus that over .08-.30, in degrees."""
+    return float(np.degrees(_window_change(_planted(spec)[0].heading)))
+
+
+def centre_line_mm(spec: LastSpec, s: Floats) -> Floats:
+    """The planted centre line in the pose of :func:`last_mesh` (right last): (n, 2), x and y."""
+    plan, _ = _planted(spec)
+    x, y, _ = plan.at(np.asarray(s, dtype=float))
+    scale = plan.scale * spec.length_mm
+    return np.column_stack([x - plan.origin[0], y - plan.origin[1]]) * scale
+
+
+def half_width_mm(spec: LastSpec, s: Floats) -> Floats:
+    """Half the distance of the band's two extremes, normal to the centre line: (n,) in mm."""
+    plan, shape = _planted(spec)
+    return np.interp(np.asarray(s, dtype=float), _GRID, shape.half) * plan.scale * spec.length_mm
+
+
+# ------------------------------------------------------------------ the straight last
+
+
+def _stations(rings: int) -> Floats:
+    """``rings`` + 1 stations from heel to toe, closer where the ends round off."""
+    t = np.linspace(0.0, 1.0, rings + 1)
+    return 0.25 * t + 0.75 * 0.5 * (1.0 - np.cos(np.pi * t))
+
+
+@dataclass(frozen=True, slots=True)
+class _Straight:
+    """What the ribs are drawn from, per station (n,) and over the length."""
+
+    s: Floats
+    half: Floats
+    cap: Floats
+    view: SideView
+    spec: LastSpec
+
+
+def _along(straight: _Straight, rise: Floats, foot: Floats) -> Floats:
+    """Where a rib's points lie along the last: at the ends the wall leans, rounds and tucks in.
+
+    ``rise`` is 0 at the widest row and 1 at the crest, ``foot`` 0 there and 1 at the feather.
+    """
+    s = straight.s[:, None]
+    heel = np.clip(1.0 - s / 0.30, 0.0, 1.0) ** 3
+    toe = np.clip(1.0 - (1.0 - s) / 0.24, 0.0, 1.0) ** 3
+    back = 0.040 * rise**1.5 * (1.3 - 0.3 * rise) + 0.016 * foot**2
+    front = 0.062 * (1.0 - np.sqrt(1.0 - np.minimum(rise, 1.0) ** 2)) + 0.010 * foot**2
+    return s + heel * back - toe * front
+
+
+def _resampled(points: Floats, count: int) -> Floats:
+    """Each rib of (n, p, 3) cut anew into ``count`` + 1 points at equal arc length."""
+    steps = np.linalg.norm(np.diff(points, axis=1), axis=2)
+    arc = np.concatenate([np.zeros((len(points), 1)), np.cumsum(steps, axis=1)], axis=1)
+    share_of = np.linspace(0.0, 1.0, count + 1)
+    out = np.empty((len(points), count + 1, 3))
+    for i, (rib, length) in enumerate(zip(points, arc, strict=True)):
+        for k in range(3):
+            out[i, :, k] = np.interp(share_of * length[-1], length, rib[:, k])
+    return out
+
+
+def _upper(straight: _Straight, sign: float, count: int) -> Floats:
+    """The wall from the widest row to the crest: (n, count + 1, 3) as (s, d, z)."""
+    rise = 1.0 - (1.0 - np.linspace(0.0, 1.0, 121)) ** 2
+    rise = rise[None, :] * np.ones((len(straight.s), 1))
+    s = _along(straight, rise, np.zeros_like(rise))
+    keep, power, ridge = crest_shape(straight.s, straight.spec.cone_length)
+    taper = 1.0 - (1.0 - keep[:, None]) * rise**1.6 * (1.5 - 0.5 * rise)
+    d = straight.half[:, None] * taper * np.sqrt(1.0 - rise ** power[:, None])
+    swing = share(straight.spec, "ridge_mm") * ridge[:, None] * rise**2
+    low = straight.view.widest(s)
+    z = low + (straight.view.crest(s[:, -1])[:, None] - low) * rise
+    swing = swing * np.minimum(1.0, straight.half[:, None] / 0.1)
+    return _resampled(np.stack([s, sign * d + swing, z], axis=2), count)
+
+
+def _feather(straight: _Straight, sign: float) -> tuple[Floats, Floats]:
+    """Half width and height of the feather line of one side, per station (n,)."""
+    s = straight.s
+    waist = _bell(s, 0.43, 0.11) if sign > 0 else 0.25 * _bell(s, 0.45, 0.11)
+    inside = 0.10 + 0.02 * _bell(s, 0.68, 0.10)
+    cut = share(straight.spec, "arch_cut_mm") * waist / np.maximum(straight.half, 0.05)
+    arch = share(straight.spec, "arch_mm") * (waist if sign > 0 else 0.0)
+    width = straight.half * (1.0 - inside - cut)
+    return width, straight.view.bottom(s) + straight.view.crown(s) + arch
+
+
+def _lower(straight: _Straight, sign: float, count: int) -> Floats:
+    """The wall from the feather line to the widest row: (n, count + 1, 3)."""
+    t = np.linspace(0.0, 1.0, 41)[None, :] * np.ones((len(straight.s), 1))
+    edge, height = _feather(straight, sign)
+    s = _along(straight, np.zeros_like(t), 1.0 - t)
+    d = edge[:, None] + (straight.half - edge)[:, None] * np.sin(0.5 * np.pi * t)
+    z = height[:, None] + (straight.view.widest(straight.s) - height)[:, None] * t
+    return _resampled(np.stack([s, sign * d, z], axis=2), count)
+
+
+def _sole(straight: _Straight, lateral: Floats, medial: Floats, count: int) -> Floats:
+    """The sole between the two feather lines, both left out: (n, count - 1, 3)."""
+    t = np.linspace(0.0, 1.0, count + 1)[None, 1:-1, None]
+    flat = lateral[:, None, :] * (1.0 - t) + medial[:, None, :] * t
+    depth = (straight.view.crown(straight.s) * straight.cap)[:, None]
+    flat[:, :, 2] -= depth * (1.0 - (2.0 * t[:, :, 0] - 1.0) ** 2)
+    return flat
+
+
+def _rings(spec: LastSpec, shape: Widths) -> Floats:
+    """All rings of the straight last, (rings + 1, segments, 3) as (s, d, z) over the length.
+
+    A ring starts at the medial feather, goes up to the crest, down to the lateral feather and
+    back under the sole.
+    """
+    s = _stations(spec.rings)
+    view = side_view(
+        heel=share(spec, "heel_height_mm"),
+        spring=share(spec, "toe_spring_mm"),
+        cone=share(spec, "cone_height_mm"),
+        cone_length=spec.cone_length,
+    )
+    half = np.interp(s, _GRID, shape.half)
+    half[[0, -1]] = 0.0
+    straight = _Straight(s, half, np.interp(s, _GRID, shape.cap), view, spec)
+    wall, low = _rows(spec.segments)
+    medial, lateral = (
+        np.concatenate([_lower(straight, sign, low)[:, :-1], _upper(straight, sign, wall)], axis=1)
+        for sign in (1.0, -1.0)
+    )
+    sole = _sole(straight, lateral[:, 0], medial[:, 0], spec.segments - 2 * (wall + low))
+    return np.concatenate([medial, lateral[:, -2::-1], sole], axis=1)
+
+
+def _rows(segments: int) -> tuple[int, int]:
+    """How many of a ring's segments lie, on each side, above and under the widest row."""
+    return max(6, round(0.26 * segments)), max(2, round(0.06 * segments))
+
+
+def _ring_faces(spec: LastSpec) -> tuple[Ints, Ints]:
+    """Faces over the ring slots, and the slots that stand for a vertex of their own.
+
+    The first and the last ring are flat: one rib instead of two, no sole. Their lateral and
+    sole slots are the medial rib's vertices, and the faces that this folds up are left out.
+    """
+    n, m = spec.rings + 1, spec.segments
+    top = sum(_rows(m))
+    slots = np.arange(n * m).reshape(n, m)
+    for ring in (0, n - 1):
+        slots[ring, top + 1 : 2 * top + 1] = slots[ring, top - 1 :: -1][:top]
+        slots[ring, 2 * top + 1 :] = slots[ring, 0]
+    a, b = slots[:-1], np.roll(slots[:-1], -1, axis=1)
+    c, d = slots[1:], np.roll(slots[1:], -1, axis=1)
+    first = np.stack([a, b, c], axis=2).reshape(-1, 3)
+    second = np.stack([b, d, c], axis=2).reshape(-1, 3)
+    faces = np.concatenate([first, second])
+    whole = (
+        (faces[:, 0] != faces[:, 1]) & (faces[:, 1] != faces[:, 2]) & (faces[:, 2] != faces[:, 0])
+    )
+    used, faces = np.unique(faces[whole], return_inverse=True)
+    return faces.reshape(-1, 3).astype(np.int64), used
+
+
+def last_mesh(spec: LastSpec) -> tuple[Floats, Ints]:
+    """The last as a closed mesh in the canonical pose.
+
+    Parameters
+    ----------
+    spec : LastSpec
+
+    Returns
+    -------
+    vertices_mm : (n, 3) float64
+        Canonical frame; the extent along x is ``spec.length_mm``. A left last has its medial
+        side at -y.
+    faces : (m, 3) int64
+        Wound outward, watertight, no degenerate face.
+    """
+    plan, shape = _planted(spec)
+    ring = _rings(spec, shape).reshape(-1, 3)
+    faces, used = _ring_faces(spec)
+    s, d, z = ring[used].T
+    x, y, heading = plan.at(s)
+    vertices = np.column_stack([x - d * np.sin(heading), y + d * np.cos(heading), z])
+    vertices -= [plan.origin[0], plan.origin[1], z.min()]
+    vertices *= plan.scale * spec.length_mm
+    rear, front = vertices[:, 0].min(), vertices[:, 0].max()
+    vertices[:, 0] -= rear
+    vertices *= spec.length_mm / (front - rear)
+    if spec.side == "left":
+        vertices[:, 1] *= -1.0
+        faces = faces[:, ::-1].copy()
+    return vertices, faces
