@@ -1,0 +1,79 @@
+"""What a scan holds besides one whole foot: several pieces, inside-out faces, a mere sheet."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from footfit.geometry.arrays import Bools, Floats, Ints
+from footfit.geometry.surface import area_vectors, face_areas
+from footfit.geometry.topology import face_components
+
+
+@dataclass(frozen=True, slots=True)
+class PiecesSettings:
+    """Everything numeric of the pieces."""
+
+    comparable: float = 0.25  # of the largest piece's area
+    speck: float = 0.01
+    apart: float = 0.25  # of the larger piece's size, between the middles of their boxes
+    inside_out: float = 0.20
+    sheet: float = 0.40  # |sum of area vectors| over the area; a foot cut at the leg has .1
+
+
+PIECES = PiecesSettings()
+
+
+def pieces(vertices: Floats, faces: Ints, settings: PiecesSettings = PIECES) -> list[Ints]:
+    """The faces of each connected piece that is no speck, largest area first."""
+    label = face_components(faces, len(vertices))
+    area = np.bincount(label, weights=face_areas(vertices, faces))
+    order = np.argsort(-area, kind="stable")
+    large = [piece for piece in order if area[piece] >= settings.speck * area[order[0]]]
+    return [np.flatnonzero(label == piece) for piece in large]
+
+
+def comparable(
+    vertices: Floats, faces: Ints, found: list[Ints], settings: PiecesSettings = PIECES
+) -> list[Ints]:
+    """Of the pieces (largest first), those of an area comparable with the largest."""
+    areas = [float(face_areas(vertices, faces[piece]).sum()) for piece in found]
+    return [
+        piece
+        for piece, area in zip(found, areas, strict=True)
+        if area >= settings.comparable * areas[0]
+    ]
+
+
+def stand_apart(first: Floats, second: Floats, settings: PiecesSettings = PIECES) -> bool:
+    """Whether pieces of points (n, 3), (k, 3) are beside each other, not one inside the other."""
+    boxes = [(points.min(axis=0), points.max(axis=0)) for points in (first, second)]
+    middles = [(low + high) / 2 for low, high in boxes]
+    size = max(float((high - low).max()) for low, high in boxes)
+    return float(np.linalg.norm(middles[0] - middles[1])) > settings.apart * size
+
+
+def outwardness(vertices: Floats, faces: Ints) -> float:
+    """How surely faces look outward: about 1 for a convex body, -1 for one turned inside out."""
+    vectors = area_vectors(vertices, faces)
+    areas = np.sqrt(np.einsum("ij,ij->i", vectors, vectors))
+    away = vertices[faces].mean(axis=1)
+    away = away - areas @ away / areas.sum()
+    distance = np.sqrt(np.einsum("ij,ij->i", away, away))
+    return float(np.einsum("ij,ij->", away, vectors) / (areas @ distance))
+
+
+def is_sheet(vertices: Floats, faces: Ints, settings: PiecesSettings = PIECES) -> bool:
+    """Whether the surface looks one way only: a sheet, such as a scan of the sole alone."""
+    vectors = area_vectors(vertices, faces)
+    area = float(np.sqrt(np.einsum("ij,ij->i", vectors, vectors)).sum())
+    return float(np.linalg.norm(vectors.sum(axis=0))) > settings.sheet * area
+
+
+def part_of(vertices: Floats, faces: Ints, kept: Ints | Bools) -> tuple[Floats, Ints]:
+    """The mesh of some of the faces, without the vertices that no face uses."""
+    faces = faces[kept]
+    used = np.zeros(len(vertices), dtype=bool)
+    used[faces] = True
+    return vertices[used], (np.cumsum(used) - 1)[faces]

@@ -1,0 +1,75 @@
+"""Centroids, second moments and principal axes of a surface: as printed, and exact.
+
+The paper's Eq. 1-4 depend on how the surface is cut into triangles; the exact moments of the
+surface do not. Both are kept: the methods ``paper`` and ``paper-literal`` use the former.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from footfit.geometry.arrays import Floats, Ints
+from footfit.geometry.surface import face_areas
+
+
+def vertex_mean(vertices: Floats) -> Floats:
+    """The barycentre as printed: the mean of the vertices (n, 3) -> (3,)."""
+    return np.asarray(vertices.mean(axis=0), dtype=np.float64)  # Eq. 1
+
+
+def printed_covariance(vertices: Floats, faces: Ints) -> Floats:
+    """The covariance of the triangles' barycentres as printed, (3, 3), in squared units.
+
+    Weighted by area, around the *unweighted* mean of the barycentres, as the paper has it.
+    """
+    barycentres = vertices[faces].mean(axis=1)
+    centre = barycentres.mean(axis=0)  # Eq. 3
+    areas = face_areas(vertices, faces)
+    away = barycentres - centre
+    return np.asarray((areas[:, None] * away).T @ away / areas.sum(), dtype=np.float64)  # Eq. 2, 4
+
+
+def surface_centroid(vertices: Floats, faces: Ints) -> Floats:
+    """The area-weighted centroid of the surface, (3,): what Eq. 1 must mean.
+
+    Examples
+    --------
+    >>> triangle = np.array([[0.0, 0, 0], [3, 0, 0], [0, 3, 0]])
+    >>> surface_centroid(triangle, np.array([[0, 1, 2]])).tolist()
+    [1.0, 1.0, 0.0]
+    """
+    areas = face_areas(vertices, faces)
+    return np.asarray(areas @ vertices[faces].mean(axis=1) / areas.sum(), dtype=np.float64)
+
+
+def surface_second_moment(vertices: Floats, faces: Ints) -> Floats:
+    """The exact second moment of the surface about its centroid, over its area, (3, 3).
+
+    sum A_i (9 T T' + sum v v') / 12 A, T a triangle's barycentre and v its corners relative
+    to the centroid. Splitting a triangle does not change it.
+
+    Examples
+    --------
+    A square plate of side 2 has a third of its half side squared along each side:
+
+    >>> plate = np.array([[-1.0, -1, 0], [1, -1, 0], [1, 1, 0], [-1, 1, 0]])
+    >>> surface_second_moment(plate, np.array([[0, 1, 2], [0, 2, 3]])).round(12).diagonal().tolist()
+    [0.333333333333, 0.333333333333, 0.0]
+    """
+    areas = face_areas(vertices, faces)
+    corners = vertices[faces] - surface_centroid(vertices, faces)
+    barycentres = corners.mean(axis=1)
+    moment = 9 * (areas[:, None] * barycentres).T @ barycentres
+    for corner in range(3):
+        moment += (areas[:, None] * corners[:, corner]).T @ corners[:, corner]
+    return np.asarray(moment / (12 * areas.sum()), dtype=np.float64)
+
+
+def principal_axes(second_moment: Floats) -> tuple[Floats, Floats]:
+    """Eigenvalues, descending, (3,), and unit eigenvectors as rows, (3, 3), of a second moment.
+
+    The rows' signs are whatever the solver gave: :func:`footfit.geometry.wpca.settled` and
+    :func:`footfit.geometry.wpca.largest_positive` choose them.
+    """
+    values, columns = np.linalg.eigh(second_moment)
+    return np.clip(values[::-1], 0.0, None), columns.T[::-1].copy()  # step 4, R of Eq. 5

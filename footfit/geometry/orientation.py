@@ -1,0 +1,246 @@
+"""Which way up and which way forward: the pose of a foot or last among all poses, by shape.
+
+A coarse search over all rotations, ICP from the best, and a choice that also says by how much the
+next best pose is worse. Left or right is decided afterwards (``side.py``).
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from footfit.geometry.arrays import Bools, Floats, Ints
+from footfit.geometry.pose_fit import (
+    FIT,
+    FitSettings,
+    Poses,
+    forward_costs,
+    icp_steps,
+    joined,
+    levelled,
+    reverse_cost,
+)
+from footfit.geometry.reference_shapes import ReferenceShape, ReferenceShapes, Singles
+from footfit.geometry.rotations import nearest_rotation, super_fibonacci
+from footfit.geometry.samples import even_sample, farthest_points
+
+MIRROR = np.diag([1.0, -1.0, 1.0])
+
+
+@dataclass(frozen=True, slots=True)
+class OrientationSettings:
+    """Everything numeric of the search."""
+
+    fit: FitSettings = FIT
+    rotations: int = 576
+    more_rotations: int = 1728
+    sample_points: int = 1500
+    coarse_points: int = 256
+    kept_coarse: int = 24
+    icp_steps: int = 12
+    kept_poses: int = 4
+    apart_deg: float = 25.0
+    final_steps: int = 10
+    rival_deg: float = 37.0
+    reverse_height: float = 0.30
+    reverse_points: int = 400
+    reverse_share: float = 0.75
+    retry_cost: float = 0.40
+    retry_margin: float = 0.07
+    cost_maximum: float = 0.62
+    margin_minimum: float = 0.04
+    margin_without_rival: float = 1.0
+
+
+ORIENTATION = OrientationSettings()
+
+
+@dataclass(frozen=True, slots=True)
+class Orientation:
+    """The pose that fits best: canonical is about rotation @ p + shift, in the mesh's unit.
+
+    ``length`` is approximate; ``cost`` and ``margin`` are those of :class:`PoseQuality`; ``kind``
+    is the reference shape that fits best; ``accepted`` says whether it is a foot or last at all.
+    """
+
+    rotation: Floats
+    shift: Floats
+    length: float
+    cost: float
+    margin: float
+    kind: str
+    accepted: bool
+
+
+@dataclass(frozen=True, slots=True)
+class _Cloud:
+    """The mesh as the fit sees it: few points, then more; float32, perhaps mirrored."""
+
+    few: Singles
+    few_normals: Singles
+    many: Singles
+    many_normals: Singles
+
+
+@dataclass(frozen=True, slots=True)
+class _Candidate:
+    pose: Poses
+    shape: ReferenceShape
+    mirrored: bool
+    cost: float
+
+
+def orientation(
+    vertices: Floats,
+    faces: Ints,
+    references: ReferenceShapes,
+    windows: tuple[tuple[float, float], ...] = (),
+    settings: OrientationSettings = ORIENTATION,
+) -> Orientation:
+    """The pose of a mesh, by the fit to the reference shapes.
+
+    Parameters
+    ----------
+    vertices, faces : (n, 3) float64, (m, 3) int64
+        Outward winding.
+    references : ReferenceShapes
+    windows : pairs of float
+        Lengths, in the mesh's unit, that are plausible; poses with another length are taken last.
+        Empty: any length.
+    """
+    clouds = _clouds(vertices, faces, settings)
+    first = _candidates(clouds, references, windows, settings.rotations, settings)
+    found = _chosen(first, settings)
+    if found.cost > settings.retry_cost or found.margin < settings.retry_margin:
+        more = _candidates(clouds, references, windows, settings.more_rotations, settings)
+        found = _chosen(more, settings)
+    return replace(found, shift=found.shift - found.rotation @ _centre(vertices))
+
+
+def _centre(vertices: Floats) -> Floats:
+    """The middle of the box (3,): about it float32 loses nothing, wherever the origin is."""
+    return np.asarray(0.5 * (vertices.min(axis=0) + vertices.max(axis=0)))
+
+
+def _clouds(vertices: Floats, faces: Ints, settings: OrientationSettings) -> tuple[_Cloud, _Cloud]:
+    """The mesh as it is, and mirrored, about ``_centre``."""
+    sample = even_sample(vertices - _centre(vertices), faces, settings.sample_points)
+    few = farthest_points(sample.points, settings.coarse_points)
+    points = sample.points.astype(np.float32)
+    normals = sample.normals.astype(np.float32)
+    flip = MIRROR.astype(np.float32)
+    return (
+        _Cloud(points[few], normals[few], points, normals),
+        _Cloud((points @ flip)[few], (normals @ flip)[few], points @ flip, normals @ flip),
+    )
+
+
+def _candidates(
+    clouds: tuple[_Cloud, _Cloud],
+    references: ReferenceShapes,
+    windows: tuple[tuple[float, float], ...],
+    count: int,
+    settings: OrientationSettings,
+) -> list[_Candidate]:
+    """The best few poses per reference over both mirrors, fitted with all points."""
+    rotations = super_fibonacci(count).astype(np.float32)
+    result = []
+    for shape in references.shapes:
+        found = [_searched(cloud, shape, rotations, windows, settings) for cloud in clouds]
+        costs = np.concatenate([cost for _, cost in found])
+        poses = joined(*(pose for pose, _ in found))
+        mirrored = np.repeat([False, True], [len(cost) for _, cost in found])
+        for place in np.argsort(costs, kind="stable")[: settings.kept_poses]:
+            cloud = clouds[int(mirrored[place])]
+            pose = poses.at(np.array([place]))
+            result.append(_finished(pose, cloud, shape, bool(mirrored[place]), settings))
+    return result
+
+
+def _searched(
+    cloud: _Cloud,
+    shape: ReferenceShape,
+    rotations: Singles,
+    windows: tuple[tuple[float, float], ...],
+    settings: OrientationSettings,
+) -> tuple[Poses, Singles]:
+    """Poses of one cloud on one reference after the coarse search and ICP, and their costs."""
+    points, normals, fit = cloud.few, cloud.few_normals, settings.fit
+    poses = levelled(rotations, points, shape.middle_y, fit)
+    costs = forward_costs(poses, points, normals, shape, fit)
+    costs = costs + fit.implausible_cost * ~plausible(1 / poses.scale, windows)
+    best = np.argsort(costs, kind="stable")[: settings.kept_coarse]
+    poses = icp_steps(poses.at(best), points, normals, shape, settings.icp_steps, fit)
+    costs = forward_costs(poses, points, normals, shape, fit)
+    costs = costs + fit.implausible_cost * ~plausible(1 / poses.scale, windows)
+    apart = _apart(poses, costs, settings)
+    return poses.at(apart), costs[apart]
+
+
+def plausible(lengths: Floats | Singles, windows: tuple[tuple[float, float], ...]) -> Bools:
+    """Whether each length lies in one of the windows; all do where there are none."""
+    if not windows:
+        return np.ones(np.shape(lengths), dtype=bool)
+    inside = [(low < lengths) & (lengths < high) for low, high in windows]
+    return np.asarray(np.any(inside, axis=0))
+
+
+def _apart(poses: Poses, costs: Singles, settings: OrientationSettings) -> Ints:
+    """Indices of the cheapest poses that differ by more than ``apart_deg`` from a cheaper one."""
+    rotations = poses.rotation
+    traces = np.einsum("aij,bij->ab", rotations, rotations)
+    near = traces > 1 + 2 * np.cos(np.radians(settings.apart_deg))
+    kept: list[int] = []
+    for place in np.argsort(costs, kind="stable"):
+        if len(kept) < settings.kept_poses and not near[place, kept].any():
+            kept.append(int(place))
+    return np.array(kept, dtype=np.int64)
+
+
+def _finished(
+    pose: Poses,
+    cloud: _Cloud,
+    shape: ReferenceShape,
+    mirrored: bool,
+    settings: OrientationSettings,
+) -> _Candidate:
+    points, normals, fit = cloud.many, cloud.many_normals, settings.fit
+    pose = icp_steps(pose, points, normals, shape, settings.final_steps, fit)
+    forward = float(forward_costs(pose, points, normals, shape, fit)[0])
+    low = np.flatnonzero(shape.points[:, 2] < settings.reverse_height)
+    low = low[np.linspace(0, len(low) - 1, settings.reverse_points).astype(int)]
+    sparse = shape.points[low], shape.normals[low]
+    back = reverse_cost(pose, points, normals, sparse, settings.reverse_share, fit)
+    return _Candidate(pose, shape, mirrored, forward + back)
+
+
+def _chosen(candidates: list[_Candidate], settings: OrientationSettings) -> Orientation:
+    """The cheapest candidate, and its margin to the cheapest that points elsewhere."""
+    order = sorted(candidates, key=lambda candidate: candidate.cost)
+    winner = order[0]
+    rotation = _unmirrored(winner)
+    limit = np.cos(np.radians(settings.rival_deg))
+    rivals = [
+        other.cost
+        for other in order
+        if any(_unmirrored(other)[axis] @ rotation[axis] < limit for axis in (0, 2))
+    ]
+    margin = rivals[0] - winner.cost if rivals else settings.margin_without_rival
+    length = 1 / float(winner.pose.scale[0])
+    shift = winner.pose.shift[0].astype(np.float64) * length
+    return Orientation(
+        rotation=nearest_rotation(rotation),
+        shift=MIRROR @ shift if winner.mirrored else shift,
+        length=length,
+        cost=winner.cost,
+        margin=margin,
+        kind=winner.shape.kind,
+        accepted=winner.cost <= settings.cost_maximum and margin >= settings.margin_minimum,
+    )
+
+
+def _unmirrored(candidate: _Candidate) -> Floats:
+    """The candidate's rotation for the mesh as it is: mirrored before and after, if at all."""
+    rotation = candidate.pose.rotation[0].astype(np.float64)
+    return np.asarray(MIRROR @ rotation @ MIRROR) if candidate.mirrored else rotation

@@ -1,0 +1,197 @@
+"""Fitting poses to a reference shape: how a pose costs, a coarse search, and batched ICP.
+
+A pose takes mesh coordinates p to the reference's: q = scale * rotation p + shift, in units of L.
+Arrays are float32: the fit only chooses among poses, the frame is refined in float64 afterwards.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from footfit.geometry.arrays import Bools, Ints
+from footfit.geometry.reference_shapes import ReferenceShape, Singles
+from footfit.geometry.rotations import turned_by
+
+
+@dataclass(frozen=True, slots=True)
+class FitSettings:
+    """Everything numeric of the fit; lengths over L."""
+
+    far: float = 0.10  # a distance past this costs no more
+    normal_weight: float = 0.25
+    leg_height: float = 0.42  # above it a point costs at most leg_cost: any leg is harmless
+    leg_cost: float = 0.45
+    low_height: float = 0.35  # the part that gives length and shift in the coarse search
+    least_length: float = 0.02  # of the mesh's own extent: a pose never shrinks the mesh to a point
+    implausible_cost: float = 0.6
+    icp_height: float = 0.47
+    icp_quantile: float = 0.85
+    normal_floor: float = 0.05
+    point_weight: float = 0.15
+    max_turn: float = 0.35
+    max_scale_step: float = 0.07
+    scale_range: tuple[float, float] = (0.70, 1.35)
+
+
+FIT = FitSettings()
+
+
+@dataclass(frozen=True, slots=True)
+class Poses:
+    """A batch of poses: ``rotation`` (k, 3, 3), ``shift`` (k, 3), ``scale`` (k,) = 1 / L."""
+
+    rotation: Singles
+    shift: Singles
+    scale: Singles
+
+    def at(self, index: Ints | Bools) -> Poses:
+        """The poses at an index array or mask."""
+        return Poses(self.rotation[index], self.shift[index], self.scale[index])
+
+
+def joined(*batches: Poses) -> Poses:
+    """Several batches as one."""
+    return Poses(
+        np.concatenate([b.rotation for b in batches]),
+        np.concatenate([b.shift for b in batches]),
+        np.concatenate([b.scale for b in batches]),
+    )
+
+
+def moved(poses: Poses, points: Singles) -> Singles:
+    """Points (n, 3) under each pose, (k, n, 3)."""
+    turned = points @ poses.rotation.transpose(0, 2, 1)
+    return np.asarray(turned * poses.scale[:, None, None] + poses.shift[:, None, :])
+
+
+def point_costs(away: Singles, cosine: Singles, height: Singles, settings: FitSettings) -> Singles:
+    """The cost of each point: distance, capped, plus the normals' disagreement; capped on a leg."""
+    distance = np.sqrt(np.einsum("...i,...i->...", away, away))
+    cost = np.minimum(distance, settings.far) * np.float32(1 / settings.far)
+    cost += np.float32(settings.normal_weight) * (1 - cosine)
+    leg = height > settings.leg_height
+    return np.asarray(np.where(leg, np.minimum(cost, np.float32(settings.leg_cost)), cost))
+
+
+def forward_costs(
+    poses: Poses, points: Singles, normals: Singles, shape: ReferenceShape, settings: FitSettings
+) -> Singles:
+    """The mean cost from the mesh's points (n, 3) to the reference, per pose, (k,)."""
+    q = moved(poses, points)
+    turned = normals @ poses.rotation.transpose(0, 2, 1)
+    index = shape.nearest(q)
+    cosine = np.einsum("kni,kni->kn", turned, shape.normals[index])
+    costs = point_costs(q - shape.points[index], cosine, q[..., 2], settings)
+    return np.asarray(costs.mean(axis=1))
+
+
+def levelled(rotations: Singles, points: Singles, middle_y: float, settings: FitSettings) -> Poses:
+    """Poses with given rotations; length and shift come from the mesh's low part, in two rounds."""
+    x, y, z = np.moveaxis(points @ rotations.transpose(0, 2, 1), 2, 0)
+    ground = z.min(axis=1)
+    height = z - ground[:, None]
+    back, front = x.min(axis=1), x.max(axis=1)
+    low = np.ones(x.shape, dtype=bool)
+    for _ in range(2):
+        low = height < settings.low_height * (front - back)[:, None]
+        back = np.where(low, x, np.inf).min(axis=1)
+        front = np.where(low, x, -np.inf).max(axis=1)
+    left = np.where(low, y, -np.inf).max(axis=1)
+    right = np.where(low, y, np.inf).min(axis=1)
+    least = settings.least_length * np.ptp(points)
+    scale = 1 / np.maximum(front - back, least)
+    shift = -np.stack([back, (left + right) / 2, ground], axis=1) * scale[:, None]
+    shift[:, 1] += middle_y
+    return Poses(rotations, shift.astype(np.float32), scale.astype(np.float32))
+
+
+def icp_steps(
+    poses: Poses,
+    points: Singles,
+    normals: Singles,
+    shape: ReferenceShape,
+    steps: int,
+    settings: FitSettings = FIT,
+) -> Poses:
+    """The poses after some Gauss-Newton steps in rotation, shift and scale.
+
+    The residual is point to plane plus a little point to point. The scale stays within
+    ``scale_range`` of the one it came with.
+    """
+    lowest = poses.scale * np.float32(settings.scale_range[0])
+    highest = poses.scale * np.float32(settings.scale_range[1])
+    for _ in range(steps):
+        step = _gauss_newton(poses, points, normals, shape, settings)
+        poses = _stepped(poses, step, settings)
+        poses = Poses(poses.rotation, poses.shift, np.clip(poses.scale, lowest, highest))
+    return poses
+
+
+def _gauss_newton(
+    poses: Poses, points: Singles, normals: Singles, shape: ReferenceShape, settings: FitSettings
+) -> Singles:
+    """The step (k, 7) in turn, shift and logarithm of the scale, about the reference's origin."""
+    q = moved(poses, points)
+    turned = normals @ poses.rotation.transpose(0, 2, 1)
+    index = shape.nearest(q)
+    away = q - shape.points[index]
+    plane = shape.normals[index]
+    cosine = np.einsum("kni,kni->kn", turned, plane)
+    costs = point_costs(away, cosine, q[..., 2], settings)
+    bound = np.quantile(costs, settings.icp_quantile, axis=1, method="lower")[:, None]
+    weight = np.clip(cosine, settings.normal_floor, 1.0)
+    weight *= (costs <= bound) & (q[..., 2] <= settings.icp_height)
+    k, n = weight.shape
+    rows = np.empty((k, n, 4, 8), dtype=np.float32)  # Jacobian and, last, the residual
+    directions = np.empty((k, n, 4, 3), dtype=np.float32)
+    directions[:, :, 0] = plane
+    directions[:, :, 1:] = np.eye(3, dtype=np.float32) * np.float32(settings.point_weight**0.5)
+    directions *= np.sqrt(weight)[..., None, None]
+    qx, qy, qz = (q[..., i, None] for i in range(3))
+    dx, dy, dz = (directions[..., i] for i in range(3))
+    rows[..., 0] = qy * dz - qz * dy  # (omega x q) . d = omega . (q x d)
+    rows[..., 1] = qz * dx - qx * dz
+    rows[..., 2] = qx * dy - qy * dx
+    rows[..., 3:6] = directions
+    rows[..., 6] = qx * dx + qy * dy + qz * dz
+    ax, ay, az = (away[..., i, None] for i in range(3))
+    rows[..., 7] = ax * dx + ay * dy + az * dz
+    rows = rows.reshape(k, 4 * n, 8)
+    normal = (rows.transpose(0, 2, 1) @ rows).astype(np.float64)
+    matrix = normal[:, :7, :7] + 1e-6 * n * np.eye(7)
+    return np.asarray(-np.linalg.solve(matrix, normal[:, :7, 7:])[..., 0])
+
+
+def _stepped(poses: Poses, step: Singles, settings: FitSettings) -> Poses:
+    turn = step[:, :3]
+    size = np.linalg.norm(turn, axis=1, keepdims=True)
+    turn = turn * np.minimum(1, settings.max_turn / np.maximum(size, 1e-12))
+    small = turned_by(turn.astype(np.float64)).astype(np.float32)
+    growth = np.exp(np.clip(step[:, 6], -settings.max_scale_step, settings.max_scale_step))
+    growth = growth.astype(np.float32)
+    shift = growth[:, None] * np.einsum("kij,kj->ki", small, poses.shift) + step[:, 3:6]
+    return Poses(small @ poses.rotation, shift.astype(np.float32), poses.scale * growth)
+
+
+def reverse_cost(
+    pose: Poses,
+    points: Singles,
+    normals: Singles,
+    sparse: tuple[Singles, Singles],
+    share: float,
+    settings: FitSettings = FIT,
+) -> float:
+    """The mean of the lowest ``share`` of costs from the reference's points to the mesh, one pose.
+
+    ``sparse`` are points and normals of the reference; the nearest are found by brute force.
+    """
+    q = moved(pose, points)[0]
+    turned = normals @ pose.rotation[0].T
+    seen, seen_normals = sparse
+    squares = np.einsum("ij,ij->i", q, q) - 2 * (seen @ q.T)
+    index = squares.argmin(axis=1)
+    cosine = np.einsum("ij,ij->i", seen_normals, turned[index])
+    costs = np.sort(point_costs(seen - q[index], cosine, seen[:, 2], settings))
+    return float(costs[: max(1, int(share * len(costs)))].mean())

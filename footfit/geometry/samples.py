@@ -1,0 +1,101 @@
+"""Points spread over a surface: for fitting (few, even) and for integrals (many, exact areas)."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from footfit.geometry.arrays import Floats, Ints
+from footfit.geometry.surface import area_vectors, unit, vertex_normals
+
+# The plastic number's fractions: the R2 sequence fills the unit square evenly and needs no seed.
+_R2 = np.array([0.7548776662466927, 0.5698402909980532])
+
+
+@dataclass(frozen=True, slots=True)
+class SurfaceSample:
+    """Points (k, 3) with unit outward normals (k, 3) and the area (k,) each stands for."""
+
+    points: Floats
+    normals: Floats
+    areas: Floats
+
+
+def even_sample(vertices: Floats, faces: Ints, count: int) -> SurfaceSample:
+    """``count`` points spread by area over the surface, the same for the same mesh.
+
+    Normals are smooth: interpolated from the vertices', so that a scanner's noise is averaged.
+    """
+    vectors = area_vectors(vertices, faces)
+    areas = np.sqrt(np.einsum("ij,ij->i", vectors, vectors))
+    cumulative = np.cumsum(areas)
+    along = (np.arange(count) + 0.5) * cumulative[-1] / count
+    chosen = np.minimum(np.searchsorted(cumulative, along), len(faces) - 1)
+    u, v = np.modf(np.outer(_R2, np.arange(1, count + 1)))[0]
+    root = np.sqrt(u)
+    weights = np.stack([1 - root, root * (1 - v), root * v], axis=1)
+    corners = faces[chosen]
+    smooth = vertex_normals(vertices, faces)
+    return SurfaceSample(
+        points=np.einsum("kc,kci->ki", weights, vertices[corners]),
+        normals=unit(np.einsum("kc,kci->ki", weights, smooth[corners])),
+        areas=np.full(count, cumulative[-1] / count),
+    )
+
+
+def farthest_points(points: Floats, count: int) -> Ints:
+    """Indices of ``count`` points, each the farthest from those before it.
+
+    The first is the one farthest from the mean. (n, 3) -> (min(count, n),).
+    """
+    count = min(count, len(points))
+    chosen = np.empty(count, dtype=np.int64)
+    columns = np.ascontiguousarray((points - points.mean(axis=0)).T, dtype=np.float32)
+    chosen[0] = np.einsum("ij,ij->j", columns, columns).argmax()
+    nearest = np.full(columns.shape[1], np.inf, dtype=np.float32)
+    for place in range(1, count):
+        away = columns - columns[:, chosen[place - 1], None]
+        np.minimum(nearest, np.einsum("ij,ij->j", away, away), out=nearest)
+        chosen[place] = nearest.argmax()
+    return chosen
+
+
+def quadrature(vertices: Floats, faces: Ints, edge: float, rounds: int = 5) -> SurfaceSample:
+    """One point per triangle, after triangles with an edge longer than ``edge`` are quartered.
+
+    So that an integral over a coarse mesh or over a big flat facet is as good as over a fine one;
+    ``rounds`` bounds the splitting.
+    """
+    corners = vertices[faces]
+    smooth = unit(area_vectors(vertices, faces))
+    finished: list[tuple[Floats, Floats]] = []
+    for _ in range(rounds):
+        sides = corners - corners[:, [1, 2, 0]]
+        large = (np.einsum("kci,kci->kc", sides, sides) > edge * edge).any(axis=1)
+        finished.append((corners[~large], smooth[~large]))
+        corners, smooth = _quartered(corners[large]), np.tile(smooth[large], (4, 1))
+        if len(corners) == 0:
+            break
+    finished.append((corners, smooth))
+    corners = np.concatenate([part for part, _ in finished])
+    areas = _areas(corners)
+    return SurfaceSample(
+        points=corners.mean(axis=1),
+        normals=np.concatenate([part for _, part in finished]),
+        areas=areas,
+    )
+
+
+def _quartered(corners: Floats) -> Floats:
+    middles = 0.5 * (corners + corners[:, [1, 2, 0]])
+    a, b, c = (corners[:, i] for i in range(3))
+    ab, bc, ca = (middles[:, i] for i in range(3))
+    parts = ((a, ab, ca), (ab, b, bc), (ca, bc, c), (ab, bc, ca))
+    return np.concatenate([np.stack(part, axis=1) for part in parts])
+
+
+def _areas(corners: Floats) -> Floats:
+    flat = corners.reshape(-1, 3)
+    vectors = area_vectors(flat, np.arange(len(flat)).reshape(-1, 3))
+    return np.asarray(np.sqrt(np.einsum("ij,ij->i", vectors, vectors)))

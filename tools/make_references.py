@@ -1,0 +1,116 @@
+"""Make footfit/pipeline/references.npz: the foot and the last that every pose is fitted to.
+
+    python -m tools.make_references FOOT.stl [-o footfit/pipeline/references.npz]
+
+FOOT is a right foot in mm with x from heel to toe and the sole near z = 0; the shipped file is
+made from the CC0 foot mh006_R of the generated feet. The last is the generator's own.
+Same input, same bytes.
+"""
+
+from __future__ import annotations
+
+import argparse
+from pathlib import Path
+
+import numpy as np
+
+from footfit.geometry.frame import canonical_frame
+from footfit.geometry.samples import even_sample, quadrature
+from footfit.meshes import read
+from footfit.pipeline.references import FILE, NORMAL_STEP, POINT_STEP
+
+PITCH = 0.025
+POINTS = 6000
+LEG_POINTS = 1800
+LEG_TOP = 1.35
+LEG_BAND = (0.06, 0.01)  # of L below the cut: what is repeated upwards as a leg
+MARGIN = 0.15
+
+
+def canonical_points(vertices, faces, count):
+    """Even points and normals of a mesh, canonical, over its length."""
+    fine = quadrature(vertices, faces, edge=3.0)
+    frame = canonical_frame(fine, np.ptp(vertices[:, 0]))
+    sample = even_sample(vertices, faces, count)
+    points = (sample.points @ frame.rotation.T + frame.shift) / frame.length
+    print(f"tilt {frame.tilt_deg:.2f} deg, length {frame.length:.2f}, support {frame.support:.3f}")
+    return points, sample.normals @ frame.rotation.T
+
+
+def with_leg(points, normals):
+    """A foot's points with the band under its cut repeated up to LEG_TOP, and without the cap."""
+    top = points[:, 2].max()
+    cap = (points[:, 2] > top - 0.01) & (normals[:, 2] > 0.7)
+    points, normals = points[~cap], normals[~cap]
+    low, high = top - LEG_BAND[0], top - LEG_BAND[1]
+    band = (points[:, 2] > low) & (points[:, 2] <= high) & (np.abs(normals[:, 2]) < 0.7)
+    body = points[:, 2] <= high
+    period = high - low
+    repeats = int(np.ceil((LEG_TOP - high) / period))
+    legs = [points[band] + [0, 0, period * (i + 1)] for i in range(repeats)]
+    flat = normals[band] * [1, 1, 0]
+    flat /= np.linalg.norm(flat, axis=1, keepdims=True)
+    leg, leg_normals = np.concatenate(legs), np.tile(flat, (repeats, 1))
+    return (points[body], normals[body]), (leg, leg_normals)
+
+
+def thinned(points, normals, count):
+    """``count`` of the points, evenly by index."""
+    chosen = np.linspace(0, len(points) - 1, min(count, len(points))).astype(int)
+    return points[chosen], normals[chosen]
+
+
+def arrays_of(kind, points, normals):
+    """What the file holds of one shape."""
+    from scipy.spatial import cKDTree
+
+    origin = points.min(axis=0) - MARGIN
+    shape = np.ceil((points.max(axis=0) + MARGIN - origin) / PITCH).astype(int)
+    middles = np.moveaxis(np.indices(shape), 0, 3) * PITCH + origin + PITCH / 2
+    stored = np.round(points / POINT_STEP).astype(np.int16)
+    _, table = cKDTree(stored * POINT_STEP).query(middles.reshape(-1, 3))
+    low = points[points[:, 2] < 0.35, 1]
+    return {
+        f"{kind}_points": stored,
+        f"{kind}_normals": np.round(normals / NORMAL_STEP).astype(np.int8),
+        f"{kind}_origin": origin.astype(np.float32),
+        f"{kind}_table": table.reshape(shape).astype(np.int16),
+        f"{kind}_middle_y": np.float32((low.min() + low.max()) / 2),
+    }
+
+
+def foot_arrays(path):
+    """The foot with its leg."""
+    scan = read.read_scan(path, units="mm")
+    points, normals = canonical_points(scan.vertices_mm, scan.faces, 12000)
+    body, leg = with_leg(points, normals)
+    parts = thinned(*body, POINTS - LEG_POINTS), thinned(*leg, LEG_POINTS)
+    joined = [np.concatenate(columns) for columns in zip(*parts, strict=True)]
+    return arrays_of("foot", *joined)
+
+
+def last_arrays():
+    """The generator's default last."""
+    from tools.lasts import LastSpec, last_mesh
+
+    vertices, faces = last_mesh(LastSpec())
+    return arrays_of("last", *canonical_points(vertices, faces, POINTS))
+
+
+def main():
+    """Write the file."""
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("foot", type=Path)
+    parser.add_argument("-o", "--output", type=Path, default=FILE)
+    parser.add_argument("--foot-only", action="store_true")
+    options = parser.parse_args()
+    kinds = ["foot"] if options.foot_only else ["foot", "last"]
+    arrays = {"kinds": np.array(kinds), "pitch": np.float32(PITCH), **foot_arrays(options.foot)}
+    if not options.foot_only:
+        arrays |= last_arrays()
+    np.savez_compressed(options.output, **arrays)
+    print(f"{options.output}: {options.output.stat().st_size} bytes")
+
+
+if __name__ == "__main__":
+    main()
