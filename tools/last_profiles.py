@@ -16,6 +16,7 @@ Floats = np.ndarray
 Curve = Callable[[Floats], Floats]
 
 BALL_STATION = 0.67
+WIDTH_STATIONS = (0.0, 0.09, 0.17, 0.30, 0.42, 0.55, BALL_STATION, 0.76, 0.84, 0.92, 1.0)
 
 # toe shape: half widths at .84, .92 and 1.0 as shares of the ball's, and the length of the cap
 TOES = {
@@ -45,12 +46,9 @@ def widths(s: Floats, *, ball: float, heel: float, waist: float, toe_shape: str)
     t1, t2, t3, toe_length = TOES[toe_shape]
     b, h, w = ball / 2.0, heel / 2.0, waist / 2.0
     mid = 0.5 * (w + b)
-    nodes = CubicSpline(
-        [0.0, 0.09, 0.17, 0.30, 0.42, 0.55, BALL_STATION, 0.76, 0.84, 0.92, 1.0],
-        [0.93 * h, 0.985 * h, h, 0.5 * (h + w) * 1.005, w, 1.01 * mid, b, 0.965 * b]
-        + [t1 * b, t2 * b, t3 * b],
-        bc_type="natural",
-    )
+    rear = (0.93 * h, 0.985 * h, h, 0.5 * (h + w) * 1.005, w)
+    fore = (1.01 * mid, b, 0.965 * b, t1 * b, t2 * b, t3 * b)
+    nodes = CubicSpline(WIDTH_STATIONS, (*rear, *fore), bc_type="natural")
     inside = np.clip(s, 0.0, 1.0)
     cap = _cap(inside, 0.13) * _cap(1.0 - inside, toe_length)
     return Widths(nodes(inside) * cap * ((s >= 0.0) & (s <= 1.0)), cap)
