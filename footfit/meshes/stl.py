@@ -1,0 +1,164 @@
+"""STL, binary and ASCII. An STL has no unit and no vertices of its own: three per facet."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+
+import numpy as np
+
+from footfit.errors import DamagedMesh, EmptyMesh
+from footfit.geometry.arrays import Floats
+from footfit.meshes.limits import Limits
+from footfit.meshes.raw import RawMesh, check_counts
+from footfit.meshes.tokens import floats, unix_text, word_offsets
+from footfit.results import Notice
+
+HEADER_BYTES = 84
+FACET = np.dtype([("normal", "<f4", (3,)), ("corners", "<f4", (9,)), ("attribute", "<u2")])
+_TRAILING_BYTES = 4_096  # what exporters append; more is a count that lies
+_CHUNK_BYTES = 16_000_000
+
+# The 21 words of an ASCII facet: a keyword, or None where a number stands.
+_POINT = ("vertex", None, None, None)
+_GRAMMAR = (
+    *("facet", "normal", None, None, None, "outer", "loop"),
+    *(_POINT + _POINT + _POINT),
+    *("endloop", "endfacet"),
+)
+_KEYWORDS = tuple((place, word.encode()) for place, word in enumerate(_GRAMMAR) if word)
+_NORMAL_PLACES = (2, 3, 4)
+_SOLID_LINE = re.compile(rb"^[ \t]*(?:end[ \t]*)?solid\b[^\n]*$", re.IGNORECASE | re.MULTILINE)
+_END = re.compile(rb"end[ \t]*solid", re.IGNORECASE)
+_UNENDED = Notice("end_missing", "the ASCII STL has no endsolid line: its end may be missing")
+_LAST_FACET = re.compile(rb"endfacet\s", re.IGNORECASE)
+
+
+def declared_facets(data: bytes) -> int | None:
+    """The count in a binary STL's header, None where there is no whole header."""
+    if len(data) < HEADER_BYTES:
+        return None
+    return int.from_bytes(data[HEADER_BYTES - 4 : HEADER_BYTES], "little")
+
+
+def is_binary_stl(data: bytes) -> bool:
+    """Whether the size is exactly what the count says; the header's words do not matter."""
+    count = declared_facets(data)
+    return count is not None and len(data) == HEADER_BYTES + FACET.itemsize * count
+
+
+def read_binary_stl(data: bytes, limits: Limits) -> RawMesh:
+    """The facets of a binary STL: 84 bytes of header, 50 bytes a facet.
+
+    Raises
+    ------
+    DamagedMesh
+        The file is shorter than its count says, or so much longer that the count must be wrong.
+    EmptyMesh, TooLarge
+        No facets, or more than ``limits`` allow.
+    """
+    count = declared_facets(data)
+    if count is None:
+        raise DamagedMesh("a binary STL has at least 84 bytes: the file is cut off, copy it again")
+    needed = HEADER_BYTES + FACET.itemsize * count
+    if len(data) < needed:
+        raise DamagedMesh(
+            f"the header promises {count:,} facets ({needed:,} bytes), the file has"
+            f" {len(data):,} bytes: it is cut off, copy or export it again"
+        )
+    trailing = len(data) - needed
+    if trailing > max(_TRAILING_BYTES, (needed - HEADER_BYTES) // 100) or (trailing and not count):
+        raise DamagedMesh(
+            f"the header promises {count:,} facets and {trailing:,} more bytes follow them:"
+            " the count is wrong, export it again"
+        )
+    if count == 0:
+        raise EmptyMesh("the STL holds no facets: export it again")
+    check_counts(0, count, limits)
+    facets = np.frombuffer(data, dtype=FACET, count=count, offset=HEADER_BYTES)
+    return _soup(facets["corners"].reshape(-1, 3).astype(np.float64), _trailing_notice(trailing))
+
+
+def read_ascii_stl(data: bytes, limits: Limits) -> RawMesh:
+    """The facets of an ASCII STL, word by word; several solids in one file are one mesh.
+
+    Raises
+    ------
+    DamagedMesh
+        The words are not those of facets, or the file ends within one.
+    EmptyMesh, TooLarge
+        No facets, or more than ``limits`` allow.
+    """
+    text = _SOLID_LINE.sub(b"", unix_text(data))
+    corners, facets = [], 0
+    for chunk in _chunks(text):
+        corners.append(_facet_corners(chunk))
+        facets += len(corners[-1]) // 3
+        check_counts(0, facets, limits)
+    if facets == 0:
+        raise EmptyMesh("the STL holds no facets: export it again")
+    ended = _END.search(data, max(0, len(data) - limits.header_bytes)) is not None
+    return _soup(np.concatenate(corners), () if ended else (_UNENDED,))
+
+
+def _chunks(text: bytes) -> Iterator[bytes]:
+    """Pieces of the text that end after a facet, so that a big file is never held as words."""
+    begin = 0
+    while begin < len(text):
+        end = begin + _CHUNK_BYTES
+        if end < len(text):
+            following = _LAST_FACET.search(text, end)
+            end = following.end() if following else len(text)
+        yield text[begin:end]
+        begin = end
+
+
+def _facet_corners(text: bytes) -> Floats:
+    """The corners (3 m, 3) of a text that is nothing but facets."""
+    buffer = np.frombuffer(text, dtype=np.uint8).copy()
+    words = word_offsets(buffer)
+    if len(words) % len(_GRAMMAR):
+        raise DamagedMesh("the ASCII STL ends within a facet: it is cut off, export it again")
+    if not len(words):
+        return np.empty((0, 3))
+    ends = np.append(words[1:], len(buffer)).reshape(-1, len(_GRAMMAR))
+    words = words.reshape(-1, len(_GRAMMAR))
+    for place, keyword in _KEYWORDS:
+        _blank_keyword(buffer, words[:, place], keyword)
+    for place in _NORMAL_PLACES:
+        _blank(buffer, words[:, place], ends[:, place])
+    return floats(buffer.tobytes(), 9 * len(words)).reshape(-1, 3)
+
+
+def _blank_keyword(buffer: np.ndarray, words: np.ndarray, keyword: bytes) -> None:
+    """Overwrite a keyword by spaces where each facet must have it, in any case."""
+    places = words[:, None] + np.arange(len(keyword) + 1)
+    inside = places < len(buffer)
+    found = np.where(inside, buffer[np.minimum(places, len(buffer) - 1)], ord(" "))
+    if (
+        not ((found[:, :-1] | 32) == np.frombuffer(keyword, np.uint8)).all()
+        or (found[:, -1] > 32).any()
+    ):
+        raise DamagedMesh(
+            f"the ASCII STL lacks the word {keyword.decode()!r} where a facet needs it:"
+            " export it again"
+        )
+    buffer[places[:, :-1]] = ord(" ")
+
+
+def _blank(buffer: np.ndarray, begins: np.ndarray, ends: np.ndarray) -> None:
+    """Overwrite the stretches from ``begins`` to ``ends`` by spaces."""
+    change = np.zeros(len(buffer) + 1, dtype=np.int8)
+    change[begins] += 1
+    change[ends] -= 1
+    buffer[np.cumsum(change[:-1], dtype=np.int8).astype(bool)] = ord(" ")
+
+
+def _soup(corners: Floats, warnings: tuple[Notice, ...]) -> RawMesh:
+    return RawMesh(corners, np.arange(len(corners), dtype=np.int64).reshape(-1, 3), warnings)
+
+
+def _trailing_notice(trailing: int) -> tuple[Notice, ...]:
+    if not trailing:
+        return ()
+    return (Notice("trailing_bytes", f"{trailing:,} bytes after the last facet were ignored"),)
