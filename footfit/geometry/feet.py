@@ -18,6 +18,9 @@ class PiecesSettings:
     comparable: float = 0.25  # of the largest piece's area
     speck: float = 0.01
     apart: float = 0.25  # of the larger piece's size, between the middles of their boxes
+    gap: float = 0.06  # of the largest piece's size: what is farther off is something else
+    gap_few: int = 150
+    gap_many: int = 1500
     inside_out: float = 0.20
     sheet: float = 0.40  # |sum of area vectors| over the area; a foot cut at the leg has .1
 
@@ -52,6 +55,16 @@ def stand_apart(first: Floats, second: Floats, settings: PiecesSettings = PIECES
     middles = [(low + high) / 2 for low, high in boxes]
     size = max(float((high - low).max()) for low, high in boxes)
     return float(np.linalg.norm(middles[0] - middles[1])) > settings.apart * size
+
+
+def gap(first: Floats, second: Floats, settings: PiecesSettings = PIECES) -> float:
+    """The distance between two pieces' points (n, 3) and (k, 3), about: by a sample of each."""
+    few, many = (
+        points[:: max(1, len(points) // count)]
+        for points, count in ((second, settings.gap_few), (first, settings.gap_many))
+    )
+    squares = ((few[:, None, :] - many[None, :, :]) ** 2).sum(axis=2)
+    return float(np.sqrt(squares.min()))
 
 
 def outwardness(vertices: Floats, faces: Ints) -> float:

@@ -7,6 +7,7 @@ the canonical frame of a shape taken as a right one; mm or any unit.
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Literal
 
 import numpy as np
 
@@ -77,7 +78,7 @@ def side_score(points: Floats, length: float, settings: SideSettings = SIDE) -> 
     return SideScore(bend, instep, arch, score)
 
 
-def confidence(score: float, settings: SideSettings = SIDE) -> str:
+def confidence(score: float, settings: SideSettings = SIDE) -> Literal["sure", "low", "undecided"]:
     """How surely a score tells the side: "sure", "low" or "undecided"."""
     if abs(score) >= settings.sure:
         return "sure"
