@@ -86,19 +86,24 @@ def cleaned(vertices: Floats, faces: Ints, settings: CleanSettings = CLEAN_SETTI
     EmptyMesh
         No face has an area.
     """
-    diagonal = float(np.linalg.norm(np.ptp(vertices, axis=0)))
+    diagonal = float(np.linalg.norm([np.ptp(column) for column in vertices.T]))
     vertices, faces, source, notices = _welded(vertices, faces, diagonal, settings)
     distinct = _has_distinct_corners(faces)
     faces, collapsed = faces[distinct], int((~distinct).sum())
     once = _first_of_equals(faces)
     faces, doubled = faces[once], int((~once).sum())
-    flat = _area_squared(vertices, faces) <= (settings.sliver * diagonal**2) ** 2
+    notices += _counted("duplicates_removed", doubled, "faces stood in the file twice")
+    vectors = area_vectors(vertices, faces)
+    areas = np.sqrt(np.einsum("ij,ij->i", vectors, vectors))
+    flat = areas <= settings.sliver * diagonal**2
     if flat.all():
         raise EmptyMesh("no triangle of the file has an area: export the mesh again")
-    notices += _counted("duplicates_removed", doubled, "faces stood in the file twice")
-    kept, found = kept_faces(vertices, faces)
-    faces, flat, notices = faces[kept], flat[kept], notices + found
-    faces, turned = _wound_outward(vertices, faces, settings)
+    labels = face_components(faces, len(vertices))
+    kept, found = kept_faces(vertices, faces, labels, areas)
+    notices += found
+    if not kept.all():
+        faces, vectors, labels, flat = faces[kept], vectors[kept], labels[kept], flat[kept]
+    faces, turned = _wound_outward(vertices, faces, vectors, labels, settings)
     notices += _counted("winding_fixed", turned, "faces looked inward and were turned over")
     watertight, found = _closure(faces)
     removed = collapsed + int(flat.sum())
@@ -156,41 +161,47 @@ def _first_of_equals(faces: Ints) -> Bools:
             return np.ones(len(faces), dtype=bool)
     order = np.lexsort((ordered[:, 2], pair))
     again = np.zeros(len(faces), dtype=bool)
-    again[1:] = (ordered[order[1:]] == ordered[order[:-1]]).all(axis=1)
+    again[1:] = ~_any_differs(ordered[order[1:]], ordered[order[:-1]])
     first = np.empty(len(faces), dtype=bool)
     first[order] = ~again  # the sort is stable: of equals the earliest comes first
     return first
 
 
-def _area_squared(vertices: Floats, faces: Ints) -> Floats:
-    vectors = area_vectors(vertices, faces)
-    squared: Floats = np.einsum("ij,ij->i", vectors, vectors)
-    return squared
-
-
-def _wound_outward(vertices: Floats, faces: Ints, settings: CleanSettings) -> tuple[Ints, int]:
+def _wound_outward(
+    vertices: Floats, faces: Ints, vectors: Floats, labels: Ints, settings: CleanSettings
+) -> tuple[Ints, int]:
     """Faces that agree with their neighbours and look away from the middle, and how many turned.
 
     The sum of A (c - g).N over a piece is three times the volume of a closed one whatever g is; of
     an open one its sign tells outside, with g the piece's centroid.
     """
-    wound = consistently_wound(faces)
-    turned = (wound != faces).any(axis=1)
-    labels = face_components(wound, len(vertices))
-    vectors = area_vectors(vertices, wound)
+    turned = _any_differs(consistently_wound(faces), faces)
+    signs = np.where(turned, -1.0, 1.0)
     area = np.sqrt(np.einsum("ij,ij->i", vectors, vectors))
-    centres = vertices[wound].mean(axis=1)
-    areas = np.bincount(labels, weights=area)
-    moments = [np.bincount(labels, weights=area * centres[:, axis]) for axis in range(3)]
-    middles = np.stack(moments, axis=1) / np.where(areas > 0.0, areas, 1.0)[:, None]
-    small = areas < settings.own_centre_share * areas.max()
-    middles[small] = np.stack(moments, axis=1).sum(axis=0) / areas.sum()
-    outwardness = np.einsum("ij,ij->i", centres - middles[labels], vectors)
+    centres = (vertices[faces[:, 0]] + vertices[faces[:, 1]] + vertices[faces[:, 2]]) / 3.0
+    middles = _middles(centres, area, labels, settings)
+    outwardness = signs * np.einsum("ij,ij->i", centres - middles[labels], vectors)
     inward = np.bincount(labels, weights=outwardness) < 0.0
     turned ^= inward[labels]
-    outward = faces.copy()
-    outward[turned] = faces[turned][:, [0, 2, 1]]
+    outward = np.where(turned[:, None], faces[:, [0, 2, 1]], faces)
     return outward, int(turned.sum())
+
+
+def _middles(centres: Floats, area: Floats, labels: Ints, settings: CleanSettings) -> Floats:
+    """The centroid of each piece, for small pieces that of the whole, (k, 3)."""
+    areas = np.bincount(labels, weights=area)
+    moments = np.stack(
+        [np.bincount(labels, weights=area * centres[:, axis]) for axis in range(3)], axis=1
+    )
+    middles: Floats = moments / np.where(areas > 0.0, areas, 1.0)[:, None]
+    middles[areas < settings.own_centre_share * areas.max()] = moments.sum(axis=0) / areas.sum()
+    return middles
+
+
+def _any_differs(faces: Ints, others: Ints) -> Bools:
+    """Which rows differ, (m,); by columns, as NumPy is slow along an axis of three."""
+    a, b, c = (faces != others).T
+    return np.asarray(a | b | c)
 
 
 def _closure(faces: Ints) -> tuple[bool, tuple[Notice, ...]]:

@@ -7,8 +7,6 @@ from dataclasses import dataclass
 import numpy as np
 
 from footfit.geometry.arrays import Bools, Floats, Ints
-from footfit.geometry.surface import face_areas
-from footfit.geometry.topology import face_components
 from footfit.meshes.extents import principal_extents
 from footfit.results import Notice
 
@@ -52,7 +50,11 @@ _MOST_BIG = 16  # a scan with more pieces of comparable size is no foot on a pla
 
 
 def kept_faces(
-    vertices: Floats, faces: Ints, settings: PieceSettings = PIECE_SETTINGS
+    vertices: Floats,
+    faces: Ints,
+    labels: Ints,
+    face_areas: Floats,
+    settings: PieceSettings = PIECE_SETTINGS,
 ) -> tuple[Bools, tuple[Notice, ...]]:
     """Which faces are the shape's, and what was taken off.
 
@@ -61,6 +63,9 @@ def kept_faces(
     vertices : (n, 3) float64
     faces : (m, 3) int64
         Welded.
+    labels : (m,) int64
+        The piece of each face, from ``face_components``.
+    face_areas : (m,) float64
     settings : PieceSettings
 
     Returns
@@ -71,8 +76,7 @@ def kept_faces(
     notices : tuple of Notice
         ``plate_removed``, ``specks_removed``, ``many_pieces``.
     """
-    labels = face_components(faces, len(vertices))
-    areas = np.bincount(labels, weights=face_areas(vertices, faces)).astype(np.float64)
+    areas = np.bincount(labels, weights=face_areas).astype(np.float64)
     if len(areas) == 1:
         return np.ones(len(faces), dtype=bool), ()
     plates = _plates(vertices, faces, labels, areas, settings)

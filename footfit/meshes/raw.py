@@ -42,12 +42,12 @@ def sound(raw: RawMesh, limits: Limits) -> RawMesh:
     if len(raw.faces) == 0:
         found = f"{len(raw.vertices)} points but no faces" if len(raw.vertices) else "no triangles"
         raise EmptyMesh(f"the file holds {found}: export a triangle mesh")
-    bad = ~np.isfinite(raw.vertices)
-    if bad.any():
-        row = int(np.flatnonzero(bad.any(axis=1))[0])
+    finite = np.isfinite(raw.vertices)
+    if not finite.all():
+        bad = np.flatnonzero(~finite.all(axis=1))
         raise DamagedMesh(
-            f"{int(bad.any(axis=1).sum())} vertices are not finite numbers"
-            f" (the first is vertex {row + 1}): export the mesh again"
+            f"{len(bad):,} vertices are not finite numbers (the first is vertex {bad[0] + 1:,}):"
+            " export the mesh again"
         )
     if np.abs(raw.vertices).max() > limits.coordinate:
         raise DamagedMesh(
