@@ -1,0 +1,53 @@
+"""Which meshes a command was given."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from footfit.errors import UnreadableFile
+from footfit.pipeline.sources import mesh_sources
+
+
+def touched(folder: Path, *names: str) -> None:
+    for name in names:
+        path = folder / name
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.touch()
+
+
+def names(sources: list, folder: Path) -> list[str]:
+    return [str(Path(source.path).relative_to(folder)) for source in sources]
+
+
+def test_a_folder_gives_its_meshes_sorted_and_nothing_else(tmp_path: Path) -> None:
+    touched(tmp_path, "b.stl", "a.OBJ", "deep/c.ply", "notes.txt", ".hidden.stl")
+    assert names(mesh_sources([str(tmp_path)]), tmp_path) == ["a.OBJ", "b.stl", "deep/c.ply"]
+
+
+def test_a_glob_is_expanded_where_the_shell_did_not(tmp_path: Path) -> None:
+    touched(tmp_path, "l1.stl", "l2.stl", "x.ply")
+    assert names(mesh_sources([str(tmp_path / "l*.stl")]), tmp_path) == ["l1.stl", "l2.stl"]
+
+
+def test_a_file_whose_name_is_a_glob_is_that_file(tmp_path: Path) -> None:
+    touched(tmp_path, "foot[1].stl")
+    assert names(mesh_sources([str(tmp_path / "foot[1].stl")]), tmp_path) == ["foot[1].stl"]
+
+
+def test_each_file_comes_once(tmp_path: Path) -> None:
+    touched(tmp_path, "a.stl", "b.stl")
+    given = [str(tmp_path / "b.stl"), str(tmp_path)]
+    assert names(mesh_sources(given), tmp_path) == ["b.stl", "a.stl"]
+
+
+def test_a_missing_file_is_kept_so_that_its_own_line_says_so() -> None:
+    assert [source.path for source in mesh_sources(["nowhere.stl"])] == ["nowhere.stl"]
+
+
+@pytest.mark.parametrize("argument", ["", "*.stl"])
+def test_a_folder_or_glob_without_a_mesh_is_refused(tmp_path: Path, argument: str) -> None:
+    touched(tmp_path, "notes.txt")
+    with pytest.raises(UnreadableFile, match="holds no mesh"):
+        mesh_sources([str(tmp_path / argument) if argument else str(tmp_path)])
