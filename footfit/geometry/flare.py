@@ -1,35 +1,122 @@
-"""Flare: the plan and bottom curvature of a sole, per station, and the angle they make."""
+"""Flare: the plan and bottom curvature of a sole, per station, and the angle they make.
+
+Everything is relative to the length, so that a graded last has the identical profile. The shape
+comes in the canonical frame as a right one: x from heel to toe, y to the medial side, z up.
+"""
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+import numpy as np
 
-from footfit.geometry.arrays import Floats
+from footfit.geometry.arrays import Floats, Ints
+from footfit.geometry.bottom import bottom_curvature, extended_stations
+from footfit.geometry.centre_line import BottomShape, CentreLine, bottom_shape, centre_line
+from footfit.geometry.flare_definition import (
+    CHANNELS,
+    FlareDefinition,
+    FlareProfile,
+    flare_class,
+)
+from footfit.geometry.polylines import curvature_density
+from footfit.geometry.smoothing import cubic_splines
 
-CHANNELS = ("plan", "bottom_20", "bottom_50", "bottom_80", "bottom_surface")
+__all__ = [
+    "CHANNELS",
+    "FlareDefinition",
+    "FlareProfile",
+    "flare_class",
+    "flare_profile",
+]
+
+_WINDOW_POINTS = 50  # where a window's mean heading is read: the midpoint rule, exact to 1e-4 deg
+_LAGS = 6  # neighbouring sections share vertices: their scatter is correlated so far
 
 
-@dataclass(frozen=True, slots=True)
-class FlareDefinition:
-    """All parameters of the flare profile; a change of any is a new version."""
+def flare_profile(
+    vertices_mm: Floats,
+    faces: Ints,
+    definition: FlareDefinition | None = None,
+    kind: str = "foot",
+) -> FlareProfile:
+    """The flare profile of a canonical right shape.
 
-    version: str = "flare/1"
+    Parameters
+    ----------
+    vertices_mm : (n, 3)
+        In the canonical frame; a left shape mirrored (y to -y, faces turned over).
+    faces : (m, 3)
+        Wound outward.
+    definition : FlareDefinition, optional
+    kind : {"foot", "last"}
+        Whose thresholds name the class.
 
+    Returns
+    -------
+    FlareProfile
 
-@dataclass(frozen=True, slots=True)
-class FlareProfile:
-    """The flare profile of one shape, as a right one; (n,) arrays at ``stations``.
-
-    ``heading_deg`` is the direction of the centre line, + towards medial; ``curvature`` maps
-    each of ``CHANNELS`` to curvature times length (dimensionless), or None where it cannot be
-    measured; ``centre_line`` is (n, 2), x and y over the length.
+    Raises
+    ------
+    HalfScan
+        The bottom cannot be followed over enough of the length.
     """
+    definition = FlareDefinition() if definition is None else definition
+    shape = bottom_shape(vertices_mm, faces, definition)
+    line = centre_line(shape, definition)
+    angle_deg, gradient_deg = _flare_angle(line, definition)
+    stations = extended_stations(definition)[1:-1]
+    x = line.x_at(stations)
+    slope = np.interp(x, line.x, line.slope)
+    return FlareProfile(
+        definition=definition,
+        angle_deg=angle_deg,
+        angle_sd_deg=_angle_sd(line, gradient_deg, definition),
+        flare_class=flare_class(angle_deg, kind, definition),
+        stations=stations,
+        heading_deg=np.degrees(np.arctan(slope)),
+        curvature=_channels(shape, line, definition),
+        centre_line=np.column_stack(
+            [x + shape.origin_mm / shape.length_mm, np.interp(x, line.x, line.y)]
+        ),
+    )
 
-    definition: FlareDefinition
-    angle_deg: float
-    angle_sd_deg: float
-    flare_class: str
-    stations: Floats
-    heading_deg: Floats
-    curvature: dict[str, Floats | None]
-    centre_line: Floats
+
+def _channels(
+    shape: BottomShape, line: CentreLine, definition: FlareDefinition
+) -> dict[str, Floats | None]:
+    places = (bottom_curvature(shape, line, p, definition) for p in definition.bottom_places)
+    return dict(zip(CHANNELS, (_plan_curvature(line, definition), *places, None), strict=True))
+
+
+def _plan_curvature(line: CentreLine, definition: FlareDefinition) -> Floats:
+    """Curvature times length of the centre line (III.B), (stations,)."""
+    x = line.x_at(extended_stations(definition))
+    points = np.column_stack([x, np.interp(x, line.x, line.y)])
+    return np.asarray(curvature_density(points)[1:-1] * line.arc_length, dtype=np.float64)
+
+
+def _flare_angle(line: CentreLine, definition: FlareDefinition) -> tuple[float, Floats]:
+    """The forefoot's mean heading over the rearfoot's, and its gradient by the coefficients."""
+    angle, gradient = 0.0, np.zeros_like(line.coefficients)
+    for window, sign in ((definition.forefoot, 1.0), (definition.rearfoot, -1.0)):
+        share = (np.arange(_WINDOW_POINTS) + 0.5) / _WINDOW_POINTS
+        x = line.x_at(window[0] + share * (window[1] - window[0]))
+        basis = cubic_splines(x, len(line.coefficients))[1]
+        slope = basis @ line.coefficients
+        angle += sign * float(np.degrees(np.arctan(slope)).mean())
+        gradient += sign * np.degrees(basis / (1.0 + slope**2)[:, None]).mean(axis=0)
+    return angle, gradient
+
+
+def _angle_sd(line: CentreLine, gradient_deg: Floats, definition: FlareDefinition) -> float:
+    """The angle's standard deviation, carried from what the line leaves of the mid-points.
+
+    The angle is linear in the mid-points near the solution; their scatter is correlated between
+    neighbours, so that its products up to ``_LAGS`` sections apart count too, with falling
+    weights (which keep the variance positive).
+    """
+    felt = (gradient_deg @ line.response) * line.scatter
+    variance = float(felt @ felt)
+    for lag in range(1, _LAGS + 1):
+        variance += 2.0 * (1.0 - lag / (_LAGS + 1)) * float(felt[lag:] @ felt[:-lag])
+    variance *= len(felt) / max(line.freedom, 1.0)
+    return float(np.hypot(np.sqrt(variance), definition.frame_sd_deg))

@@ -72,9 +72,10 @@ def cubic_splines(at: Floats, count: int) -> tuple[Floats, Floats, Floats]:
     scaled = np.asarray(at, dtype=np.float64) * pieces
     piece = np.clip(np.floor(scaled), 0, pieces - 1).astype(np.int64)
     u = (scaled - piece)[:, None]
-    value = np.hstack([(1 - u) ** 3, 3 * u**3 - 6 * u**2 + 4, -3 * u**3 + 3 * u**2 + 3 * u + 1, u**3])
-    slope = np.hstack([-((1 - u) ** 2), 3 * u**2 - 4 * u, -3 * u**2 + 2 * u + 1, u**2])
-    bend = np.hstack([1 - u, 3 * u - 2, 1 - 3 * u, u])
+    rest = 1 - u
+    value = np.hstack([rest**3, 4 - 6 * u**2 + 3 * u**3, 4 - 6 * rest**2 + 3 * rest**3, u**3])
+    slope = np.hstack([-(rest**2), 3 * u**2 - 4 * u, 4 * rest - 3 * rest**2, u**2])
+    bend = np.hstack([rest, 3 * u - 2, 3 * rest - 2, u])
     columns = piece[:, None] + np.arange(4)
     spread = []
     for table, scale in ((value / 6, 1.0), (slope / 2, pieces), (bend, pieces**2)):

@@ -1,0 +1,304 @@
+"""The centre line of a bottom: in every section normal to it, it lies midway between the edges.
+
+The line is a cubic spline y(x), and the condition is solved by Gauss-Newton steps: the sections
+are cut across the line of the step before, and a step knows that a turned section meets the
+outline elsewhere. Cutting across X instead reads the bend of a flared last a quarter too low.
+
+Lengths are shares of L throughout.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from footfit.errors import HalfScan
+from footfit.geometry.arrays import Bools, Floats, Ints
+from footfit.geometry.bands import band_edges
+from footfit.geometry.flare_definition import FlareDefinition
+from footfit.geometry.sections import Planes, Segments, lowest, plane_sections, sections_across
+from footfit.geometry.smoothing import cubic_splines
+
+_GRID = np.linspace(-0.1, 1.1, 1201)  # where lines are tabulated between passes
+_NEIGHBOURHOOD = 0.10  # a normal section reaches less than this forward and backward along x
+_WIDTH_STIFFNESS = 1e-7  # of the widths' curve, of which only the slope is used
+_PROJECTIONS = 3  # Newton steps onto the line: the third changes nothing at 1e-9
+_TURN_LEAST = 0.2  # keeps a point beyond the line's centre of curvature on its own side
+
+
+@dataclass(frozen=True, slots=True)
+class BottomShape:
+    """A mesh over its length, its rearmost point at x = 0, and the faces that a band may touch.
+
+    ``origin_mm`` and ``length_mm`` lead back to millimetres.
+    """
+
+    vertices: Floats
+    faces: Ints
+    origin_mm: float
+    length_mm: float
+
+
+@dataclass(frozen=True, slots=True)
+class Bands:
+    """The sections of the last pass: ``across`` and ``height`` (m, 2) in their planes.
+
+    ``x`` (k,) where the line meets them, ``floor`` their lowest points, ``offset`` the mid-points
+    over the line and ``half_width``; NaN where a section has no band.
+    """
+
+    segments: Segments
+    across: Floats
+    height: Floats
+    x: Floats
+    floor: Floats
+    offset: Floats
+    half_width: Floats
+
+
+@dataclass(frozen=True, slots=True)
+class CentreLine:
+    """y(x) = cubic splines with these ``coefficients``, tabulated for reading.
+
+    ``x``, ``y``, ``slope`` (g,) and ``station`` (g,), the share of the line's own length between
+    the ends of the shape; ``arc_length`` is that length. ``response`` (splines, k) says how the
+    coefficients follow the mid-points of the ``bands``, ``scatter`` (k,) is what the line leaves
+    of them (0 where there is none), ``freedom`` how many of them it leaves free.
+    """
+
+    coefficients: Floats
+    x: Floats
+    y: Floats
+    slope: Floats
+    station: Floats
+    arc_length: float
+    response: Floats
+    scatter: Floats
+    freedom: float
+    bands: Bands
+
+    def x_at(self, station: Floats) -> Floats:
+        """Where the line is at ``station`` (n,)."""
+        return np.interp(station, self.station, self.x)
+
+    def station_at(self, x: Floats) -> Floats:
+        """The station of the line at ``x`` (n,)."""
+        return np.interp(x, self.x, self.station)
+
+
+def low_length(vertices: Floats, height: float) -> tuple[float, float]:
+    """The rearmost x and the extent along x of what lies lower than ``height`` times it.
+
+    Examples
+    --------
+    >>> low_length(np.array([[0.0, 0, 0], [10, 0, 0], [-3, 0, 9]]), 0.3)
+    (0.0, 10.0)
+    """
+    start, length = float(vertices[:, 0].min()), float(np.ptp(vertices[:, 0]))
+    for _ in range(3):
+        low = vertices[vertices[:, 2] < height * length, 0]
+        if len(low) == 0:
+            break
+        start, length = float(low.min()), float(np.ptp(low))
+    return start, length
+
+
+def bottom_shape(vertices_mm: Floats, faces: Ints, definition: FlareDefinition) -> BottomShape:
+    """A canonical right mesh over its length, with only the faces that a band may touch.
+
+    Raises
+    ------
+    HalfScan
+        The mesh has no length.
+    """
+    origin, length = low_length(vertices_mm, definition.length_height)
+    if length <= 0.0:
+        raise HalfScan("the scan has no length along its own axis: scan the whole foot again")
+    vertices = (vertices_mm - np.array([origin, 0.0, 0.0])) / length
+    x = _section_places(definition)
+    across = sections_across(vertices, faces, x)
+    floor = lowest(across.points[:, :, 2], across)
+    ceiling = _highest_near(floor, x) + definition.band_height
+    low = vertices[:, 2] <= np.interp(vertices[:, 0], x, ceiling)
+    corners_x = vertices[faces, 0]
+    wide = corners_x.max(axis=1) - corners_x.min(axis=1) > _NEIGHBOURHOOD
+    return BottomShape(vertices, faces[low[faces].any(axis=1) | wide], origin, length)
+
+
+def centre_line(shape: BottomShape, definition: FlareDefinition) -> CentreLine:
+    """The line whose normal sections it halves.
+
+    Parameters
+    ----------
+    shape : BottomShape
+    definition : FlareDefinition
+
+    Returns
+    -------
+    CentreLine
+
+    Raises
+    ------
+    HalfScan
+        Too few sections have a band.
+    """
+    axis = _settled_axis(shape, definition)
+    count = len(axis.offset)
+    stiff = _stiffness(definition.splines, 2, definition.axis_stiffness * count)
+    lighter = _stiffness(definition.splines, 3, definition.line_stiffness * count)
+    first, last = _solution(axis.design, stiff), _solution(axis.design, lighter)
+    step = _step(axis, stiff)
+    step = step + last @ (axis.offset - axis.design @ step)
+    response = first + last @ (np.eye(count) - axis.design @ first)
+    scatter = np.where(axis.seen, axis.offset - axis.design @ step, 0.0)
+    line = _tabulated(shape, axis.coefficients + step, definition)
+    freedom = float(axis.seen.sum() - np.trace(axis.design @ response))
+    return CentreLine(*line, response, scatter, freedom, axis.bands)
+
+
+@dataclass(frozen=True, slots=True)
+class _Axis:
+    """The line of ``coefficients`` that ``bands`` are normal to, and what they say of it.
+
+    ``offset`` (k,) are the mid-points' offsets, 0 where not ``seen``; ``design`` (k, splines) how
+    they follow the coefficients.
+    """
+
+    coefficients: Floats
+    bands: Bands
+    seen: Bools
+    offset: Floats
+    design: Floats
+
+
+def _settled_axis(shape: BottomShape, definition: FlareDefinition) -> _Axis:
+    """Cut across the line, move the line to the mid-points, until it no longer moves."""
+    x = _section_places(definition)
+    basis = cubic_splines(x, definition.splines)
+    table = cubic_splines(_GRID, definition.splines)
+    stiff = _stiffness(definition.splines, 2, definition.axis_stiffness * len(x))
+    coefficients = np.zeros(definition.splines)
+    for _ in range(definition.passes):
+        graph = tuple(t @ coefficients for t in table)
+        bands = _normal_bands(shape, graph, x, definition)
+        seen = _seen(bands, definition)
+        design = _design(bands, seen, basis, coefficients)
+        axis = _Axis(coefficients, bands, seen, np.where(seen, bands.offset, 0.0), design)
+        step = _step(axis, stiff)
+        if np.abs(basis[0] @ step).max() < definition.settled:
+            break
+        coefficients = coefficients + step
+    return axis
+
+
+def _step(axis: _Axis, stiff: Floats) -> Floats:
+    """The Gauss-Newton step of the coefficients, under a penalty on the line itself."""
+    normal = axis.design.T @ axis.design + stiff.T @ stiff
+    pull = stiff.T @ (stiff @ axis.coefficients)
+    step: Floats = np.linalg.solve(normal, axis.design.T @ axis.offset - pull)
+    return step
+
+
+def _seen(bands: Bands, definition: FlareDefinition) -> Bools:
+    seen = np.isfinite(bands.offset)
+    if seen.mean() < definition.found_least:
+        raise HalfScan(
+            f"the bottom can be followed over {100 * seen.mean():.0f} % of the length only: "
+            "scan the whole foot again"
+        )
+    return seen
+
+
+def _section_places(definition: FlareDefinition) -> Floats:
+    return np.linspace(definition.sections_from, definition.sections_to, definition.sections)
+
+
+def _highest_near(floor: Floats, x: Floats) -> Floats:
+    """The highest floor of the sections within reach of each: no face of a band is left out."""
+    reach = int(np.ceil(_NEIGHBOURHOOD / (x[1] - x[0])))
+    known = np.where(np.isfinite(floor), floor, -np.inf)
+    padded = np.pad(known, reach, constant_values=-np.inf)
+    highest = np.lib.stride_tricks.sliding_window_view(padded, 2 * reach + 1).max(axis=1)
+    return np.where(np.isfinite(highest), highest, 1.0)
+
+
+def _stiffness(count: int, order: int, strength: float) -> Floats:
+    """Rows that penalise the mean square of a spline's derivative of this order."""
+    rows = np.diff(np.eye(count), order, axis=0) * float(count - 3) ** order
+    return np.asarray(rows * np.sqrt(strength / len(rows)), dtype=np.float64)
+
+
+def _normal_bands(
+    shape: BottomShape, graph: tuple[Floats, ...], x: Floats, definition: FlareDefinition
+) -> Bands:
+    """The bands of the sections normal to a line."""
+    y, slope = (np.interp(x, _GRID, values) for values in graph[:2])
+    length = np.hypot(1.0, slope)
+    origins = np.column_stack([x, y, np.zeros_like(x)])
+    normals = np.column_stack([1.0 / length, slope / length, np.zeros_like(x)])
+    levels = projected(shape.vertices, graph)
+    segments = plane_sections(shape.vertices, shape.faces, levels, Planes(x, origins, normals))
+    run = segments.points[:, :, :2] - origins[segments.plane][:, None, :2]
+    across = run[:, :, 1] * normals[segments.plane, 0, None]
+    across = across - run[:, :, 0] * normals[segments.plane, 1, None]
+    height = segments.points[:, :, 2]
+    floor = lowest(height, segments)
+    limit = floor + definition.band_height
+    least, most = band_edges(across, height, limit, segments, definition.edge_depth)
+    return Bands(
+        segments, across, height, x, floor, offset=(least + most) / 2, half_width=(most - least) / 2
+    )
+
+
+def projected(points: Floats, graph: tuple[Floats, ...]) -> Floats:
+    """The x of the line's point in whose normal plane each point (n, 2 or 3) lies, (n,).
+
+    ``graph`` is y, slope and bend (second derivative) on the table's grid.
+    """
+    x = points[:, 0].copy()
+    for _ in range(_PROJECTIONS):
+        y, slope, bend = (np.interp(x, _GRID, values) for values in graph)
+        aside = points[:, 1] - y
+        value = points[:, 0] - x + slope * aside
+        x = x + value / np.maximum(1.0 + slope**2 - bend * aside, _TURN_LEAST)
+    return x
+
+
+def _design(
+    bands: Bands, seen: Bools, basis: tuple[Floats, Floats, Floats], coefficients: Floats
+) -> Floats:
+    """How the mid-points follow the line's coefficients, (k, splines); zero rows where unseen.
+
+    A line that moves by dn and turns by dphi leaves the mid-point offset m - dn - w w' dphi, with
+    w the half width: a turned section meets the outline further forward on one side.
+    """
+    value, slope, _ = basis
+    stiff = _stiffness(value.shape[1], 2, _WIDTH_STIFFNESS * len(value))
+    half = _solution(value * seen[:, None], stiff) @ np.where(seen, bands.half_width, 0.0)
+    turn = (value @ half) * (slope @ half)
+    length = np.hypot(1.0, slope @ coefficients)
+    rows = value / length[:, None] + (turn / length**2)[:, None] * slope
+    return np.asarray(rows * seen[:, None], dtype=np.float64)
+
+
+def _solution(design: Floats, stiff: Floats) -> Floats:
+    """The penalised least-squares solution as a matrix, (splines, k)."""
+    normal = design.T @ design + stiff.T @ stiff
+    solution: Floats = np.linalg.solve(normal, design.T)
+    return solution
+
+
+def _tabulated(
+    shape: BottomShape, coefficients: Floats, definition: FlareDefinition
+) -> tuple[Floats, Floats, Floats, Floats, Floats, float]:
+    """The first six fields of a :class:`CentreLine`."""
+    graph = tuple(t @ coefficients for t in cubic_splines(_GRID, len(coefficients)))
+    y, slope, _ = graph
+    mean_slope = 0.5 * (slope[1:] + slope[:-1])
+    arc = np.concatenate([[0.0], np.cumsum(np.hypot(1.0, mean_slope) * np.diff(_GRID))])
+    low = shape.vertices[:, 2] < definition.length_height
+    ends = projected(shape.vertices[low], graph)
+    start, end = np.interp([ends.min(), ends.max()], _GRID, arc)
+    length = float(end - start)
+    return coefficients, _GRID, y, slope, (arc - start) / length, length

@@ -1,0 +1,101 @@
+"""What a flare profile is: all its parameters, and the profile that they make."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from footfit.geometry.arrays import Floats
+
+CHANNELS = ("plan", "bottom_20", "bottom_50", "bottom_80", "bottom_surface")
+
+
+@dataclass(frozen=True, slots=True)
+class FlareDefinition:
+    """All parameters of the flare profile; a change of any is a new version.
+
+    Lengths are shares of the shape's length L, stations are shares of the centre line's own
+    length (0 heel, 1 toe), headings and angles are degrees. ``docs/flare.md`` explains each.
+
+    Examples
+    --------
+    >>> from dataclasses import asdict
+    >>> asdict(FlareDefinition())["band_height"]
+    0.1
+    """
+
+    version: str = "flare/1"
+
+    # The band that counts as the bottom, and its edges.
+    length_height: float = 0.30  # L is the extent along x of what lies lower
+    band_height: float = 0.10  # over each section's own lowest point: a raised heel has one too
+    edge_depth: float = 0.01  # an edge is the mean of what is not further inside than this
+
+    # The centre line: cubic splines, the mid-points of the bands normal to it.
+    sections: int = 120
+    sections_from: float = 0.04
+    sections_to: float = 0.96
+    splines: int = 20
+    axis_stiffness: float = 1e-6  # of the axis that the sections are cut across (2nd differences)
+    line_stiffness: float = 1e-7  # of the last correction, which may bend more (3rd differences)
+    settled: float = 2e-4  # the axis is settled when nothing moves more
+    passes: int = 12
+    found_least: float = 0.6  # share of sections that must exist for a channel to be measured
+
+    # What is read from it.
+    stations: int = 47
+    stations_from: float = 0.04
+    stations_to: float = 0.96
+    rearfoot: tuple[float, float] = (0.08, 0.30)  # the flare angle's base
+    forefoot: tuple[float, float] = (0.55, 0.80)
+
+    # The bottom curves, and the sole's surface.
+    bottom_places: tuple[float, float, float] = (0.20, 0.50, 0.80)  # of the width, from medial
+    bottom_bandwidth: float = 0.10
+    chord: tuple[float, float] = (0.15, 0.65)  # seat and ball: the line between them is taken out
+    surface_radius: float = 0.06  # the scale of the curvature
+    surface_width: float = 0.60  # the middle share of the width; the rest is the edge, not the sole
+    surface_bandwidth: float = 0.03
+    surface_down: float = 0.5  # a sole's normal points down by at least this cosine
+
+    # What the angle is called: below the first outflare, above the second inflare.
+    last_straight_deg: tuple[float, float] = (4.0, 12.0)
+    foot_straight_deg: tuple[float, float] = (11.5, 18.5)
+
+    # The part of the angle's uncertainty that a scan's own scatter does not show.
+    frame_sd_deg: float = 0.05  # of an unsure frame: benchmarks/flare.py
+
+
+@dataclass(frozen=True, slots=True)
+class FlareProfile:
+    """The flare profile of one shape, as a right one; (n,) arrays at ``stations``.
+
+    ``heading_deg`` is the direction of the centre line, + towards medial; ``curvature`` maps
+    each of ``CHANNELS`` to curvature times length (dimensionless), or None where it cannot be
+    measured; ``centre_line`` is (n, 2), x and y over the length.
+    """
+
+    definition: FlareDefinition
+    angle_deg: float
+    angle_sd_deg: float
+    flare_class: str
+    stations: Floats
+    heading_deg: Floats
+    curvature: dict[str, Floats | None]
+    centre_line: Floats
+
+
+def flare_class(angle_deg: float, kind: str, definition: FlareDefinition) -> str:
+    """What people call a flare angle: outflare, straight or inflare.
+
+    Feet bend more than the lasts that fit them, so ``kind`` ("foot" or "last") has thresholds of
+    its own.
+
+    Examples
+    --------
+    >>> flare_class(13.0, "last", FlareDefinition()), flare_class(13.0, "foot", FlareDefinition())
+    ('inflare', 'straight')
+    """
+    least, most = definition.last_straight_deg if kind == "last" else definition.foot_straight_deg
+    if angle_deg < least:
+        return "outflare"
+    return "inflare" if angle_deg > most else "straight"
