@@ -1,0 +1,41 @@
+"""What a catalogue is and holds, counted by SQLite: no record is made."""
+
+from __future__ import annotations
+
+import sqlite3
+from pathlib import Path
+
+from footfit.results import CatalogueFacts
+
+Counts = tuple[tuple[str, int], ...]
+
+
+def facts(connection: sqlite3.Connection, path: Path) -> CatalogueFacts:
+    """Counts by style, size system, side and flare definition ("" where there is no label)."""
+    (lasts,) = connection.execute("SELECT count(*) FROM last NOT INDEXED").fetchone()
+    (revision,) = connection.execute("SELECT version_num FROM alembic_version").fetchone()
+    reference = connection.execute(
+        "SELECT last.name FROM reference JOIN last ON last.id = reference.last_id"
+    ).fetchone()
+    copies, copy_bytes, worst = connection.execute(
+        "SELECT count(*), coalesce(sum(length(data)), 0), max(error_mm) FROM mesh_copy"
+    ).fetchone()
+    return CatalogueFacts(
+        path=str(path),
+        bytes=path.stat().st_size,
+        lasts=lasts,
+        reference=reference[0] if reference else None,
+        schema_revision=revision,
+        definitions=_counts(connection, "flare", "definition_version"),
+        styles=_counts(connection, "last", "style"),
+        size_systems=_counts(connection, "last", "size_system"),
+        sides=_counts(connection, "last", "side"),
+        mesh_copies=copies,
+        mesh_copy_bytes=copy_bytes,
+        worst_copy_error_mm=worst,
+    )
+
+
+def _counts(connection: sqlite3.Connection, table: str, column: str) -> Counts:
+    select = f"SELECT coalesce({column}, ''), count(*) FROM {table} GROUP BY 1 ORDER BY 1"
+    return tuple((str(value), int(count)) for value, count in connection.execute(select))

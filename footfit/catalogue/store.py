@@ -1,0 +1,237 @@
+"""The catalogue as other layers see it: results in, results out, a transaction per verb."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
+from pathlib import Path
+
+from footfit.catalogue.damage import Finding, findings
+from footfit.catalogue.engine import SETTINGS, CatalogueFile
+from footfit.catalogue.facts import facts
+from footfit.catalogue.migrate import Schema
+from footfit.catalogue.opening import opened_for_reading, opened_for_writing
+from footfit.catalogue.reading import (
+    hashed_row,
+    intact_last,
+    key_where,
+    last_id,
+    last_names,
+    rows,
+)
+from footfit.catalogue.records import mesh_copy_of, record_of
+from footfit.catalogue.references import make_reference, stored_reference
+from footfit.catalogue.search import Filters, Range, SearchRows, all_records, search_rows
+from footfit.errors import CatalogueDamaged, UnknownLast
+from footfit.geometry.flare import FlareProfile
+from footfit.results import CatalogueFacts, LastRecord, Measure, MeshCopy, Reference
+
+
+@contextmanager
+def open_catalogue(
+    path: str | Path,
+    *,
+    write: bool = False,
+    busy_timeout_s: float = SETTINGS.busy_timeout_s,
+    schema: Schema | None = None,
+) -> Iterator[Catalogue]:
+    """A catalogue for the length of a ``with`` block.
+
+    For reading nothing is ever made or changed. For writing a missing catalogue is made, with
+    its folder, and an older one is upgraded after a copy was laid beside it.
+
+    Raises
+    ------
+    NoCatalogue
+        For reading: there is none.
+    NotACatalogue, NewerCatalogue, CatalogueDamaged, CatalogueLocked, CatalogueNotWritable
+        The file is something else, of a later footfit, broken, held or read-only.
+    """
+    place, schema = Path(path), schema or Schema()
+    opened = opened_for_writing if write else opened_for_reading
+    file = opened(place, schema, busy_timeout_s)
+    try:
+        yield Catalogue(file)
+    finally:
+        file.close()
+
+
+class Catalogue:
+    """An open catalogue. Reading verbs see one snapshot each; each writing verb is all or nothing.
+
+    Every verb may raise ``CatalogueUnusable``'s leaves (locked, not writable, damaged).
+    """
+
+    def __init__(self, file: CatalogueFile) -> None:
+        self.file = file
+
+    # ------------------------------------------------------------ reading
+
+    def names(self) -> tuple[str, ...]:
+        """The name of every last, damaged ones too, sorted."""
+        with self.file.reading() as connection:
+            return tuple(sorted(last_names(connection).values()))
+
+    def record(self, name: str) -> LastRecord:
+        """One last.
+
+        Raises
+        ------
+        UnknownLast, CatalogueDamaged
+            There is none of that name, or its rows are not what was stored.
+        """
+        with self.file.reading() as connection:
+            stored = intact_last(connection, last_id(connection, name))
+            return record_of(stored, last_names(connection))
+
+    def records(self) -> tuple[LastRecord, ...]:
+        """Every intact last, by name; :meth:`rows_for_search` also names the damaged ones."""
+        with self.file.reading() as connection:
+            return tuple(all_records(connection)[0])
+
+    def rows_for_search(
+        self,
+        style: str | None = None,
+        size_system: str | None = None,
+        sizes: Range | None = None,
+        length_mm: Range | None = None,
+    ) -> SearchRows:
+        """The lasts to rank, by :class:`Filters`; no mesh is read."""
+        filters = Filters(style, size_system, sizes, length_mm)
+        with self.file.reading() as connection:
+            return search_rows(connection, filters)
+
+    def by_content(self, sha256: str) -> str | None:
+        """The name of the last that was made from a file of that hash."""
+        with self.file.reading() as connection:
+            key = key_where(connection, "content_sha256", sha256)
+            return None if key is None else last_names(connection)[key]
+
+    def reference(self) -> Reference | None:
+        """The reference last; None in an empty catalogue.
+
+        Raises
+        ------
+        CatalogueDamaged
+            Its row is not what was stored.
+        """
+        with self.file.reading() as connection:
+            found = stored_reference(connection)
+            return None if found is None else found[1]
+
+    def mesh_copy(self, name: str) -> MeshCopy:
+        """A last's compact mesh, in its canonical frame.
+
+        Raises
+        ------
+        UnknownLast, CatalogueDamaged
+            There is no such last or it was stored without a mesh; the copy is damaged.
+        """
+        with self.file.reading() as connection:
+            found = rows(connection, "mesh_copy", last_id(connection, name))
+        if not found:
+            raise UnknownLast(f"{name!r} was stored without its mesh; ingest it with --replace")
+        if found[0]["sha256"] != hashed_row(found[0]):
+            raise CatalogueDamaged(
+                f"the mesh of {name!r} is damaged in it; ingest it again with --replace",
+                str(self.file.path),
+            )
+        return mesh_copy_of(found[0])
+
+    def facts(self) -> CatalogueFacts:
+        """What the catalogue is and holds."""
+        with self.file.reading() as connection:
+            return facts(connection, self.file.path)
+
+    def findings(self) -> list[Finding]:
+        """Everything that is not as it was stored."""
+        with self.file.reading() as connection:
+            return findings(connection)
+
+    # ------------------------------------------------------------ writing
+
+    def add(self, record: LastRecord, copy: MeshCopy | None = None) -> None:
+        """Store a new last; the first one becomes the reference in the same transaction.
+
+        Raises
+        ------
+        NameTaken
+            The name, or the file's content under another name, is in the catalogue.
+        UnknownLast, BadOption
+            Its parent is not there; its name cannot be stored.
+        """
+        from footfit.catalogue import editing
+
+        with self.file.atomic() as session:
+            editing.place(session, record, copy, replace=False)
+
+    def replace(self, record: LastRecord, copy: MeshCopy | None = None) -> None:
+        """Store a last over the one of its name, or as a new one where there is none.
+
+        Raises
+        ------
+        NameTaken, UnknownLast, BadOption
+            As for :meth:`add`, but for the name.
+        """
+        from footfit.catalogue import editing
+
+        with self.file.atomic() as session:
+            editing.place(session, record, copy, replace=True)
+
+    def remove(self, name: str) -> None:
+        """Remove a last with all that is kept of it.
+
+        Raises
+        ------
+        UnknownLast, BadOption
+            There is none; it is the reference, or the parent of another last.
+        """
+        from footfit.catalogue import editing
+
+        with self.file.atomic() as session:
+            editing.remove(session, name)
+
+    def rename(self, name: str, new_name: str) -> None:
+        """Give a last another name.
+
+        Raises
+        ------
+        UnknownLast, NameTaken, BadOption
+            There is none; the new name is taken, or cannot be stored.
+        """
+        from footfit.catalogue import editing
+
+        with self.file.atomic() as session:
+            editing.rename(session, name, new_name)
+
+    def set_reference(self, name: str) -> Reference:
+        """Make a last the reference; every ``paper_transform`` is rewritten with it, or none.
+
+        Raises
+        ------
+        UnknownLast, CatalogueDamaged
+            There is none of that name; a last is damaged.
+        """
+        from footfit.catalogue.writing import driver_of
+
+        with self.file.atomic() as session:
+            return make_reference(session, last_id(driver_of(session), name))
+
+    def update_profile(
+        self,
+        name: str,
+        flare: FlareProfile,
+        upgraded_from: str | None = None,
+        measures: Sequence[Measure] | None = None,
+    ) -> None:
+        """Store a profile made anew, with the version it replaces; measures where some are given.
+
+        Raises
+        ------
+        UnknownLast, CatalogueDamaged
+            There is none of that name, or its rows are not what was stored.
+        """
+        from footfit.catalogue import editing
+
+        with self.file.atomic() as session:
+            editing.update_profile(session, name, flare, measures, upgraded_from)

@@ -1,0 +1,114 @@
+"""Plausible lasts made by code, without meshes: what a catalogue stores, at once."""
+
+from __future__ import annotations
+
+import hashlib
+
+import numpy as np
+
+from footfit.geometry.flare import CHANNELS, FlareDefinition, FlareProfile
+from footfit.results import (
+    Eigenframe,
+    LastLabels,
+    LastRecord,
+    Measure,
+    Measured,
+    MeshCopy,
+    MeshInfo,
+    Notice,
+    PoseQuality,
+    SideVerdict,
+)
+
+STATIONS = 60
+
+
+def rotation(generator: np.random.Generator) -> np.ndarray:
+    """A random rotation (3, 3)."""
+    q, r = np.linalg.qr(generator.normal(size=(3, 3)))
+    q = q * np.sign(np.diag(r))
+    return q * np.linalg.det(q)
+
+
+def profile(seed: int = 0, definition: FlareDefinition | None = None) -> FlareProfile:
+    """A smooth profile with one channel that could not be measured."""
+    generator = np.random.default_rng(seed)
+    s = np.linspace(0.04, 0.96, STATIONS)
+    heading = np.cumsum(generator.normal(size=STATIONS)) / 10
+    curvature: dict[str, np.ndarray | None] = {
+        name: np.sin(3 * s + i) + generator.normal(size=STATIONS) / 50
+        for i, name in enumerate(CHANNELS)
+    }
+    curvature["bottom_80"] = None
+    return FlareProfile(
+        definition=definition or FlareDefinition(),
+        angle_deg=float(generator.normal(8, 3)),
+        angle_sd_deg=0.15,
+        flare_class="straight",
+        stations=s,
+        heading_deg=heading,
+        curvature=curvature,
+        centre_line=np.column_stack([s, heading / 50]),
+    )
+
+
+def labels(name: str, seed: int = 0, **given: object) -> LastLabels:
+    """Labels as a manifest would give them."""
+    usual: dict[str, object] = {
+        "style": ("oxford", "trainer", "boot")[seed % 3],
+        "size": str(36 + seed % 12),
+        "size_system": ("eu", "uk")[seed % 2],
+        "width_label": "G",
+        "heel_height_mm": 25.0,
+    }
+    return LastLabels(name=name, **{**usual, **given})  # type: ignore[arg-type]
+
+
+def last(
+    name: str = "oxford-42", seed: int = 0, *, side: str = "right", **given: object
+) -> LastRecord:
+    """A last's record; another ``seed`` is another scan."""
+    generator = np.random.default_rng(seed)
+    scale = (1.0, 10.0, 1000.0)[seed % 3]
+    canonical = np.eye(4)
+    turn = rotation(generator)
+    canonical[:3, :3] = turn * scale
+    canonical[:3, 3] = generator.normal(size=3) * 100
+    near_axes = turn + generator.normal(size=(3, 3)) * 0.05
+    u, _, vt = np.linalg.svd(near_axes)
+    length = float(generator.normal(270, 12))
+    return LastRecord(
+        labels=labels(name, seed, **given),
+        info=MeshInfo(
+            path=f"/home/somebody/scans/{name}.stl",
+            sha256=hashlib.sha256(f"scan {seed}".encode()).hexdigest(),
+            format="stl",
+            vertices=17_000 + seed,
+            faces=34_000 + 2 * seed,
+            watertight=seed % 2 == 0,
+            units=("mm", "cm", "m")[seed % 3],
+            units_source="detected",
+            unit_scale=scale,
+        ),
+        side=SideVerdict(side, "sure", 3.5, "detected"),  # type: ignore[arg-type]
+        pose=PoseQuality(0.31, 0.22, 0.17, True, "last"),
+        eigenframe=Eigenframe(
+            centroid_mm=generator.normal(size=3) * 50,
+            eigenvectors=u @ np.diag([1, 1, np.linalg.det(u @ vt)]) @ vt,
+            eigenvalues_mm2=np.array([5200.0, 610.0, 480.0]) + generator.normal(size=3),
+        ),
+        canonical_transform=canonical,
+        paper_transform=None,
+        length_mm=length,
+        flare=profile(seed),
+        measures=(
+            Measure("length", Measured(length, 0.4), "pternion to foremost point along X"),
+            Measure("instep_girth", Measured(None, None, "the leg is cut too low"), "girth/1"),
+        ),
+        warnings=(Notice("open_mesh", "has 2 holes"), Notice("units_detected", "taken as cm")),
+    )
+
+
+def mesh_copy(seed: int = 0, size: int = 2_000) -> MeshCopy:
+    """Bytes in place of a compressed mesh."""
+    return MeshCopy(np.random.default_rng(seed).bytes(size), faces=10_000, error_mm=0.12)
