@@ -9,8 +9,8 @@ from __future__ import annotations
 
 import numpy as np
 
-Floats = np.ndarray
-Ints = np.ndarray
+from footfit.geometry.arrays import Bools, Floats, Ints
+
 Mesh = tuple[Floats, Ints]
 
 
@@ -239,7 +239,7 @@ def decimated(vertices: Floats, faces: Ints, factor: float) -> Mesh:
     return out_vertices.astype(np.float64), out_faces.astype(np.int64)
 
 
-def subdivided(vertices: Floats, faces: Ints, chosen: Floats | None = None) -> Mesh:
+def subdivided(vertices: Floats, faces: Ints, chosen: Bools | None = None) -> Mesh:
     """The same surface with the ``chosen`` (m,) faces split in four; None splits all.
 
     A neighbour of a chosen face is split in two or three along the shared edges' mid-points,

@@ -8,8 +8,8 @@ from __future__ import annotations
 
 import numpy as np
 
-Floats = np.ndarray
-Ints = np.ndarray
+from footfit.geometry.arrays import Floats, Ints
+
 Mesh = tuple[Floats, Ints]
 
 
@@ -31,7 +31,8 @@ def cube(edge_mm: float = 100.0, cells: int = 4) -> Mesh:
     t = np.linspace(-0.5, 0.5, cells + 1)
     u, v = (g.ravel() for g in np.meshgrid(t, t, indexing="ij"))
     quads = _grid_faces(cells + 1, cells + 1)
-    points, faces = [], []
+    points: list[Floats] = []
+    faces: list[Ints] = []
     for axis in range(3):
         for sign in (-0.5, 0.5):
             side = np.empty((len(u), 3))
@@ -233,7 +234,7 @@ def two_feet(vertices: Floats, faces: Ints, gap_mm: float = 40.0) -> Mesh:
 
     The left one stands on the wearer's left (+y), ``gap_mm`` between the two.
     """
-    left = vertices * [1.0, -1.0, 1.0]
+    left = vertices * np.array([1.0, -1.0, 1.0])
     left[:, 1] += vertices[:, 1].max() + gap_mm - left[:, 1].min()
     both = np.concatenate([faces, faces[:, ::-1] + len(vertices)])
     return np.concatenate([vertices, left]), both
@@ -243,17 +244,13 @@ def two_feet(vertices: Floats, faces: Ints, gap_mm: float = 40.0) -> Mesh:
 
 
 def _turn(count: int) -> Floats:
-    return np.arange(count) * (2.0 * np.pi / count)
+    return np.linspace(0.0, 2.0 * np.pi, count, endpoint=False)
 
 
 def _grid_faces(rows: int, columns: int, wrap: tuple[bool, bool] = (False, False)) -> Ints:
     """Two triangles per cell of a (rows, columns) grid of vertices, facing row x column."""
-    i, j = np.meshgrid(
-        np.arange(rows if wrap[0] else rows - 1),
-        np.arange(columns if wrap[1] else columns - 1),
-        indexing="ij",
-    )
-    i, j = i.ravel(), j.ravel()
+    across = columns if wrap[1] else columns - 1
+    i, j = np.divmod(np.arange((rows if wrap[0] else rows - 1) * across), across)
     after_i, after_j = (i + 1) % rows, (j + 1) % columns
     a, b = i * columns + j, after_i * columns + j
     c, d = after_i * columns + after_j, i * columns + after_j

@@ -12,18 +12,20 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.interpolate import CubicSpline, PchipInterpolator
 
-Floats = np.ndarray
+from footfit.geometry.arrays import Floats
+
 Curve = Callable[[Floats], Floats]
 
 BALL_STATION = 0.67
+SHANK_STATION = 0.43
 WIDTH_STATIONS = (0.0, 0.09, 0.17, 0.30, 0.42, 0.55, BALL_STATION, 0.76, 0.84, 0.92, 1.0)
 
-# toe shape: half widths at .84, .92 and 1.0 as shares of the ball's, and the length of the cap
+# toe shape: half widths at .76, .84, .92 and 1.0 as shares of the ball's, and the length of the cap
 TOES = {
-    "round": (0.86, 0.73, 0.62, 0.14),
-    "almond": (0.80, 0.60, 0.46, 0.13),
-    "square": (0.90, 0.81, 0.74, 0.085),
-    "pointed": (0.70, 0.43, 0.25, 0.085),
+    "round": (0.965, 0.86, 0.73, 0.62, 0.14),
+    "almond": (0.94, 0.80, 0.60, 0.46, 0.13),
+    "square": (0.97, 0.90, 0.81, 0.74, 0.085),
+    "pointed": (0.90, 0.74, 0.53, 0.33, 0.10),
 }
 
 
@@ -43,11 +45,11 @@ def _cap(distance: Floats, length: float) -> Floats:
 
 def widths(s: Floats, *, ball: float, heel: float, waist: float, toe_shape: str) -> Widths:
     """Half widths at stations ``s`` (n,) of a last of the given full widths; 0 beyond its ends."""
-    t1, t2, t3, toe_length = TOES[toe_shape]
+    t0, t1, t2, t3, toe_length = TOES[toe_shape]
     b, h, w = ball / 2.0, heel / 2.0, waist / 2.0
     mid = 0.5 * (w + b)
     rear = (0.93 * h, 0.985 * h, h, 0.5 * (h + w) * 1.005, w)
-    fore = (1.01 * mid, b, 0.965 * b, t1 * b, t2 * b, t3 * b)
+    fore = (1.01 * mid, b, t0 * b, t1 * b, t2 * b, t3 * b)
     nodes = CubicSpline(WIDTH_STATIONS, (*rear, *fore), bc_type="natural")
     inside = np.clip(s, 0.0, 1.0)
     cap = _cap(inside, 0.13) * _cap(1.0 - inside, toe_length)
@@ -75,9 +77,9 @@ def crest_shape(s: Floats, cone_length: float) -> tuple[Floats, Floats, Floats]:
 
 @dataclass(frozen=True, slots=True)
 class SideView:
-    """The last seen from the side, in the contact plane's frame; functions of the station.
+    """The last seen from the side, lying on its sole; functions of the station.
 
-    ``pitch_deg`` is the angle between the contact plane and the floor of the drafted pose.
+    ``pitch_deg`` is the angle between the resting plane and the floor of the drafted pose.
     """
 
     bottom: Curve
@@ -100,45 +102,33 @@ def _drafted_bottom(x: Floats, heel: float, spring: float) -> Floats:
     return shank + hollow + toe
 
 
-def _sole_slope(x: Floats, z: Floats, width: Floats) -> float:
-    """Slope dz/dx of the robust line under the sole (weights fall off with the height over it)."""
-    level, slope = 0.0, 0.0
-    weight = width.copy()
-    for tau in np.concatenate([np.geomspace(0.06, 0.02, 12), np.full(15, 0.02)]):
-        slope, level = np.polyfit(x, z, 1, w=np.sqrt(weight))
-        height = (z - level - slope * x) / np.hypot(1.0, slope)
-        tilt = np.arctan(np.gradient(z, x)) - np.arctan(slope)
-        weight = width * np.exp(-((height / tau) ** 2)) * np.cos(tilt) ** 4
-    return float(slope)
+def _resting_slope(x: Floats, z: Floats) -> float:
+    """Slope dz/dx of the line on which the sole rests: it touches behind and ahead of the shank."""
+    rear, fore = (x < SHANK_STATION), (x >= SHANK_STATION)
+    slope = (z[fore][None, :] - z[rear][:, None]) / (x[fore][None, :] - x[rear][:, None])
+    return float(slope.min(axis=1).max())  # under all of the fore part, then of the rear
 
 
 THICKNESS = (  # of the forepart over the sole's middle, at stations
-    (0.22, 0.30, 0.38, 0.46, 0.54, 0.62, 0.70, 0.80, 0.90, 1.00, 1.10),
-    (0.520, 0.425, 0.345, 0.283, 0.232, 0.187, 0.150, 0.117, 0.097, 0.086, 0.080),
+    (0.22, 0.30, 0.38, 0.46, 0.54, 0.62, 0.70, 0.80, 0.90, 1.00),
+    (0.520, 0.425, 0.345, 0.283, 0.232, 0.187, 0.150, 0.116, 0.094, 0.076),
 )
 
 
 def side_view(*, heel: float, spring: float, cone: float, cone_length: float) -> SideView:
-    """The side view of a last drafted on a heel of height ``heel``, laid onto its contact plane."""
-    x = np.linspace(-0.15, 1.1, 1251)
-    bottom = _drafted_bottom(x, heel, spring)
-    vamp = bottom + CubicSpline(*THICKNESS)(x + 0.34 - cone_length)
-    vamp = np.where(x < 0.25, vamp[np.searchsorted(x, 0.25)] + (0.25 - x), vamp)
-    comb = heel + cone + 0.0 * x
-    crest = -0.012 * np.logaddexp(-vamp / 0.012, -comb / 0.012)  # a soft minimum
-    inside = (x >= 0.0) & (x <= 1.0)
-    seat = 0.12 + 0.06 * np.exp(-0.5 * ((x[inside] - 0.67) / 0.15) ** 2)
-    pitch = -np.arctan(_sole_slope(x[inside], bottom[inside], seat))
-    turned = [
-        (x * np.cos(pitch) - z * np.sin(pitch), x * np.sin(pitch) + z * np.cos(pitch))
-        for z in (bottom, crest)
-    ]
-    ends = np.interp([0.0, 1.0], x, turned[0][0])
-    floor = float(turned[0][1][inside].min())
-    scale = 1.0 / (ends[1] - ends[0])
-    (bottom_s, bottom_z), (crest_s, crest_z) = (
-        ((u - ends[0]) * scale, (z - floor) * scale) for u, z in turned
-    )
+    """The side view of a last drafted on a heel of height ``heel``, laid onto its sole."""
+    x = np.linspace(0.0, 1.0, 1001)
+    drafted = _drafted_bottom(x, heel, spring)
+    touching = (x >= 0.02) & (x <= 0.95)
+    pitch = -np.arctan(_resting_slope(x[touching], drafted[touching]))
+    along = x * np.cos(pitch) - drafted * np.sin(pitch)
+    above = x * np.sin(pitch) + drafted * np.cos(pitch)
+    scale = 1.0 / (along[-1] - along[0])
+    s, bottom = (along - along[0]) * scale, (above - above[touching].min()) * scale
+    thickness = CubicSpline(*THICKNESS)(np.clip(s + 0.34 - cone_length, 0.22, 1.0))
+    comb = cone + 0.5 * np.tan(pitch) * (s - 0.15)  # the shin leans half the way with the foot
+    softness = 0.012
+    crest = -softness * np.logaddexp(-(bottom + thickness) / softness, -comb / softness)
     low = PchipInterpolator(
         [0.0, 0.15, 0.42, 0.60, 0.72, 0.85, 1.0], [0.074, 0.074, 0.070, 0.062, 0.056, 0.046, 0.038]
     )
@@ -146,13 +136,14 @@ def side_view(*, heel: float, spring: float, cone: float, cone_length: float) ->
         [0.0, 0.15, 0.42, 0.66, 0.85, 1.0], [0.010, 0.010, 0.005, 0.012, 0.009, 0.007]
     )
 
-    def bottom_at(s: Floats) -> Floats:
-        return np.interp(s, bottom_s, bottom_z)
+    def bottom_at(at: Floats) -> Floats:
+        return np.asarray(np.interp(at, s, bottom))
 
-    def crest_at(s: Floats) -> Floats:
-        return np.interp(s, crest_s, crest_z)
+    def crest_at(at: Floats) -> Floats:
+        return np.asarray(np.interp(at, s, crest))
 
-    def widest_at(s: Floats) -> Floats:
-        return bottom_at(s) + low(np.clip(s, 0.0, 1.0))
+    def widest_at(at: Floats) -> Floats:
+        rise: Floats = low(np.clip(at, 0.0, 1.0))
+        return bottom_at(at) + rise
 
     return SideView(bottom_at, crest_at, crown, widest_at, float(np.degrees(pitch)))

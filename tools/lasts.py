@@ -15,8 +15,8 @@ is a centre line moved by o to the lateral side and a half width less by o. With
 :func:`plain` these are zero and c is one smooth bend. What differs above or under the widest
 row (instep ridge, arch, the feather line's cut at the waist) leaves c alone.
 
-Canonical pose of a right last: x from heel to toe, y medial positive, z up, z = 0 the contact
-plane (robust plane of the sole, moved to its lowest point), x = 0 the rearmost point, y = 0 the
+Canonical pose of a right last: x from heel to toe, y medial positive, z up, z = 0 the
+resting plane (it touches the seat and the tread, level across), x = 0 the rearmost point, y = 0 the
 heel's middle; x runs along the principal plan axis. A left last is the mirror image.
 
 Examples
@@ -30,84 +30,30 @@ Examples
 
 from __future__ import annotations
 
-from dataclasses import dataclass, fields, replace
-from typing import Literal
+from dataclasses import dataclass
 
 import numpy as np
 
+from footfit.geometry.arrays import Floats, Ints
 from tools.last_profiles import SideView, Widths, crest_shape, side_view, widths
+from tools.last_specs import LastSpec, graded, plain, share, varied
 
-Floats = np.ndarray
-Ints = np.ndarray
-ToeShape = Literal["round", "almond", "square", "pointed"]
+__all__ = [
+    "LastSpec",
+    "centre_line_mm",
+    "graded",
+    "half_width_mm",
+    "last_mesh",
+    "plain",
+    "true_flare_deg",
+    "true_heading_deg",
+    "varied",
+]
+
 
 REARFOOT = (0.08, 0.30)  # stations whose mean heading is the flare angle's base
 FOREFOOT = (0.55, 0.80)
 _GRID = np.linspace(-0.1, 1.1, 4801)  # stations on which the planted heading is integrated
-
-
-@dataclass(frozen=True, slots=True)
-class LastSpec:
-    """All that makes one last.
-
-    Lengths are mm; ``None`` for a width takes the usual share of the length. ``flare_deg`` is
-    the true flare angle: mean heading over stations .55-.80 minus mean heading over .08-.30,
-    whatever the other fields are. ``rings`` are the sections from heel to toe, ``segments`` the
-    corners of each: the mesh has about 2 x rings x segments faces.
-
-    ``waist_cut_mm``, ``joint_bulge_mm`` and ``toe_turn_deg`` shape the planted centre line.
-    ``arch_mm`` (the medial feather line's rise at the waist), ``arch_cut_mm`` (how far it goes
-    in under the widest row) and ``ridge_mm`` (the instep ridge's way to the medial side) do not.
-    """
-
-    length_mm: float = 270.0
-    ball_width_mm: float | None = None
-    heel_width_mm: float | None = None
-    waist_width_mm: float | None = None
-    heel_height_mm: float = 25.0
-    toe_spring_mm: float = 12.0
-    flare_deg: float = 8.0
-    toe_shape: ToeShape = "round"
-    toe_turn_deg: float = 5.0
-    waist_cut_mm: float = 5.0
-    joint_bulge_mm: float = 2.5
-    mt1_station: float = 0.72
-    mt5_station: float = 0.62
-    arch_mm: float = 5.0
-    arch_cut_mm: float = 13.0
-    ridge_mm: float = 9.0
-    cone_height_mm: float | None = None
-    cone_length: float = 0.34
-    side: Literal["left", "right"] = "right"
-    rings: int = 160
-    segments: int = 110
-
-
-SHARES = {  # of the length, where the spec says None
-    "ball_width_mm": 0.365,
-    "heel_width_mm": 0.250,
-    "waist_width_mm": 0.272,
-    "cone_height_mm": 0.345,
-}
-
-
-def plain(spec: LastSpec) -> LastSpec:
-    """The same last with one smooth bend: no waist cut, no joint bulge, no turn of the toe."""
-    return replace(spec, waist_cut_mm=0.0, joint_bulge_mm=0.0, toe_turn_deg=0.0)
-
-
-def graded(spec: LastSpec, length_mm: float) -> LastSpec:
-    """The same last in another length: every length in mm grows alike, so no ratio changes."""
-    ratio = length_mm / spec.length_mm
-    names = [f.name for f in fields(spec) if f.name.endswith("_mm")]
-    values = {name: getattr(spec, name) for name in names}
-    return replace(spec, **{name: v * ratio for name, v in values.items() if v is not None})
-
-
-def share(spec: LastSpec, name: str) -> float:
-    """The length field ``name`` over the length."""
-    value = getattr(spec, name)
-    return SHARES[name] if value is None else float(value) / spec.length_mm
 
 
 # ------------------------------------------------------------------ the planted curve
@@ -118,7 +64,7 @@ def _bell(s: Floats, centre: float, sd: float) -> Floats:
 
 
 def _bell_slope(s: Floats, centre: float, sd: float) -> Floats:
-    return -(s - centre) / sd**2 * _bell(s, centre, sd)
+    return (centre - s) / sd**2 * _bell(s, centre, sd)
 
 
 def _offset_slope(spec: LastSpec, s: Floats) -> Floats:
@@ -151,7 +97,8 @@ def _heading(spec: LastSpec) -> Floats:
     toe = np.radians(spec.toe_turn_deg) * _ramp(_GRID, 0.87, 0.05)
     wave = toe + np.arctan(_offset_slope(spec, _GRID))
     amount = (np.radians(spec.flare_deg) - _window_change(wave)) / _window_change(bend)
-    return amount * bend + wave
+    heading: Floats = amount * bend + wave
+    return heading
 
 
 @dataclass(frozen=True, slots=True)
@@ -175,7 +122,7 @@ def _curve(heading: Floats) -> tuple[Floats, Floats]:
     middle = 0.5 * (heading[1:] + heading[:-1])
     x = np.concatenate(([0.0], np.cumsum(steps * np.cos(middle))))
     y = np.concatenate(([0.0], np.cumsum(steps * np.sin(middle))))
-    return x - np.interp(0.0, _GRID, x), y - np.interp(0.0, _GRID, y)
+    return x - float(np.interp(0.0, _GRID, x)), y - float(np.interp(0.0, _GRID, y))
 
 
 def _plan(spec: LastSpec, half_width: Floats) -> _Plan:
@@ -229,7 +176,8 @@ def true_heading_deg(spec: LastSpec, s: Floats) -> Floats:
     (n,) array
         Degrees, + towards medial.
     """
-    return np.degrees(_planted(spec)[0].at(np.asarray(s, dtype=float))[2])
+    heading: Floats = np.degrees(_planted(spec)[0].at(np.asarray(s, dtype=float))[2])
+    return heading
 
 
 def true_flare_deg(spec: LastSpec) -> float:
@@ -248,7 +196,8 @@ def centre_line_mm(spec: LastSpec, s: Floats) -> Floats:
 def half_width_mm(spec: LastSpec, s: Floats) -> Floats:
     """Half the distance of the band's two extremes, normal to the centre line: (n,) in mm."""
     plan, shape = _planted(spec)
-    return np.interp(np.asarray(s, dtype=float), _GRID, shape.half) * plan.scale * spec.length_mm
+    half: Floats = np.interp(np.asarray(s, dtype=float), _GRID, shape.half)
+    return half * (plan.scale * spec.length_mm)
 
 
 # ------------------------------------------------------------------ the straight last
@@ -281,7 +230,8 @@ def _along(straight: _Straight, rise: Floats, foot: Floats) -> Floats:
     toe = np.clip(1.0 - (1.0 - s) / 0.24, 0.0, 1.0) ** 3
     back = 0.040 * rise**1.5 * (1.3 - 0.3 * rise) + 0.016 * foot**2
     front = 0.062 * (1.0 - np.sqrt(1.0 - np.minimum(rise, 1.0) ** 2)) + 0.010 * foot**2
-    return s + heel * back - toe * front
+    along: Floats = s + heel * back - toe * front
+    return along
 
 
 def _resampled(points: Floats, count: int) -> Floats:
