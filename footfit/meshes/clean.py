@@ -88,7 +88,7 @@ def cleaned(vertices: Floats, faces: Ints, settings: CleanSettings = CLEAN_SETTI
     """
     diagonal = float(np.linalg.norm([np.ptp(column) for column in vertices.T]))
     vertices, faces, source, notices = _welded(vertices, faces, diagonal, settings)
-    distinct = _has_distinct_corners(faces)
+    distinct = has_distinct_corners(faces)
     faces, collapsed = faces[distinct], int((~distinct).sum())
     once = _first_of_equals(faces)
     faces, doubled = faces[once], int((~once).sum())
@@ -108,7 +108,7 @@ def cleaned(vertices: Floats, faces: Ints, settings: CleanSettings = CLEAN_SETTI
     watertight, found = _closure(faces)
     removed = collapsed + int(flat.sum())
     notices += _counted("degenerate_removed", removed, "faces without an area were removed")
-    vertices, faces, source = _compact(vertices, faces[~flat], source)
+    vertices, faces, source = compact(vertices, faces[~flat], source)
     return Cleaned(vertices, faces, source, watertight, notices + found)
 
 
@@ -145,7 +145,8 @@ def _nearly_welded(vertices: Floats, faces: Ints, tolerance: float) -> tuple[Flo
     return vertices, faces, source
 
 
-def _has_distinct_corners(faces: Ints) -> Bools:
+def has_distinct_corners(faces: Ints) -> Bools:
+    """False for every face that names a vertex twice, (m,)."""
     a, b, c = faces.T
     return np.asarray((a != b) & (b != c) & (c != a))
 
@@ -213,8 +214,21 @@ def _closure(faces: Ints) -> tuple[bool, tuple[Notice, ...]]:
     return not notices, notices
 
 
-def _compact(vertices: Floats, faces: Ints, source: Ints) -> tuple[Floats, Ints, Ints]:
-    """Without the vertices that no face uses."""
+def compact(vertices: Floats, faces: Ints, source: Ints) -> tuple[Floats, Ints, Ints]:
+    """The mesh without the vertices that no face uses, and where each source vertex went.
+
+    Parameters
+    ----------
+    vertices : (n, 3) float64
+    faces : (m, 3) int64
+    source : (k,) int64
+        Rows of ``vertices``.
+
+    Returns
+    -------
+    (vertices, faces, source)
+        ``source`` is -1 where the vertex was dropped.
+    """
     used = np.zeros(len(vertices), dtype=bool)
     used[faces] = True
     row = np.where(used, np.cumsum(used) - 1, -1)
