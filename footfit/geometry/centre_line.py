@@ -196,8 +196,8 @@ def _step(axis: _Axis, stiff: Floats) -> Floats:
     """The Gauss-Newton step of the coefficients, under a penalty on the line itself."""
     normal = axis.design.T @ axis.design + stiff.T @ stiff
     pull = stiff.T @ (stiff @ axis.coefficients)
-    step: Floats = np.linalg.solve(normal, axis.design.T @ axis.offset - pull)
-    return step
+    step = np.linalg.solve(normal, axis.design.T @ axis.offset - pull)
+    return np.asarray(step, dtype=np.float64)
 
 
 def _seen(bands: Bands, definition: FlareDefinition) -> Bools:
@@ -285,8 +285,7 @@ def _design(
 def _solution(design: Floats, stiff: Floats) -> Floats:
     """The penalised least-squares solution as a matrix, (splines, k)."""
     normal = design.T @ design + stiff.T @ stiff
-    solution: Floats = np.linalg.solve(normal, design.T)
-    return solution
+    return np.asarray(np.linalg.solve(normal, design.T), dtype=np.float64)
 
 
 def _tabulated(

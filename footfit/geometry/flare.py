@@ -18,14 +18,26 @@ from footfit.geometry.flare_definition import (
     flare_class,
 )
 from footfit.geometry.polylines import curvature_density
+from footfit.geometry.profile_distance import (
+    DISTANCE,
+    DistanceSettings,
+    ProfileDistances,
+    profile_distance,
+    profile_distances,
+)
 from footfit.geometry.smoothing import cubic_splines
 
 __all__ = [
     "CHANNELS",
+    "DISTANCE",
+    "DistanceSettings",
     "FlareDefinition",
     "FlareProfile",
+    "ProfileDistances",
     "flare_class",
     "flare_profile",
+    "profile_distance",
+    "profile_distances",
 ]
 
 _WINDOW_POINTS = 50  # where a window's mean heading is read: the midpoint rule, exact to 1e-4 deg
