@@ -22,12 +22,15 @@ class DeviationSettings:
     candidates, most_candidates : int
         How many samples' triangles are tried for each point at first, and for the farthest points
         at last. Too few can only make a distance come out too large.
+    tried_again : int
+        How many of the farthest points are tried against more.
     """
 
     spacing_mm: float = 5.0
     most_splits: int = 32
     candidates: int = 4
     most_candidates: int = 256
+    tried_again: int = 1_000
 
 
 DEVIATION_SETTINGS = DeviationSettings()
@@ -93,7 +96,7 @@ def _farthest(
 ) -> float:
     """The largest of the points' distances to the triangles (s, 3, 3) that samples (s, 3) lie on.
 
-    Only the maximum is wanted, so only points that may hold it are tried against more triangles.
+    Only the maximum is wanted, so only the farthest points are tried against more triangles.
     """
     from scipy.spatial import KDTree
 
@@ -108,7 +111,7 @@ def _farthest(
             best[chosen] = np.minimum(best[chosen], distances)
         if count >= min(settings.most_candidates, len(samples)):
             return float(best.max())
-        chosen, count = np.flatnonzero(best > 0.5 * best.max()), 4 * count
+        chosen, count = np.argsort(best)[-settings.tried_again :], 4 * count
 
 
 def point_triangle_distances(points: Floats, corners: Floats) -> Floats:
