@@ -107,6 +107,22 @@ def edges(faces: Ints) -> Ints:
     return np.stack([keys // span, keys % span], axis=1)
 
 
+def sorted_keys(keys: Ints) -> tuple[Ints, Ints]:
+    """The stable order of non-negative keys (n,), and the keys in that order.
+
+    Examples
+    --------
+    >>> [part.tolist() for part in sorted_keys(np.array([7, 5, 7, 0]))]
+    [[3, 1, 0, 2], [0, 5, 7, 7]]
+    """
+    count = len(keys)
+    if count == 0 or int(keys.max()) < np.iinfo(np.int64).max // count - 1:
+        words = np.sort(keys * count + np.arange(count))  # key and index in one word: fast
+        return words % max(count, 1), words // max(count, 1)
+    order = np.argsort(keys, kind="stable").astype(np.int64)
+    return order, keys[order]
+
+
 def _edge_keys(faces: Ints) -> tuple[Ints, int]:
     start, end = faces.ravel(), faces[:, [1, 2, 0]].ravel()
     span = int(faces.max()) + 1
@@ -116,14 +132,8 @@ def _edge_keys(faces: Ints) -> tuple[Ints, int]:
 
 def _edge_groups(faces: Ints) -> tuple[Ints, Ints, Ints]:
     """Half-edges ordered by their edge, each edge's first place in that order, and its count."""
-    keys, span = _edge_keys(faces)
-    count = len(keys)
-    if span * span * count < np.iinfo(np.int64).max:  # sorting key and index in one word is fast
-        words = np.sort(keys * count + np.arange(count))
-        order, ordered = words % count, words // count
-    else:
-        order = np.argsort(keys, kind="stable").astype(np.int64)
-        ordered = keys[order]
+    keys, _ = _edge_keys(faces)
+    order, ordered = sorted_keys(keys)
     starts = np.flatnonzero(np.append(True, ordered[1:] != ordered[:-1]))
     return order, starts, np.diff(np.append(starts, len(ordered)))
 
@@ -292,3 +302,31 @@ def _shared_edges(faces: Ints) -> tuple[Ints, Bools]:
     one, other = order[first], order[first + 1]
     origin = half_edges(faces)[:, 0]
     return np.stack([one // 3, other // 3], axis=1), origin[one] == origin[other]
+
+
+def closed_fan_vertices(faces: Ints, n_vertices: int) -> Bools:
+    """Whether the faces around each vertex are one closed, consistently wound fan, (n_vertices,).
+
+    False on a boundary, at an edge of three faces or of two that run it the same way, where two
+    fans touch in a vertex, and for a vertex without faces.
+    """
+    if len(faces) == 0:
+        return np.zeros(n_vertices, dtype=bool)
+    order, starts, counts = _edge_groups(faces)
+    ends = half_edges(faces)
+    one, other = order[starts], order[np.minimum(starts + 1, len(order) - 1)]
+    regular = (counts == 2) & (ends[one, 0] == ends[other, 1])
+    closed = np.bincount(faces.ravel(), minlength=n_vertices) > 0
+    closed[ends[one[~regular]]] = False
+    # A half-edge's number is that of the corner it starts from; a fan is corners joined over edges.
+    one, other = one[regular], other[regular]
+    joined = np.stack([np.append(one, other), _next_corner(np.append(other, one))], axis=1)
+    roots = np.unique(_lowest_connected(joined, faces.size))
+    fans = np.bincount(faces.ravel()[roots], minlength=n_vertices)
+    single: Bools = closed & (fans == 1)
+    return single
+
+
+def _next_corner(corner: Ints) -> Ints:
+    following: Ints = corner - corner % 3 + (corner + 1) % 3
+    return following

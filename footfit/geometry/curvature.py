@@ -1,0 +1,329 @@
+"""Curvature of triangle surfaces: angle defect, concentrated curvature, curvature at a scale.
+
+Convex is positive, k1 <= k2, lengths in the coordinates' unit. ``vertices`` is (n, 3) float64,
+``faces`` (m, 3) int64, welded and wound outward. "Concentrated curvature" is the paper's
+pi - gamma of III.C; "angle defect" is 2 pi minus the angles around a vertex. They are two things.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from footfit.geometry.angles import turning_angle
+from footfit.geometry.arrays import Bools, Floats, Ints
+from footfit.geometry.diffusion import Diffusion, diffused, diffusion
+from footfit.geometry.surface import (
+    area_vectors,
+    corner_angles,
+    face_normals,
+    unit,
+    vertex_sums,
+)
+from footfit.geometry.topology import boundary_vertices, closed_fan_vertices
+
+
+@dataclass(frozen=True, slots=True)
+class PoolingSettings:
+    """The constants of :func:`pooled_curvature`.
+
+    radius_over_deviation
+        The radius in standard deviations of the pooling weights; 95 % of the weight lies inside
+        the radius at 2.45.
+    flattest
+        Where the weights' two principal variances in the tangent plane are in a smaller ratio
+        than this, one curvature cannot be told: NaN.
+    """
+
+    radius_over_deviation: float = 2.5
+    flattest: float = 1e-6
+
+
+POOLING = PoolingSettings()
+
+
+@dataclass(frozen=True, slots=True)
+class PrincipalCurvatures:
+    """Per vertex, (n,) each; NaN where undefined. ``gaussian`` is k1 k2."""
+
+    k1: Floats
+    k2: Floats
+    mean: Floats
+    gaussian: Floats
+
+
+# ---------------------------------------------------------------- angle defect
+
+
+def angle_defect(vertices: Floats, faces: Ints) -> Floats:
+    """2 pi minus the angles around each vertex, (n,) radians; at a boundary, pi minus them.
+
+    By the Gauss-Bonnet theorem (Eq. 11) its sum over any surface is 2 pi times the Euler
+    characteristic: inside it is the Gaussian curvature, at a boundary the turning of the
+    boundary. NaN where a vertex has no face.
+
+    Examples
+    --------
+    >>> corner = np.array([[0.0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]])
+    >>> defect = angle_defect(corner, np.array([[0, 2, 1], [0, 1, 3], [1, 2, 3], [2, 0, 3]]))
+    >>> float(defect[0] / np.pi), round(float(defect.sum() / np.pi), 12)
+    (0.5, 4.0)
+    """
+    n = len(vertices)
+    angles = corner_angles(vertices, faces).ravel()
+    around = np.bincount(faces.ravel(), weights=angles, minlength=n)
+    full = np.where(boundary_vertices(faces, n), np.pi, 2.0 * np.pi)
+    used = np.bincount(faces.ravel(), minlength=n) > 0
+    defect: Floats = np.where(used, full - around, np.nan)
+    return defect
+
+
+# ---------------------------------------------------------------- one ring (III.C)
+
+
+def concentrated_curvature_one_ring(vertices: Floats, faces: Ints) -> PrincipalCurvatures:
+    """The paper's concentrated curvatures at every vertex (III.C), in radians.
+
+    At vertex p the plane through the normal n_p and a neighbour v_i cuts the link of p on the far
+    side in w_i; the polygonal line v_i p w_i has the concentrated curvature pi - gamma_i (Eq. 12,
+    13), + where it bends away from the normal. k1 is the smallest over the neighbours, k2 the
+    largest, ``mean`` the mean of all, ``gaussian`` k1 k2.
+
+    n_p is the plain mean of the unit normals of the faces around p. NaN where the faces around p
+    are not one closed fan: at a boundary, at an edge of three faces, where the winding turns, and
+    where no plane meets the far side. An angle shrinks with the edges: for a curvature take
+    :func:`one_ring_curvature`.
+    """
+    return _over_neighbours(vertices, faces, density=False)
+
+
+def one_ring_curvature(vertices: Floats, faces: Ints) -> PrincipalCurvatures:
+    """The concentrated curvatures of III.C as densities, 1/length (``gaussian`` 1/length^2).
+
+    Each pi - gamma_i is divided by the mean of its two edges, |v_i - p| and |w_i - p|; the rest is
+    as in :func:`concentrated_curvature_one_ring`.
+    """
+    return _over_neighbours(vertices, faces, density=True)
+
+
+def _over_neighbours(vertices: Floats, faces: Ints, density: bool) -> PrincipalCurvatures:
+    n = len(vertices)
+    normals = unit(vertex_sums(face_normals(vertices, faces), faces, n))
+    k1, k2, mean = np.full(n, np.nan), np.full(n, np.nan), np.full(n, np.nan)
+    for centre, near, far in _fans(faces, n):
+        curvature = _normal_curvatures(vertices, normals, (centre, near, far), density)
+        known = ~np.isnan(curvature)
+        some = known.any(axis=1)
+        curvature, known, centre = curvature[some], known[some], centre[some]
+        k1[centre] = np.where(known, curvature, np.inf).min(axis=1)
+        k2[centre] = np.where(known, curvature, -np.inf).max(axis=1)
+        mean[centre] = np.where(known, curvature, 0.0).sum(axis=1) / known.sum(axis=1)
+    return PrincipalCurvatures(k1, k2, mean, k1 * k2)
+
+
+def _fans(faces: Ints, n: int) -> list[tuple[Ints, Ints, Ints]]:
+    """Vertices with a closed fan, by valence d: centre (k,), the link's edges near -> far (k, d).
+
+    On a closed fan the near ends are each neighbour once.
+    """
+    corners = faces.ravel()
+    near, far = faces[:, [1, 2, 0]].ravel(), faces[:, [2, 0, 1]].ravel()
+    order = np.argsort(corners, kind="stable")
+    valence = np.bincount(corners, minlength=n)
+    first = np.cumsum(valence) - valence
+    closed = closed_fan_vertices(faces, n)
+    fans = []
+    for d in np.unique(valence[closed]):
+        centre = np.flatnonzero(closed & (valence == d))
+        places = order[first[centre][:, None] + np.arange(d)]
+        fans.append((centre, near[places], far[places]))
+    return fans
+
+
+def _normal_curvatures(
+    vertices: Floats, normals: Floats, fan: tuple[Ints, Ints, Ints], density: bool
+) -> Floats:
+    """The normal curvature over each neighbour v_i, (k, d); NaN where there is no w_i."""
+    centre, near, far = fan
+    p, n = vertices[centre], normals[centre]
+    v, b = vertices[near] - p[:, None], vertices[far] - p[:, None]
+    height_v, height_b = np.einsum("kdx,kx->kd", v, n), np.einsum("kdx,kx->kd", b, n)
+    flat_v = v - height_v[:, :, None] * n[:, None]
+    side = np.cross(n[:, None], flat_v)
+    along = unit(flat_v.reshape(-1, 3)).reshape(flat_v.shape)
+    # Place of every link vertex j against the plane of neighbour i: (k, i, j).
+    off_v, off_b = side @ v.transpose(0, 2, 1), side @ b.transpose(0, 2, 1)
+    crossed = (off_v < 0.0) != (off_b < 0.0)
+    share = off_v / np.where(crossed, off_v - off_b, 1.0)
+    u_v, u_b = along @ v.transpose(0, 2, 1), along @ b.transpose(0, 2, 1)
+    w_along = u_v + share * (u_b - u_v)
+    w_up = height_v[:, None] + share * (height_b - height_v)[:, None]
+    backward = np.where(crossed & (w_along < 0.0), -w_along / np.hypot(w_along, w_up), -np.inf)
+    # A link that folds is cut more than once: w_i is then the cut that bends least.
+    best = np.argmax(backward, axis=2)[:, :, None]
+    w = np.stack([np.take_along_axis(x, best, axis=2)[:, :, 0] for x in (w_along, w_up)], axis=2)
+    v_plane = np.stack([np.einsum("kdx,kdx->kd", v, along), height_v], axis=2)
+    turned = turning_angle(-v_plane, w)  # Eq. 13 by atan2: pi - gamma_i with its sign
+    if density:
+        turned /= 0.5 * (np.linalg.norm(v, axis=2) + np.linalg.norm(w, axis=2))
+    met = np.isfinite(np.take_along_axis(backward, best, axis=2)[:, :, 0])
+    curvature: Floats = np.where(met, turned, np.nan)
+    return curvature
+
+
+# ---------------------------------------------------------------- at a scale
+
+
+def pooled_curvature(
+    vertices: Floats, faces: Ints, radius: float, subset: Bools | None = None
+) -> PrincipalCurvatures:
+    """Curvature at the scale ``radius``, 1/length: concentrated curvatures pooled over it.
+
+    Between p and any q nearby the normal turns by (n_q - n_p).(q - p)/|q - p|^2 per length, exactly
+    1/R on a circle: a concentrated curvature over its length. One ring of them drowns in a scan's
+    noise. Here n_q - n = S (q - c) is fitted over the neighbourhood by least squares in the tangent
+    plane, S symmetric; k1 and k2 are its eigenvalues. The weights are those of heat
+    (:mod:`footfit.geometry.diffusion`) with standard deviation radius / 2.5; n, c and the tangent
+    plane are the pooled ones, so that p's own noise counts no more than its neighbours'. Spheres
+    and cylinders come out exactly for any radius, up to the mesh.
+
+    Parameters
+    ----------
+    vertices, faces
+        See the module. Area-weighted normals stand for the centroids of the faces around q,
+        where they hold to a higher order than at q.
+    radius : float
+        > 0. Smaller than the edges: the nearest ring counts. More than some 25 edges: cut to that.
+    subset : (n,) bool, optional
+        Where the curvature is wanted, NaN elsewhere; only what it needs is worked on, and the
+        values are those of the whole mesh to about 1e-5 / radius.
+
+    Returns
+    -------
+    PrincipalCurvatures
+        At a boundary it is one-sided. NaN where a vertex has no face, where the normals around
+        cancel, or where the neighbourhood is a line.
+
+    Raises
+    ------
+    ValueError
+        ``radius`` is not positive.
+
+    Examples
+    --------
+    >>> corners = np.array([[1.0, 0, 0], [0, 1, 0], [-1, 0, 0], [0, -1, 0], [0, 0, 1], [0, 0, -1]])
+    >>> upper = [[0, 1, 4], [1, 2, 4], [2, 3, 4], [3, 0, 4]]
+    >>> octahedron = np.array(upper + [[b, a, 5] for a, b, _ in upper])
+    >>> np.ptp(pooled_curvature(corners, octahedron, 1.0).k2) < 1e-12
+    np.True_
+    """
+    centres, normals = _stars(vertices, faces)
+    chosen = np.ones(len(vertices), dtype=bool) if subset is None else subset
+    operator = _pooling(vertices, faces, radius, subset)
+    pooled = diffused(operator, _moment_fields(centres, normals))[:, chosen]
+    k1, k2 = _principal(*_covariances(pooled))
+    whole = np.full((2, len(vertices)), np.nan)
+    whole[:, chosen] = np.stack([k1, k2])
+    k1, k2 = whole
+    return PrincipalCurvatures(k1, k2, 0.5 * (k1 + k2), k1 * k2)
+
+
+def pooled_mean_curvature(
+    vertices: Floats, faces: Ints, radius: float, subset: Bools | None = None
+) -> Floats:
+    """The mean curvature at the scale ``radius``, (n,) in 1/length, without its two parts.
+
+    The least-squares factor between the turning and the way, E[(n_q - n).(q - c)] / E[|q - c|^2]:
+    eight pooled fields in place of :func:`pooled_curvature`'s 21. The same on a sphere; elsewhere
+    it is half the sum of k1 and k2 as far as the neighbourhood is round. Arguments, NaN and Raises
+    as there.
+    """
+    centres, normals = _stars(vertices, faces)
+    x, n = centres.T - centres.mean(axis=0)[:, None], normals.T
+    fields = np.concatenate([x, n, [np.sum(n * x, axis=0), np.sum(x * x, axis=0)]])
+    pooled = diffused(_pooling(vertices, faces, radius, subset), fields)
+    turning = pooled[6] - np.sum(pooled[:3] * pooled[3:6], axis=0)
+    way = pooled[7] - np.sum(pooled[:3] ** 2, axis=0)
+    mean: Floats = turning / np.where(way > _least_variance(x), way, np.nan)
+    return mean if subset is None else np.where(subset, mean, np.nan)
+
+
+def _pooling(vertices: Floats, faces: Ints, radius: float, subset: Bools | None) -> Diffusion:
+    if not radius > 0.0:
+        raise ValueError("the pooling radius must be positive; the one ring has its own function")
+    return diffusion(vertices, faces, radius / POOLING.radius_over_deviation, subset)
+
+
+def _stars(vertices: Floats, faces: Ints) -> tuple[Floats, Floats]:
+    """The centroid of the faces around each vertex and their mean normal, (n, 3) each.
+
+    A vertex without faces stands for itself, with normal zero.
+    """
+    vectors = area_vectors(vertices, faces)
+    areas = np.linalg.norm(vectors, axis=1)
+    weighted = areas[:, None] * vertices[faces].sum(axis=1) / 3.0
+    sums = vertex_sums(np.column_stack([vectors, weighted, areas]), faces, len(vertices))
+    area = sums[:, 6:]
+    centres: Floats = np.where(area > 0.0, sums[:, 3:6] / np.where(area > 0.0, area, 1.0), vertices)
+    return centres, unit(sums[:, :3])
+
+
+_UPPER = (np.array([0, 0, 0, 1, 1, 2]), np.array([0, 1, 2, 1, 2, 2]))  # xx xy xz yy yz zz
+_SQUARE = np.array([[0, 1, 2], [1, 3, 4], [2, 4, 5]])  # where in them each entry of 3 x 3 stands
+
+
+def _moment_fields(centres: Floats, normals: Floats) -> Floats:
+    """What is pooled, (21, n): x (3), x x' (6), n (3), n x' (9)."""
+    x, n = centres.T - centres.mean(axis=0)[:, None], normals.T
+    products = (n[:, None] * x[None, :]).reshape(9, -1)
+    return np.concatenate([x, x[_UPPER[0]] * x[_UPPER[1]], n, products])
+
+
+def _covariances(pooled: Floats) -> tuple[Floats, Floats, Floats]:
+    """Cov(x, x) and Cov(n, x) (k, 3, 3) each, and the pooled unit normals (k, 3)."""
+    x, n = pooled[:3], pooled[9:12]
+    ways = pooled[3:9][_SQUARE] - x[:, None] * x[None, :]
+    turns = pooled[12:].reshape(3, 3, -1) - n[:, None] * x[None, :]
+    return np.moveaxis(ways, -1, 0), np.moveaxis(turns, -1, 0), unit(n.T)
+
+
+def _tangent_bases(normals: Floats) -> Floats:
+    """Two orthonormal tangents of each unit normal, (k, 2, 3), after Duff et al. 2017, Eq. 2."""
+    x, y, z = normals.T
+    sign = np.where(z >= 0.0, 1.0, -1.0)
+    a = -1.0 / (sign + z)
+    b = x * y * a
+    first = np.stack([1.0 + sign * x * x * a, sign * b, -sign * x], axis=1)
+    return np.stack([first, np.stack([b, sign + y * y * a, -y], axis=1)], axis=1)
+
+
+def _principal(ways: Floats, turns: Floats, normals: Floats) -> tuple[Floats, Floats]:
+    """Eigenvalues of the symmetric S that best makes turns = S ways in the tangent planes.
+
+    The normal equations of min |turn - S way|^2 in S = [[a, b], [b, c]] are, with the tangent
+    covariances [[p, q], [q, r]] of the ways and [[u, .], [., w]] of the turns, v = u_12 + u_21::
+
+        p a + q b             = u
+        q a + (p + r) b + q c = v
+                  q b + r c   = w
+    """
+    basis = _tangent_bases(normals)
+    tangent_ways = basis @ ways @ basis.transpose(0, 2, 1)
+    tangent_turns = basis @ turns @ basis.transpose(0, 2, 1)
+    p, q, r = tangent_ways[:, 0, 0], tangent_ways[:, 0, 1], tangent_ways[:, 1, 1]
+    u, w = tangent_turns[:, 0, 0], tangent_turns[:, 1, 1]
+    v = tangent_turns[:, 0, 1] + tangent_turns[:, 1, 0]
+    both, area = p + r, p * r - q * q
+    flat = ~(area > POOLING.flattest * both * both) | (np.abs(normals).max(axis=1) == 0.0)
+    determinant = np.where(flat, np.nan, both * area)
+    a = ((both * r - q * q) * u - q * r * v + q * q * w) / determinant
+    b = (p * r * v - q * r * u - p * q * w) / determinant
+    c = ((both * p - q * q) * w - p * q * v + q * q * u) / determinant
+    mean, half = 0.5 * (a + c), np.hypot(0.5 * (a - c), b)
+    return mean - half, mean + half
+
+
+def _least_variance(x: Floats) -> float:
+    """Below this a variance is rounding."""
+    return float(np.finfo(np.float64).eps * 64.0 * np.max(x * x, initial=0.0))

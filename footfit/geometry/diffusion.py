@@ -1,0 +1,223 @@
+"""Pooling over a surface: values spread as heat does, so that each vertex sees its neighbourhood.
+
+The weights are those of exp(-t L), close to a Gaussian of standard deviation sqrt(2 t) along the
+surface: they follow it and never jump to another sheet nearby. L is the cotangent Laplacian; exp
+is replaced by a short Chebyshev polynomial, so that nothing is solved and NumPy is enough.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import reduce
+
+import numpy as np
+
+from footfit.geometry.arrays import Bools, Floats, Ints
+from footfit.geometry.surface import area_vectors
+from footfit.geometry.topology import sorted_keys
+
+
+@dataclass(frozen=True, slots=True)
+class DiffusionSettings:
+    """How exactly exp(-t L) is followed.
+
+    tolerance
+        Chebyshev coefficients below it are left out; the weights still sum to 1.
+    degree_most
+        The longest polynomial. A radius of more than about 25 edges is cut to it.
+    nodes
+        Chebyshev nodes from which the coefficients are taken.
+    crowding_quantile, crowding
+        Vertices that exchange heat faster than ``crowding`` times this quantile of all (those of
+        slivers) are slowed to it.
+    reach_least
+        t times the rate of every vertex is at least this: the nearest ring is always seen.
+    rings_over_degree
+        A polynomial reaches as many rings as its degree; next to nothing comes from beyond this
+        share of them.
+    cotangent_least
+        Obtuse corners would give negative weights: cotangents are at least this.
+    """
+
+    tolerance: float = 1e-2
+    degree_most: int = 64
+    nodes: int = 160
+    crowding_quantile: float = 0.9
+    crowding: float = 2.0
+    reach_least: float = 0.25
+    rings_over_degree: float = 0.6
+    cotangent_least: float = 0.05
+
+
+SETTINGS = DiffusionSettings()
+
+
+@dataclass(frozen=True, slots=True)
+class Diffusion:
+    """A polynomial in the Laplacian of one mesh, ready for :func:`diffused`.
+
+    The k vertices it works on are taken in the order ``order``, those with the most neighbours
+    first. Slot j holds the j-th neighbour of the first ``len(columns[j])`` of them and its weight.
+    ``centre`` (k,) is the weight of the vertex itself, ``coefficients`` (degree + 1,) are of
+    Chebyshev polynomials.
+    """
+
+    order: Ints
+    centre: Floats
+    columns: tuple[Ints, ...]
+    weights: tuple[Floats, ...]
+    coefficients: Floats
+
+
+def diffusion(
+    vertices: Floats, faces: Ints, deviation: float, subset: Bools | None = None
+) -> Diffusion:
+    """The operator that pools with standard deviation ``deviation`` along the surface.
+
+    Parameters
+    ----------
+    vertices : (n, 3) float64
+    faces : (m, 3) int64
+        Welded and consistently wound; open meshes are welcome.
+    deviation : float
+        In the coordinates' unit, > 0.
+    subset : (n,) bool, optional
+        Where pooled values are wanted: the operator works there and on the rings that matter.
+
+    Notes
+    -----
+    With degrees d, cotangent weights w and vertex areas a: L f = (d f - sum of w f_q) / a. The
+    polynomial is in Y = 2 L / bound - 1, whose eigenvalues lie in [-1, 1].
+    """
+    n = len(vertices)
+    time = 0.5 * deviation * deviation
+    row, column, weight = _cotangent_entries(vertices, faces)
+    degree: Floats = np.bincount(row, weights=weight, minlength=n).astype(np.float64)
+    rate = _exchange_rates(degree, _projected_areas(vertices, faces), time)
+    bound = 2.0 * float(rate.max(initial=0.0)) or 1.0
+    scale = 2.0 * rate / bound
+    weight *= -(scale / np.where(degree > 0.0, degree, 1.0))[row]
+    coefficients = _heat_coefficients(time * bound)
+    kept = np.ones(n, dtype=bool)
+    if subset is not None:
+        rings = int(np.ceil(SETTINGS.rings_over_degree * (len(coefficients) - 1)))
+        kept = dilated(subset, faces, rings)
+        inside = kept[row] & kept[column]
+        row, column, weight = row[inside], column[inside], weight[inside]
+    order, slots = _slots(row, kept)
+    place = np.empty(n, dtype=np.int64)
+    place[order] = np.arange(len(order))
+    return Diffusion(
+        order=order,
+        centre=-(1.0 + np.bincount(row, weights=weight, minlength=n)[order]),
+        columns=tuple(place[column[slot]] for slot in slots),
+        weights=tuple(weight[slot] for slot in slots),
+        coefficients=coefficients,
+    )
+
+
+def diffused(operator: Diffusion, fields: Floats) -> Floats:
+    """Pool fields (c, n) over the surface; (c, n) out, NaN where the operator does not work.
+
+    Each value is a weighted mean over its neighbourhood with weights that sum to 1.
+    """
+    pooled = np.full_like(fields, np.nan)
+    for field, result in zip(fields, pooled, strict=True):
+        before, now = np.empty(0), field[operator.order]
+        total = operator.coefficients[0] * now
+        for k, coefficient in enumerate(operator.coefficients[1:]):
+            following = _product(operator, now)
+            if k > 0:  # T_k+1 = 2 Y T_k - T_k-1
+                following *= 2.0
+                following -= before
+            before, now = now, following
+            total += coefficient * now
+        result[operator.order] = total
+    return pooled
+
+
+def _product(operator: Diffusion, field: Floats) -> Floats:
+    product = operator.centre * field
+    for column, weight in zip(operator.columns, operator.weights, strict=True):
+        product[: len(column)] += weight * field[column]
+    return product
+
+
+def dilated(mask: Bools, faces: Ints, rings: int) -> Bools:
+    """The vertices within ``rings`` edges of those in ``mask``, (n,) bool."""
+    return reduce(lambda reached, _: _grown(reached, faces), range(rings), mask)
+
+
+def _grown(mask: Bools, faces: Ints) -> Bools:
+    grown = mask.copy()
+    grown[faces[mask[faces].any(axis=1)]] = True
+    return grown
+
+
+def _projected_areas(vertices: Floats, faces: Ints) -> Floats:
+    """A third of the area around each vertex as its own normal sees it, (n,).
+
+    Noise wrinkles a surface and so adds to its area; the sum of the area vectors stays.
+    """
+    vectors = area_vectors(vertices, faces)
+    corners = faces.ravel()
+    squared = np.zeros(len(vertices))
+    for axis in range(3):
+        repeated = np.repeat(vectors[:, axis], 3)
+        squared += np.bincount(corners, weights=repeated, minlength=len(vertices)) ** 2
+    areas: Floats = np.sqrt(squared) / 3.0
+    return areas
+
+
+def _cotangent_entries(vertices: Floats, faces: Ints) -> tuple[Ints, Ints, Floats]:
+    """Rows, columns and weights of the cotangent matrix without its diagonal, ordered by row."""
+    start, end, opposite = faces.ravel(), faces[:, [1, 2, 0]].ravel(), faces[:, [2, 0, 1]].ravel()
+    u, v = vertices[start] - vertices[opposite], vertices[end] - vertices[opposite]
+    doubled = 2.0 * np.linalg.norm(area_vectors(vertices, faces), axis=1)
+    across = np.repeat(np.where(doubled > 0.0, doubled, np.inf), 3)
+    weight = np.maximum(np.einsum("ij,ij->i", u, v) / across, SETTINGS.cotangent_least) / 2.0
+    span = len(vertices)
+    keys = np.concatenate([start * span + end, end * span + start])
+    order, ordered = sorted_keys(keys)
+    first = np.flatnonzero(np.append(True, ordered[1:] != ordered[:-1])[: len(ordered)])
+    if len(first) == 0:
+        return np.empty(0, dtype=np.int64), np.empty(0, dtype=np.int64), np.empty(0)
+    summed = np.add.reduceat(np.concatenate([weight, weight])[order], first)
+    return ordered[first] // span, ordered[first] % span, summed
+
+
+def _exchange_rates(degree: Floats, area: Floats, time: float) -> Floats:
+    """Degree over area, between what reaches the nearest ring and what the polynomial follows."""
+    joined = degree > 0.0
+    if not joined.any():
+        return np.zeros_like(degree)
+    rate = np.divide(degree, area, out=np.full_like(degree, np.inf), where=area > 0.0)
+    crowded = SETTINGS.crowding * float(np.quantile(rate[joined], SETTINGS.crowding_quantile))
+    followed = 0.2 * SETTINGS.degree_most**2 / time
+    least = SETTINGS.reach_least / time
+    limited: Floats = np.clip(rate, least, max(least, min(crowded, followed)))
+    return np.where(joined, limited, 0.0)
+
+
+def _slots(row: Ints, kept: Bools) -> tuple[Ints, list[Ints]]:
+    """Kept vertices by falling number of neighbours, and per slot the entries of those with one."""
+    count = np.bincount(row, minlength=len(kept))
+    order = np.argsort(-count, kind="stable").astype(np.int64)
+    order = order[kept[order]]
+    first = (np.cumsum(count) - count)[order]
+    falling = count[order]
+    filled = [int(np.searchsorted(-falling, -j)) for j in range(int(count.max(initial=0)))]
+    return order, [first[:size] + j for j, size in enumerate(filled)]
+
+
+def _heat_coefficients(exponent: float) -> Floats:
+    """Chebyshev coefficients of exp(-exponent (1 + y) / 2) on [-1, 1], summing to 1 at y = -1."""
+    angle = np.pi * (np.arange(SETTINGS.nodes) + 0.5) / SETTINGS.nodes
+    values = np.exp(-0.5 * exponent * (1.0 + np.cos(angle)))
+    k = np.arange(SETTINGS.degree_most + 1)
+    coefficients: Floats = np.cos(np.outer(k, angle)) @ values * (2.0 / SETTINGS.nodes)
+    coefficients[0] *= 0.5
+    kept = np.flatnonzero(np.abs(coefficients) > SETTINGS.tolerance)
+    coefficients = coefficients[: max(2, int(kept[-1]) + 1)]
+    total: float = float(np.sum(coefficients * (-1.0) ** np.arange(len(coefficients))))
+    return coefficients / total
