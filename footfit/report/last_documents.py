@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from footfit.report.documents import document
+from footfit.report.documents import document, json_line
 from footfit.report.numbers import (
     MILLIMETRE_DIGITS,
     RATIO_DIGITS,
@@ -27,7 +27,7 @@ from footfit.report.parts import (
 if TYPE_CHECKING:
     from collections.abc import Iterable, Sequence
 
-    from footfit.results import CatalogueFacts, LastRecord, MeshCopy, Reference
+    from footfit.results import CatalogueFacts, LastRecord, MeshCopy, Reference, UpgradeOutcome
 
 
 def list_lasts_document(records: Iterable[LastRecord], reference: str | None) -> Json:
@@ -40,7 +40,7 @@ def list_lasts_document(records: Iterable[LastRecord], reference: str | None) ->
 def show_last_document(record: LastRecord, reference: str | None) -> Json:
     """``footfit.show-last/1``: everything that is stored of one last but its mesh.
 
-    ``export-last -o x.json`` writes this document.
+    `record_text` writes this document for ``export-last -o x.json``.
     """
     frame = record.eigenframe
     paper = record.paper_transform
@@ -66,6 +66,11 @@ def show_last_document(record: LastRecord, reference: str | None) -> Json:
     )
 
 
+def record_text(record: LastRecord, reference: str | None) -> str:
+    """A last's record as the text of a JSON file."""
+    return json_line(show_last_document(record, reference)) + "\n"
+
+
 def set_reference_document(reference: Reference, lasts: int) -> Json:
     """``footfit.set-reference/1``: the new reference, and how many frames were rewritten."""
     return document(
@@ -77,6 +82,11 @@ def set_reference_document(reference: Reference, lasts: int) -> Json:
             "rewritten": lasts,
         },
     )
+
+
+def rename_last_document(old: str, new: str) -> Json:
+    """``footfit.rename-last/1``."""
+    return document("rename-last", {"last": new, "renamed_from": old})
 
 
 def remove_last_document(last: str) -> Json:
@@ -116,6 +126,21 @@ def catalogue_info_document(facts: CatalogueFacts) -> Json:
                 "bytes": facts.mesh_copy_bytes,
                 "worst_error_mm": millimetres(facts.worst_copy_error_mm),
             },
+        },
+    )
+
+
+def upgrade_catalogue_document(outcome: UpgradeOutcome) -> Json:
+    """``footfit.upgrade-catalogue/1``: what changed, and where the file as it was lies."""
+    return document(
+        "upgrade-catalogue",
+        {
+            "path": outcome.path,
+            "revision_before": outcome.revision_before,
+            "revision_after": outcome.revision_after,
+            "definition": outcome.definition,
+            "recomputed": list(outcome.recomputed),
+            "backup": outcome.backup,
         },
     )
 

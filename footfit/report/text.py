@@ -3,40 +3,40 @@
 from __future__ import annotations
 
 import re
-import unicodedata
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
-    from footfit.results import Measured
+    from collections.abc import Sequence
 
-_HIDDEN = frozenset({"Cc", "Cf", "Cs", "Co", "Cn", "Zl", "Zp"})
-_CONTROL_PICTURES = 0x2400
-_DELETE = 0x7F
+    from footfit.results import Measured
 
 
 def visible(text: str) -> str:
-    r"""``text`` with every character that hides, moves or breaks shown as a sign.
+    r"""``text`` with every character that hides, moves or breaks shown as its escape.
 
-    Control characters become their Unicode pictures; format characters (direction overrides,
-    zero-width ones), line separators and bytes that were no text become ``<U+...>``.
+    Control characters, direction overrides, zero-width ones, line separators and bytes that
+    were no text; stderr's lines show them the same way.
 
     Examples
     --------
     >>> visible("a\nb\x1b[31m")
-    'a␊b␛[31m'
+    'a\\nb\\x1b[31m'
     >>> visible("left\u202efoot")
-    'left<U+202E>foot'
+    'left\\u202efoot'
     """
-    return "".join(_sign(character) for character in text)
+    return "".join(sign if sign.isprintable() else repr(sign)[1:-1] for sign in text)
 
 
-def _sign(character: str) -> str:
-    if unicodedata.category(character) not in _HIDDEN:
-        return character
-    code = ord(character)
-    if code < ord(" "):
-        return chr(_CONTROL_PICTURES + code)
-    return "␡" if code == _DELETE else f"<U+{code:04X}>"
+def tie_words(names: Sequence[str], named: int = 3) -> str:
+    """The lasts that the distance does not tell from this one, the first few by name.
+
+    Examples
+    --------
+    >>> tie_words(("a", "b")), tie_words(("a", "b", "c", "d", "e"))
+    ('tied with a, b', 'tied with a, b, c and 2 more')
+    """
+    more = f" and {len(names) - named} more" if len(names) > named else ""
+    return f"tied with {', '.join(visible(name) for name in names[:named])}{more}"
 
 
 def file_name(path: str | None) -> str:

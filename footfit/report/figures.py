@@ -1,0 +1,121 @@
+"""The pictures' one look, and their bytes: SVG and PNG that are the same on every run."""
+
+from __future__ import annotations
+
+import io
+from collections.abc import Iterator
+from contextlib import contextmanager
+from typing import TYPE_CHECKING, Any
+
+from footfit.errors import BadOption
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
+
+INK = "#22303c"
+QUIET = "#8a97a3"
+PAPER = "#ffffff"
+FOOT = "#22303c"
+FILL = "#e9edf0"
+SERIES = ("#d55e00", "#0072b2", "#009e73", "#cc79a7", "#e69f00")
+"""Colours that the colour-blind tell apart (Okabe and Ito); each also has its own dash."""
+DASHES: tuple[Any, ...] = ("-", (0, (6, 2)), (0, (2, 1.5)), (0, (8, 2, 2, 2)), (0, (1, 1)))
+REAR_WINDOW, FORE_WINDOW = "#cfe3f2", "#fbe3c8"
+DIVERGING = "RdBu_r"
+"""Red for convex and for inward, blue for hollow and for outward; safe for the colour-blind."""
+SKIN = (0.86, 0.80, 0.74)
+
+_STYLE = {
+    "font.family": "DejaVu Sans",
+    "font.size": 9.0,
+    "axes.titlesize": 10.0,
+    "axes.titleweight": "bold",
+    "axes.titlelocation": "left",
+    "axes.edgecolor": QUIET,
+    "axes.labelcolor": INK,
+    "axes.titlecolor": INK,
+    "axes.spines.top": False,
+    "axes.spines.right": False,
+    "axes.linewidth": 0.8,
+    "xtick.color": QUIET,
+    "ytick.color": QUIET,
+    "xtick.labelcolor": INK,
+    "ytick.labelcolor": INK,
+    "text.color": INK,
+    "text.parse_math": False,
+    "figure.facecolor": PAPER,
+    "legend.frameon": False,
+    "legend.fontsize": 8.0,
+    "svg.hashsalt": "footfit",
+    "svg.fonttype": "path",
+}
+
+
+@contextmanager
+def house_style() -> Iterator[None]:
+    """The defaults of matplotlib and this look, whatever a user's own settings say."""
+    import matplotlib.style
+
+    with matplotlib.style.context(["default", _STYLE]):
+        yield
+
+
+def svg_text(figure: Figure) -> str:
+    """The figure as SVG: text as outlines, no date, no address of a program."""
+    target = io.BytesIO()
+    with house_style():
+        nothing = dict.fromkeys(("Date", "Creator", "Format", "Type"))
+        figure.savefig(target, format="svg", metadata=nothing)
+    return target.getvalue().decode("utf-8")
+
+
+def png_bytes(figure: Figure, dpi: int = 150) -> bytes:
+    """The figure as PNG."""
+    target = io.BytesIO()
+    with house_style():
+        figure.savefig(target, format="png", dpi=dpi, metadata={"Software": None})
+    return target.getvalue()
+
+
+def picture_bytes(figure: Figure, kind: str) -> bytes:
+    """The figure in the format ``kind``: "svg" or "png".
+
+    Raises
+    ------
+    BadOption
+        Another format is asked for.
+    """
+    if kind == "svg":
+        return svg_text(figure).encode("utf-8")
+    if kind == "png":
+        return png_bytes(figure)
+    raise BadOption(f"a picture is svg or png, not {kind!r}; end its name in .svg or .png")
+
+
+def scale_bar(
+    axes: Axes, length_mm: float = 50.0, place: tuple[float, float] = (0.03, 0.02)
+) -> None:
+    """A bar of ``length_mm`` in an axes whose data are mm, at ``place`` in axes fractions."""
+    left, right = axes.get_xlim()
+    bottom, top = axes.get_ylim()
+    x, y = left + place[0] * (right - left), bottom + place[1] * (top - bottom)
+    step = length_mm if right > left else -length_mm
+    axes.plot([x, x + step], [y, y], color=INK, linewidth=2.0, solid_capstyle="butt")
+    axes.annotate(
+        f"{length_mm:.0f} mm",
+        (x + step / 2, y),
+        xytext=(0, 3),
+        textcoords="offset points",
+        ha="center",
+        fontsize=8,
+    )
+
+
+def bare(axes: Axes) -> None:
+    """A drawing in true proportion: no ticks, no frame."""
+    axes.set_aspect("equal")
+    axes.set_xticks([])
+    axes.set_yticks([])
+    for spine in axes.spines.values():
+        spine.set_visible(False)

@@ -1,0 +1,46 @@
+"""Every picture as the bytes of a file; ``kind`` is "svg" or "png"."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from footfit.report.figures import picture_bytes
+
+if TYPE_CHECKING:
+    from footfit.geometry.arrays import Floats
+    from footfit.report.curvature_figure import Quantity
+    from footfit.report.match_figure import Shapes
+    from footfit.results import AlignedScan, Match, Profiled, SurfaceCurvature
+
+
+def frames_plot(scan: AlignedScan, kind: str) -> bytes:
+    """A mesh with its eigenvectors before and after: the paper's figures 1 and 2."""
+    from footfit.report.frames_figure import frames_figure
+
+    return picture_bytes(frames_figure(scan), kind)
+
+
+def flare_plot(profiled: Profiled, kind: str) -> bytes:
+    """The sole in plan with its centre line, the heading, and the curvature along it."""
+    from footfit.report.flare_figure import flare_figure
+
+    return picture_bytes(flare_figure(profiled), kind)
+
+
+def curvature_plot(
+    curvature: SurfaceCurvature,
+    kind: str,
+    canonical_transform: Floats | None = None,
+    quantity: Quantity = "mean",
+) -> bytes:
+    """A surface coloured by its curvature, from four sides."""
+    from footfit.report.curvature_figure import curvature_figure
+
+    return picture_bytes(curvature_figure(curvature, canonical_transform, quantity), kind)
+
+
+def match_plot(match: Match, kind: str, shapes: Shapes | None = None, foot: int = 0) -> bytes:
+    """One foot of a match against the best lasts."""
+    from footfit.report.match_figure import match_figure
+
+    return picture_bytes(match_figure(match, shapes, foot), kind)
