@@ -109,7 +109,7 @@ def diffusion(
     place[order] = np.arange(len(order))
     return Diffusion(
         order=order,
-        centre=-(1.0 + np.bincount(row, weights=weight, minlength=n)[order]),
+        centre=-1.0 - np.bincount(row, weights=weight, minlength=n).astype(np.float64)[order],
         columns=tuple(place[column[slot]] for slot in slots),
         weights=tuple(weight[slot] for slot in slots),
         coefficients=coefficients,
