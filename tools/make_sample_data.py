@@ -1,0 +1,194 @@
+"""Make sample_data/: lasts in assorted poses, their manifest, and feet copied as they are.
+
+    python -m tools.make_sample_data FEET [-o sample_data]
+
+FEET is the folder of CC0 feet that ``sample_data/README.md`` names. Same input, same bytes.
+"""
+
+from __future__ import annotations
+
+import argparse
+import csv
+import io
+import shutil
+from dataclasses import dataclass, replace
+from pathlib import Path
+
+import numpy as np
+
+from footfit.geometry.arrays import Floats
+from footfit.meshes.write import encoded_mesh
+from tools.lasts import LastSpec, last_mesh
+
+FEET = ("mh007_L.stl", "mh007_R.stl", "mh008_R.stl")
+COLUMNS = (
+    "path",
+    "name",
+    "style",
+    "size",
+    "size_system",
+    "width_label",
+    "side",
+    "units",
+    "heel_height_mm",
+)
+PARIS_POINT_MM = 20.0 / 3.0  # an EU size is the last's length in Paris points
+SHIFT_MM = 400.0
+
+
+@dataclass(frozen=True, slots=True)
+class Style:
+    """A family of lasts: its model in size 40, its width label, its (size, side, unit) lasts."""
+
+    name: str
+    model: LastSpec
+    width_label: str
+    lasts: tuple[tuple[int, str, str], ...]
+
+
+def size_length_mm(size: int) -> float:
+    """Length of a last of an EU size: the foot's length is 13.3 mm less, as 1.5 FL_cm + 2 says.
+
+    >>> round(size_length_mm(42), 3), round((size_length_mm(42) - 40 / 3) / 10 * 1.5 + 2, 9)
+    (280.0, 42.0)
+    """
+    return size * PARIS_POINT_MM
+
+
+MODEL = LastSpec(length_mm=size_length_mm(40), rings=58, segments=44)
+STYLES = (
+    Style(
+        "derby",
+        replace(MODEL, heel_height_mm=25.0, toe_spring_mm=11.0, flare_deg=6.0, ball_width_mm=96.0),
+        "G",
+        (
+            (38, "right", "mm"),
+            (39, "right", "mm"),
+            (40, "right", "mm"),
+            (41, "left", "mm"),
+            (43, "right", "mm"),
+        ),
+    ),
+    Style(
+        "loafer",
+        replace(
+            MODEL,
+            heel_height_mm=18.0,
+            toe_spring_mm=9.0,
+            flare_deg=9.5,
+            toe_shape="almond",
+            ball_width_mm=93.0,
+            heel_width_mm=65.0,
+            waist_width_mm=70.0,
+            arch_cut_mm=15.0,
+        ),
+        "F",
+        ((39, "right", "mm"), (40, "left", "mm"), (42, "right", "mm"), (43, "right", "mm")),
+    ),
+    Style(
+        "trainer",
+        replace(
+            MODEL,
+            heel_height_mm=10.0,
+            toe_spring_mm=15.0,
+            flare_deg=14.0,
+            ball_width_mm=101.0,
+            heel_width_mm=69.0,
+            waist_width_mm=78.0,
+            ridge_mm=7.0,
+            arch_cut_mm=9.0,
+        ),
+        "H",
+        (
+            (38, "right", "mm"),
+            (40, "right", "mm"),
+            (41, "right", "m"),
+            (42, "left", "mm"),
+            (43, "right", "mm"),
+        ),
+    ),
+)
+
+
+def sized(model: LastSpec, size: int) -> LastSpec:
+    """The model in an EU size: graded with its length, the heel and the toe spring kept."""
+    ratio = size_length_mm(size) / model.length_mm
+    grown = {
+        name: getattr(model, name) * ratio
+        for name in ("ball_width_mm", "heel_width_mm", "waist_width_mm", "ridge_mm", "arch_cut_mm")
+        if getattr(model, name) is not None
+    }
+    return replace(model, length_mm=size_length_mm(size), **grown)
+
+
+def posed(vertices_mm: Floats, rng: np.random.Generator) -> Floats:
+    """The vertices turned by a uniform random rotation and shifted."""
+    w, x, y, z = (q := rng.normal(size=4)) / np.linalg.norm(q)
+    turn = np.array(
+        [
+            [1 - 2 * (y * y + z * z), 2 * (x * y - z * w), 2 * (x * z + y * w)],
+            [2 * (x * y + z * w), 1 - 2 * (x * x + z * z), 2 * (y * z - x * w)],
+            [2 * (x * z - y * w), 2 * (y * z + x * w), 1 - 2 * (x * x + y * y)],
+        ]
+    )
+    moved: Floats = vertices_mm @ turn.T + rng.uniform(-SHIFT_MM, SHIFT_MM, 3)
+    return moved
+
+
+def last_files(style: Style, rng: np.random.Generator) -> list[tuple[dict[str, str], bytes]]:
+    """The manifest rows and file contents of a style's lasts."""
+    files = []
+    for size, side, units in style.lasts:
+        spec = sized(style.model, size)
+        vertices_mm, faces = last_mesh(replace(spec, side=side))  # type: ignore[arg-type]
+        vertices = posed(vertices_mm, rng) * {"mm": 1.0, "m": 1e-3}[units]
+        name = f"{style.name}-{size}"
+        values = (
+            f"lasts/{name}.stl",
+            name,
+            style.name,
+            str(size),
+            "eu",
+            style.width_label,
+            side,
+            units,
+            f"{spec.heel_height_mm:g}",
+        )
+        row = dict(zip(COLUMNS, values, strict=True))
+        files.append((row, encoded_mesh(vertices, faces, "stl")))
+    return files
+
+
+def manifest(rows: list[dict[str, str]]) -> str:
+    """The rows as CSV text."""
+    text = io.StringIO()
+    writer = csv.DictWriter(text, COLUMNS, lineterminator="\n")
+    writer.writeheader()
+    writer.writerows(rows)
+    return text.getvalue()
+
+
+def write_samples(feet: Path, folder: Path) -> None:
+    """Write lasts, manifest and feet into ``folder``."""
+    for name in ("lasts", "feet"):
+        (folder / name).mkdir(parents=True, exist_ok=True)
+    rng = np.random.default_rng(2)
+    files = [entry for style in STYLES for entry in last_files(style, rng)]
+    for row, content in files:
+        (folder / row["path"]).write_bytes(content)
+    (folder / "lasts.csv").write_text(manifest([row for row, _ in files]), encoding="utf-8")
+    for name in FEET:
+        shutil.copyfile(feet / name, folder / "feet" / name)
+
+
+def main() -> None:
+    """The command line."""
+    parser = argparse.ArgumentParser(description=(__doc__ or "").splitlines()[0])
+    parser.add_argument("feet", type=Path, help="the folder of CC0 feet")
+    parser.add_argument("-o", "--output", type=Path, default=Path("sample_data"))
+    given = parser.parse_args()
+    write_samples(given.feet, given.output)
+
+
+if __name__ == "__main__":
+    main()
