@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import hashlib
+from dataclasses import fields, is_dataclass, replace
 
 import numpy as np
 
@@ -112,3 +113,23 @@ def last(
 def mesh_copy(seed: int = 0, size: int = 2_000) -> MeshCopy:
     """Bytes in place of a compressed mesh."""
     return MeshCopy(np.random.default_rng(seed).bytes(size), faces=10_000, error_mm=0.12)
+
+
+def plain(value: object) -> object:
+    """A result as nested tuples: arrays become (shape, bytes), so that == is exact."""
+    if isinstance(value, np.ndarray):
+        return value.shape, value.astype("<f8").tobytes()
+    if is_dataclass(value):
+        return tuple((f.name, plain(getattr(value, f.name))) for f in fields(value))
+    if isinstance(value, dict):
+        return tuple((key, plain(value[key])) for key in sorted(value))
+    if isinstance(value, (tuple, list)):
+        return tuple(plain(item) for item in value)
+    return value
+
+
+def as_stored(record: LastRecord) -> LastRecord:
+    """A record as the catalogue gives it back, but for its paper transform: no folder is kept."""
+    path = record.info.path
+    name = None if path is None else path.rpartition("/")[2]
+    return replace(record, info=replace(record.info, path=name), paper_transform=None)

@@ -9,14 +9,12 @@ from __future__ import annotations
 
 import hashlib
 import json
-from collections.abc import Mapping, Sequence
 
-Value = None | int | float | str | bytes
-"""What SQLite stores in one field."""
-Row = Mapping[str, Value]
+Row = dict[str, int | float | str | bytes | None]
+"""One row by column, as SQLite stores it."""
 
 
-def digest(content: Mapping[str, Row | Sequence[Row] | None]) -> str:
+def digest(content: dict[str, Row | list[Row]]) -> str:
     """SHA-256 of rows as canonical JSON: sorted keys, a blob as its own SHA-256, no nulls.
 
     A null adds nothing, so that a column which a later schema adds leaves the hashes of older
@@ -35,10 +33,8 @@ def digest(content: Mapping[str, Row | Sequence[Row] | None]) -> str:
     return hashlib.sha256(text.encode("ascii")).hexdigest()
 
 
-def _without_nulls(rows: Row | Sequence[Row] | None) -> object:
-    if rows is None:
-        return None
-    if isinstance(rows, Mapping):
+def _without_nulls(rows: Row | list[Row]) -> object:
+    if isinstance(rows, dict):
         return {column: value for column, value in rows.items() if value is not None}
     return [_without_nulls(row) for row in rows]
 

@@ -50,6 +50,11 @@ def record_of(stored: StoredLast, names: Mapping[int, str]) -> LastRecord:
     )
 
 
+def definition_of_rows(stored: StoredLast) -> str:
+    """The text of the definition that a last's profile follows."""
+    return str(stored.flare["definition"]) if stored.flare else ""
+
+
 def eigenframe_of(frame: Fields) -> Eigenframe:
     """The paper's frame of a ``frame`` row."""
     return Eigenframe(

@@ -6,8 +6,11 @@ has (``docs/decisions/0060-reading-without-the-orm.md``).
 
 from __future__ import annotations
 
+from typing import ClassVar
+
 from sqlalchemy import (
     CheckConstraint,
+    Float,
     ForeignKey,
     Integer,
     LargeBinary,
@@ -29,7 +32,8 @@ class Base(DeclarativeBase):
     """All tables; constraints are named, since SQLite's batch migrations need their names."""
 
     metadata = MetaData(naming_convention=_NAMING)
-    type_annotation_map = {bytes: LargeBinary}  # noqa: RUF012  (SQLAlchemy's own way)
+    # Said, since SQLAlchemy's own choice for float changed from FLOAT to DOUBLE in 2.1.
+    type_annotation_map: ClassVar[dict[type, type]] = {bytes: LargeBinary, float: Float}
 
 
 def _owner() -> Mapped[int]:

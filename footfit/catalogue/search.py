@@ -4,12 +4,11 @@ from __future__ import annotations
 
 import sqlite3
 from collections import Counter
-from collections.abc import Callable
 from dataclasses import dataclass
 
 from footfit.catalogue.blobs import definition_text
-from footfit.catalogue.reading import last_names, stored_lasts
-from footfit.catalogue.records import record_of
+from footfit.catalogue.reading import StoredLast, last_names, stored_lasts
+from footfit.catalogue.records import definition_of_rows, record_of
 from footfit.geometry.flare import FlareDefinition
 from footfit.results import LastRecord
 
@@ -45,44 +44,50 @@ class SearchRows:
     outdated: tuple[str, ...]
 
 
-def all_records(connection: sqlite3.Connection) -> tuple[list[LastRecord], list[str]]:
-    """The records of all intact lasts, by name, and the names of the damaged ones."""
+def sorted_lasts(connection: sqlite3.Connection) -> tuple[list[StoredLast], list[str]]:
+    """The intact lasts by name, and the names of the damaged ones."""
+    lasts = stored_lasts(connection)
+    verdicts = [(stored, stored.intact) for stored in lasts]
+    intact = sorted((s for s, good in verdicts if good), key=lambda s: s.name)
+    return intact, sorted(s.name for s, good in verdicts if not good)
+
+
+def all_records(connection: sqlite3.Connection) -> list[LastRecord]:
+    """The records of all intact lasts, by name."""
     names = last_names(connection)
-    records, damaged = [], []
-    for stored in stored_lasts(connection):
-        if stored.intact:
-            records.append(record_of(stored, names))
-        else:
-            damaged.append(stored.name)
-    return sorted(records, key=lambda record: record.labels.name), sorted(damaged)
+    return [record_of(stored, names) for stored in sorted_lasts(connection)[0]]
 
 
 def search_rows(connection: sqlite3.Connection, filters: Filters) -> SearchRows:
     """The lasts that pass the filters and can be ranked."""
-    records, damaged = all_records(connection)
-    reasons = [rejection(record, filters) for record in records]
-    passed = [r for r, reason in zip(records, reasons, strict=True) if reason is None]
+    names = last_names(connection)
+    intact, damaged = sorted_lasts(connection)
     current = definition_text(FlareDefinition())
-    comparable = [definition_text(record.flare.definition) == current for record in passed]
+    records, outdated, rejected = [], [], []
+    for stored in intact:
+        record = record_of(stored, names)
+        reason = rejection(record, filters)
+        if reason is not None:
+            rejected.append(reason)
+        elif definition_of_rows(stored) != current:
+            outdated.append(record.labels.name)
+        else:
+            records.append(record)
     return SearchRows(
-        records=tuple(r for r, good in zip(passed, comparable, strict=True) if good),
-        rejected=tuple(sorted(Counter(reason for reason in reasons if reason).items())),
-        damaged=tuple(damaged),
-        outdated=tuple(
-            r.labels.name for r, good in zip(passed, comparable, strict=True) if not good
-        ),
+        tuple(records), tuple(sorted(Counter(rejected).items())), tuple(damaged), tuple(outdated)
     )
 
 
 def rejection(record: LastRecord, filters: Filters) -> str | None:
     """The first filter that a last does not pass, or None."""
-    passes: dict[str, Callable[[], bool]] = {
-        "style": lambda: _same(record.labels.style, filters.style),
-        "size_system": lambda: _same(record.labels.size_system, filters.size_system),
-        "sizes": lambda: _within(_size(record.labels.size), filters.sizes),
-        "length_mm": lambda: _within(record.length_mm, filters.length_mm),
+    labels = record.labels
+    passes = {
+        "style": _same(labels.style, filters.style),
+        "size_system": _same(labels.size_system, filters.size_system),
+        "sizes": _within(_size(labels.size), filters.sizes),
+        "length_mm": _within(record.length_mm, filters.length_mm),
     }
-    return next((name for name, passed in passes.items() if not passed()), None)
+    return next((name for name, passed in passes.items() if not passed), None)
 
 
 def _same(label: str | None, asked: str | None) -> bool:

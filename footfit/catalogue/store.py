@@ -87,7 +87,7 @@ class Catalogue:
     def records(self) -> tuple[LastRecord, ...]:
         """Every intact last, by name; :meth:`rows_for_search` also names the damaged ones."""
         with self.file.reading() as connection:
-            return tuple(all_records(connection)[0])
+            return tuple(all_records(connection))
 
     def rows_for_search(
         self,

@@ -1,0 +1,186 @@
+"""The schema: models, migrations and SQLite's settings say the same."""
+
+from __future__ import annotations
+
+import shutil
+import sqlite3
+from pathlib import Path
+
+import pytest
+
+from footfit.catalogue import schema as models
+from footfit.catalogue.engine import connected, engine_on
+from footfit.catalogue.marks import MARKS
+from footfit.catalogue.migrate import Schema, copy_path, migrations_folder
+from footfit.catalogue.store import open_catalogue
+from footfit.errors import CatalogueDamaged, CatalogueUnusable, NewerCatalogue
+from tests import records
+
+SECOND = '''
+"""A column more."""
+import sqlalchemy as sa
+from alembic import op
+
+revision = "0002"
+down_revision = "0001"
+
+
+def upgrade():
+    with op.batch_alter_table("last", recreate="always") as batch:
+        batch.add_column(sa.Column("colour", sa.String))
+    {then}
+'''
+
+
+@pytest.fixture
+def path(tmp_path: Path) -> Path:
+    """A catalogue of three lasts."""
+    place = tmp_path / "lasts.footfit"
+    with open_catalogue(place, write=True) as catalogue:
+        for seed in range(3):
+            catalogue.add(records.last(f"last-{seed}", seed), records.mesh_copy(seed))
+    return place
+
+
+def later_schema(folder: Path, then: str = "") -> Schema:
+    """A schema one revision on, in a copy of the migrations."""
+    shutil.copytree(migrations_folder(), folder, ignore=shutil.ignore_patterns("__pycache__"))
+    (folder / "versions" / "0002_colour.py").write_text(SECOND.format(then=then or "pass"))
+    return Schema(("0001", "0002"), folder)
+
+
+def test_the_migrations_make_what_the_models_say(path: Path) -> None:
+    from alembic.autogenerate import compare_metadata
+    from alembic.migration import MigrationContext
+
+    engine = engine_on(connected(path, "ro"))
+    with engine.connect() as connection:
+        context = MigrationContext.configure(connection, opts={"compare_type": True})
+        assert compare_metadata(context, models.Base.metadata) == []
+
+
+def test_names_of_keys_and_rules_agree_between_models_and_migrations(
+    path: Path, tmp_path: Path
+) -> None:
+    """Alembic compares no primary keys, checks or rules of deletion: SQLite's own words do."""
+    direct = sqlite3.connect(tmp_path / "direct.db")
+    direct.isolation_level = None
+    with engine_on(direct).connect() as connection, connection.begin():
+        models.Base.metadata.create_all(connection)
+    migrated = sqlite3.connect(path)
+    for table in models.Base.metadata.tables:
+        for pragma in ("table_info", "foreign_key_list", "index_list"):
+            select = f"PRAGMA {pragma}({table})"
+            assert migrated.execute(select).fetchall() == direct.execute(select).fetchall()
+    with pytest.raises(sqlite3.IntegrityError, match="CHECK"):
+        migrated.execute("INSERT INTO reference VALUES (2, 1, x'', x'', '')")
+
+
+def test_the_known_revisions_are_the_scripts() -> None:
+    from alembic.config import Config
+    from alembic.script import ScriptDirectory
+
+    config = Config()
+    config.set_main_option("script_location", str(migrations_folder()))
+    scripts = ScriptDirectory.from_config(config).walk_revisions()
+    assert tuple(reversed([script.revision for script in scripts])) == MARKS.revisions
+
+
+def test_the_marks_are_in_the_file(path: Path) -> None:
+    header = path.read_bytes()[:100]
+    assert header[68:72] == b"Foot"
+    assert int.from_bytes(header[60:64], "big") == int(MARKS.revisions[-1])
+    assert header[18:20] == b"\x01\x01", "a rollback journal: a WAL file cannot be copied alone"
+
+
+def test_the_settings_are_on(path: Path) -> None:
+    with open_catalogue(path, write=True) as catalogue, catalogue.file.atomic() as session:
+        for pragma, value in (
+            ("foreign_keys", 1),
+            ("synchronous", 3),
+            ("journal_mode", "delete"),
+            ("busy_timeout", 30_000),
+            ("trusted_schema", 0),
+        ):
+            assert session.connection().exec_driver_sql(f"PRAGMA {pragma}").scalar() == value
+        # BEGIN IMMEDIATE: nobody else can begin to write meanwhile.
+        other = connected(path, "rw", busy_timeout_s=0)
+        with pytest.raises(sqlite3.OperationalError, match="locked"):
+            other.execute("BEGIN IMMEDIATE")
+        other.close()
+
+
+def test_a_write_through_a_reader_is_impossible(path: Path) -> None:
+    with (
+        open_catalogue(path) as catalogue,
+        pytest.raises(sqlite3.OperationalError, match="readonly"),
+    ):
+        catalogue.file.connection.execute("DELETE FROM notice")
+
+
+def test_an_older_schema_is_upgraded_with_a_copy_beside(path: Path, tmp_path: Path) -> None:
+    before = path.read_bytes()
+    with open_catalogue(path) as catalogue:
+        old = [str(record) for record in catalogue.records()]
+    newer = later_schema(tmp_path / "migrations")
+    with (
+        pytest.raises(CatalogueUnusable, match="upgrade-catalogue"),
+        open_catalogue(path, schema=newer),
+    ):
+        pass
+    assert path.read_bytes() == before
+    with open_catalogue(path, write=True, schema=newer) as catalogue:
+        assert catalogue.facts().schema_revision == "0002"
+        assert catalogue.findings() == [], "a column more leaves every hash as it was"
+        assert [str(record) for record in catalogue.records()] == old
+        assert catalogue.facts().mesh_copies == 3, "foreign keys on would have deleted them"
+    with open_catalogue(copy_path(path, "0001")) as copy:
+        assert [str(record) for record in copy.records()] == old
+        assert copy.findings() == []
+
+
+@pytest.mark.parametrize(
+    "fault",
+    [
+        "raise RuntimeError('half way')",
+        "op.execute('DELETE FROM last WHERE id = 2')",  # leaves rows without their last
+    ],
+)
+def test_an_upgrade_that_fails_leaves_the_old(path: Path, tmp_path: Path, fault: str) -> None:
+    before = path.read_bytes()
+    newer = later_schema(tmp_path / "migrations", fault)
+    with (
+        pytest.raises((RuntimeError, CatalogueDamaged)),
+        open_catalogue(path, write=True, schema=newer),
+    ):
+        pass
+    assert path.read_bytes() == before
+    with open_catalogue(path) as catalogue:
+        assert catalogue.findings() == []
+
+
+@pytest.mark.parametrize("write", [False, True])
+@pytest.mark.parametrize(
+    "edit", ["PRAGMA user_version = 7", "UPDATE alembic_version SET version_num = '0007'"]
+)
+def test_a_newer_catalogue_is_refused_untouched(path: Path, write: bool, edit: str) -> None:
+    other = sqlite3.connect(path)
+    other.execute(edit)
+    other.commit()
+    other.close()
+    before = path.read_bytes()
+    with pytest.raises(NewerCatalogue) as caught, open_catalogue(path, write=write):
+        pass
+    assert "0007" in str(caught.value)
+    assert MARKS.revisions[-1] in str(caught.value)
+    assert path.read_bytes() == before
+    assert list(path.parent.iterdir()) == [path]
+
+
+def test_a_revision_that_never_was_is_damage(path: Path) -> None:
+    other = sqlite3.connect(path)
+    other.execute("UPDATE alembic_version SET version_num = '0q01'")
+    other.commit()
+    other.close()
+    with pytest.raises(CatalogueDamaged, match="0q01"), open_catalogue(path):
+        pass

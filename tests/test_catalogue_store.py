@@ -1,0 +1,375 @@
+"""Lasts in, lasts out: every verb of the catalogue, and what it leaves when it fails."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+from hypothesis import HealthCheck, given, settings
+from hypothesis import strategies as st
+
+from footfit.catalogue import references
+from footfit.catalogue.store import Catalogue, open_catalogue
+from footfit.errors import BadOption, CatalogueDamaged, NameTaken, UnknownLast
+from footfit.results import LastRecord, Measure, Measured, Notice
+from tests import records
+
+SIDES = ("left", "right")
+
+
+@pytest.fixture
+def path(tmp_path: Path) -> Path:
+    """Where a catalogue is to be."""
+    return tmp_path / "a folder" / "lasts.footfit"
+
+
+@pytest.fixture
+def catalogue(path: Path) -> Iterator[Catalogue]:
+    """A catalogue open for writing, with four lasts of both sides."""
+    with open_catalogue(path, write=True) as opened:
+        for seed in range(4):
+            side = SIDES[seed % 2]
+            opened.add(records.last(f"last-{seed}", seed, side=side), records.mesh_copy(seed))
+        yield opened
+
+
+def content(catalogue: Catalogue) -> list[object]:
+    """All that a catalogue holds, in a form that can be compared."""
+    copies = [catalogue.mesh_copy(name) for name in catalogue.names()]
+    return [records.plain(value) for value in (catalogue.records(), catalogue.reference(), copies)]
+
+
+def test_what_is_added_comes_back_but_for_its_folder(catalogue: Catalogue) -> None:
+    for seed in range(4):
+        given_last = records.last(f"last-{seed}", seed, side=SIDES[seed % 2])
+        found = catalogue.record(f"last-{seed}")
+        assert found.paper_transform is not None
+        assert records.plain(records.as_stored(found)) == records.plain(
+            records.as_stored(given_last)
+        )
+        assert found.info.path == f"last-{seed}.stl"
+        assert catalogue.mesh_copy(f"last-{seed}") == records.mesh_copy(seed)
+        assert catalogue.by_content(given_last.info.sha256) == f"last-{seed}"
+    assert catalogue.by_content("0" * 64) is None
+    assert catalogue.findings() == []
+
+
+@settings(deadline=None, max_examples=25, suppress_health_check=list(HealthCheck))
+@given(
+    words=st.lists(st.text(max_size=12), min_size=4, max_size=4),
+    heel=st.floats(-1e9, 1e9),
+    value=st.one_of(st.none(), st.floats(allow_nan=False)),
+    row=st.lists(st.floats(width=64), min_size=3, max_size=3),
+)
+def test_any_label_and_number_survives(
+    tmp_path_factory: pytest.TempPathFactory,
+    words: list[str],
+    heel: float,
+    value: float | None,
+    row: list[float],
+) -> None:
+    """Also control characters, quotes and NUL in text, infinities and NaN in arrays."""
+    words = [word.encode("utf-8", "ignore").decode("utf-8") for word in words]
+    base = records.last("x" + words[0], style=words[1], family=words[2], heel_height_mm=heel)
+    measures = (Measure("ball_width", Measured(value, None, words[3] or None), "ball/1"),)
+    frame = replace(base.eigenframe, eigenvalues_mm2=np.array(row))
+    asked = replace(base, measures=measures, eigenframe=frame, warnings=(Notice("said", words[3]),))
+    with open_catalogue(tmp_path_factory.mktemp("any") / "c", write=True) as opened:
+        opened.add(asked)
+        found = opened.record(asked.labels.name)
+        assert opened.findings() == []
+    assert records.plain(records.as_stored(found)) == records.plain(records.as_stored(asked))
+
+
+def test_what_cannot_be_measured_comes_back_so(catalogue: Catalogue) -> None:
+    flare = replace(records.profile(), angle_deg=float("nan"), angle_sd_deg=float("nan"))
+    flare.curvature["bottom_surface"] = None
+    catalogue.replace(replace(records.last("last-1", 1), flare=flare))
+    found = catalogue.record("last-1")
+    assert np.isnan(found.flare.angle_deg)
+    assert np.isnan(found.flare.angle_sd_deg)
+    assert found.flare.curvature["bottom_surface"] is None
+    assert catalogue.findings() == []
+
+
+def test_the_first_last_is_the_reference(path: Path) -> None:
+    with open_catalogue(path, write=True) as opened:
+        assert opened.reference() is None
+        opened.add(records.last("first", 7))
+        opened.add(records.last("second", 8))
+        reference = opened.reference()
+        assert reference is not None
+        assert reference.last == "first"
+        # Its own eigenframe turned by its own OM_E is its canonical frame: a rotation apart.
+        found = opened.record("first")
+        assert found.paper_transform is not None
+        np.testing.assert_allclose(found.paper_transform, found.canonical_transform, atol=1e-9)
+
+
+@pytest.mark.parametrize("name", ["last-0", "last-1"])
+def test_set_reference_expresses_every_last_by_it(catalogue: Catalogue, name: str) -> None:
+    """Eq. 8 on points: OM_E R (x - P_c) plus the reference's centroid, left ones mirrored first."""
+    reference = catalogue.set_reference(name)
+    assert reference.last == name
+    np.testing.assert_allclose(reference.om_e @ reference.om_e.T, np.eye(3), atol=1e-12)
+    assert np.linalg.det(reference.om_e) == pytest.approx(1.0)
+    for record in catalogue.records():
+        transform = record.paper_transform
+        assert transform is not None
+        frame, scale = record.eigenframe, record.info.unit_scale
+        left = record.side.side == "left"
+        mirror = np.diag([-1.0, 1.0, 1.0]) if left else np.eye(3)
+        centroid = mirror @ frame.centroid_mm / scale
+        np.testing.assert_allclose(
+            transform[:3, :3] @ centroid + transform[:3, 3], reference.centroid_mm, atol=1e-9
+        )
+        # Each eigenvector, mirrored with its mesh, comes to lie along OM_E's column.
+        turned = (transform[:3, :3] / scale) @ (frame.eigenvectors @ mirror).T
+        np.testing.assert_allclose(
+            np.abs(np.einsum("ij,ij->j", turned, reference.om_e)), 1.0, atol=1e-9
+        )
+        assert np.linalg.det(transform[:3, :3]) > 0
+    assert catalogue.findings() == []
+
+
+def test_a_new_last_is_expressed_by_the_reference_that_is_set(
+    catalogue: Catalogue, path: Path
+) -> None:
+    catalogue.add(records.last("late", 9))
+    once = catalogue.record("late").paper_transform
+    reference = catalogue.reference()
+    assert reference is not None
+    catalogue.set_reference(reference.last)
+    again = catalogue.record("late").paper_transform
+    assert once is not None
+    assert again is not None
+    assert once.tobytes() == again.tobytes()
+
+
+def test_a_fault_in_the_middle_of_set_reference_leaves_the_old(
+    catalogue: Catalogue, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    before, calls = content(catalogue), []
+
+    def failing(*given: object) -> object:
+        calls.append(given)
+        if len(calls) == 3:
+            raise KeyboardInterrupt
+        return real(*given)  # type: ignore[arg-type]
+
+    real = references.expressed
+    monkeypatch.setattr(references, "expressed", failing)
+    with pytest.raises(KeyboardInterrupt):
+        catalogue.set_reference("last-2")
+    monkeypatch.undo()
+    assert len(calls) == 3
+    assert content(catalogue) == before
+    assert catalogue.findings() == []
+
+
+def test_a_fault_in_the_middle_of_an_add_leaves_no_half_last(
+    catalogue: Catalogue, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    before = content(catalogue)
+    from footfit.catalogue import editing
+
+    def failing(*given: object) -> None:
+        raise RuntimeError("after its rows were written")
+
+    monkeypatch.setattr(editing, "express_new", failing)
+    with pytest.raises(RuntimeError):
+        catalogue.add(records.last("half", 9), records.mesh_copy(9))
+    with pytest.raises(RuntimeError):
+        catalogue.replace(records.last("last-1", 9), records.mesh_copy(9))
+    monkeypatch.undo()
+    assert content(catalogue) == before
+    assert catalogue.findings() == []
+
+
+def test_a_name_or_a_content_that_is_there_is_refused(catalogue: Catalogue) -> None:
+    before = content(catalogue)
+    with pytest.raises(NameTaken, match=r"last-1.*--replace"):
+        catalogue.add(records.last("last-1", 9))
+    with pytest.raises(NameTaken, match="as 'last-1'"):
+        catalogue.add(records.last("other", 1))
+    with pytest.raises(NameTaken, match="as 'last-1'"):
+        catalogue.replace(records.last("last-2", 1))
+    assert content(catalogue) == before
+
+
+def test_the_same_lasts_in_the_same_order_are_the_same_catalogue(tmp_path: Path) -> None:
+    places = [tmp_path / "one", tmp_path / "two"]
+    for place in places:
+        with open_catalogue(place, write=True) as opened:
+            for seed in range(3):
+                opened.add(records.last(f"last-{seed}", seed), records.mesh_copy(seed))
+            opened.set_reference("last-2")
+    one, two = (place.read_bytes() for place in places)
+    assert one == two
+
+
+def test_replacing_keeps_what_points_to_a_last(catalogue: Catalogue) -> None:
+    catalogue.add(records.last("graded", 9, parent="last-1", family="derby"))
+    catalogue.replace(records.last("last-1", 10, side="left"), records.mesh_copy(10))
+    assert catalogue.record("graded").labels.parent == "last-1"
+    assert catalogue.record("last-1").length_mm == records.last(seed=10).length_mm
+    assert catalogue.mesh_copy("last-1") == records.mesh_copy(10)
+    catalogue.replace(records.last("new", 11))
+    assert "new" in catalogue.names()
+    assert catalogue.findings() == []
+
+
+def test_replacing_the_reference_expresses_all_by_the_new_scan(catalogue: Catalogue) -> None:
+    old = catalogue.reference()
+    catalogue.replace(records.last("last-0", 12))
+    new = catalogue.reference()
+    assert old is not None
+    assert new is not None
+    assert new.last == "last-0"
+    assert not np.allclose(new.om_e, old.om_e)
+    assert catalogue.findings() == [], "every paper transform follows the new OM_E"
+
+
+def test_the_reference_and_a_parent_are_not_removed(catalogue: Catalogue) -> None:
+    catalogue.add(records.last("graded", 9, parent="last-1"))
+    before = content_without_meshes(catalogue)
+    with pytest.raises(BadOption, match="set-reference"):
+        catalogue.remove("last-0")
+    with pytest.raises(BadOption, match="parent of 'graded'"):
+        catalogue.remove("last-1")
+    assert content_without_meshes(catalogue) == before
+    catalogue.remove("graded")
+    catalogue.remove("last-1")
+    assert catalogue.names() == ("last-0", "last-2", "last-3")
+    assert catalogue.findings() == []
+
+
+def content_without_meshes(catalogue: Catalogue) -> object:
+    return records.plain((catalogue.records(), catalogue.reference()))
+
+
+def test_removing_takes_every_row_of_a_last(catalogue: Catalogue) -> None:
+    catalogue.remove("last-2")
+    with catalogue.file.reading() as connection:
+        for table in ("frame", "flare", "measure", "notice", "mesh_copy"):
+            select = f"SELECT count(DISTINCT last_id) FROM {table}"
+            assert connection.execute(select).fetchone() == (3,)
+
+
+def test_renaming(catalogue: Catalogue) -> None:
+    catalogue.add(records.last("graded", 9, parent="last-0"))
+    catalogue.rename("last-0", "first model")
+    reference = catalogue.reference()
+    assert reference is not None
+    assert reference.last == "first model"
+    assert catalogue.record("graded").labels.parent == "first model"
+    with pytest.raises(NameTaken):
+        catalogue.rename("last-1", "last-2")
+    with pytest.raises(UnknownLast, match="nearest is 'last-1'"):
+        catalogue.rename("last1", "x")
+    catalogue.rename("last-1", "last-1")
+    assert catalogue.findings() == []
+
+
+@pytest.mark.parametrize("name", ["", "  ", "\udcff"])
+def test_a_name_that_cannot_be_stored_is_refused(catalogue: Catalogue, name: str) -> None:
+    with pytest.raises(BadOption, match="--name"):
+        catalogue.add(records.last(name, 9))
+    with pytest.raises(BadOption, match="--name"):
+        catalogue.rename("last-1", name)
+    with pytest.raises(UnknownLast):
+        catalogue.record(name)
+
+
+def test_a_file_name_that_is_no_utf8_is_kept_readable(catalogue: Catalogue) -> None:
+    scan = records.last("odd", 9)
+    catalogue.add(replace(scan, info=replace(scan.info, path="/x/\udcff.stl")))
+    assert catalogue.record("odd").info.path == "\\udcff.stl"
+
+
+def test_a_parent_must_be_there_and_no_descendant(catalogue: Catalogue) -> None:
+    with pytest.raises(UnknownLast, match="nothing"):
+        catalogue.add(records.last("graded", 9, parent="nothing"))
+    catalogue.add(records.last("child", 9, parent="last-1"))
+    catalogue.add(records.last("grandchild", 10, parent="child"))
+    with pytest.raises(BadOption, match="descends"):
+        catalogue.replace(records.last("last-1", 1, parent="grandchild"))
+    with pytest.raises(BadOption, match="descends"):
+        catalogue.replace(records.last("last-1", 1, parent="last-1"))
+
+
+def test_a_profile_made_anew_says_what_it_replaces(catalogue: Catalogue) -> None:
+    flare, measures = records.profile(77), records.last(seed=78).measures
+    catalogue.update_profile("last-1", flare, upgraded_from="flare/0")
+    found = catalogue.record("last-1")
+    assert records.plain(found.flare) == records.plain(flare)
+    assert found.upgraded_from == "flare/0"
+    assert found.measures == records.last("last-1", 1).measures
+    catalogue.update_profile("last-1", flare, measures=measures)
+    assert catalogue.record("last-1").measures == measures
+    assert catalogue.record("last-1").upgraded_from is None
+    assert catalogue.findings() == []
+
+
+def test_a_mesh_that_was_not_stored_is_said(catalogue: Catalogue) -> None:
+    catalogue.add(records.last("bare", 9))
+    with pytest.raises(UnknownLast, match="without its mesh"):
+        catalogue.mesh_copy("bare")
+
+
+def test_facts_count_what_is_there(catalogue: Catalogue, path: Path) -> None:
+    catalogue.add(records.last("bare", 9, style=None))
+    facts = catalogue.facts()
+    assert facts.path == str(path)
+    assert facts.bytes == path.stat().st_size
+    assert (facts.lasts, facts.reference, facts.schema_revision) == (5, "last-0", "0001")
+    assert facts.definitions == ((records.profile().definition.version, 5),)
+    assert facts.styles == (("", 1), ("boot", 1), ("oxford", 2), ("trainer", 1))
+    assert facts.sides == (("left", 2), ("right", 3))
+    assert (facts.mesh_copies, facts.mesh_copy_bytes) == (4, 8_000)
+    assert facts.worst_copy_error_mm == 0.12
+
+
+def test_no_folder_and_no_user_is_in_the_file(catalogue: Catalogue, path: Path) -> None:
+    assert b"somebody" not in path.read_bytes()
+
+
+def damage(catalogue: Catalogue, name: str) -> None:
+    """Change a value of a last behind footfit's back."""
+    catalogue.file.connection.execute("UPDATE last SET size = '99' WHERE name = ?", (name,))
+
+
+def test_damage_is_never_sealed_as_sound(catalogue: Catalogue) -> None:
+    damage(catalogue, "last-1")
+    for write in (
+        lambda: catalogue.set_reference("last-2"),
+        lambda: catalogue.rename("last-1", "x"),
+        lambda: catalogue.update_profile("last-1", records.profile()),
+        lambda: catalogue.record("last-1"),
+    ):
+        with pytest.raises(CatalogueDamaged, match="'last-1'"):
+            write()
+    assert [finding.last for finding in catalogue.findings()] == ["last-1"]
+
+
+def test_the_same_file_again_cures_a_damaged_last(catalogue: Catalogue) -> None:
+    damage(catalogue, "last-1")
+    with pytest.raises(NameTaken):
+        catalogue.add(records.last("last-1", 9))
+    catalogue.add(records.last("last-1", 1, side="left"), records.mesh_copy(1))
+    assert catalogue.findings() == []
+    damage(catalogue, "last-2")
+    catalogue.remove("last-2")
+    assert catalogue.findings() == []
+
+
+def test_a_record_is_plain_and_can_be_pickled(catalogue: Catalogue) -> None:
+    import pickle
+
+    record = catalogue.record("last-1")
+    copy = pickle.loads(pickle.dumps(record))
+    assert isinstance(copy, LastRecord)
+    assert records.plain(copy) == records.plain(record)
