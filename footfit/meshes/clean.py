@@ -27,7 +27,7 @@ class CleanSettings:
     Attributes
     ----------
     sliver : float
-        A face whose area is below this share of the squared diagonal has none.
+        A face whose area is below this share of the mean area has none.
     loose_ratio : float
         More vertices per face than this after the exact weld (a closed surface has 0.5) and the
         corners were rounded apart: they are welded once more within the tolerance below.
@@ -38,7 +38,7 @@ class CleanSettings:
         on; a smaller open patch is judged from the whole's.
     """
 
-    sliver: float = 1e-15
+    sliver: float = 1e-12
     loose_ratio: float = 1.2
     near_extent: float = 1e-5
     near_coordinate: float = 5e-7
@@ -86,16 +86,12 @@ def cleaned(vertices: Floats, faces: Ints, settings: CleanSettings = CLEAN_SETTI
     EmptyMesh
         No face has an area.
     """
-    diagonal = float(np.linalg.norm([np.ptp(column) for column in vertices.T]))
-    vertices, faces, source, notices = _welded(vertices, faces, diagonal, settings)
-    distinct = has_distinct_corners(faces)
-    faces, collapsed = faces[distinct], int((~distinct).sum())
-    once = _first_of_equals(faces)
-    faces, doubled = faces[once], int((~once).sum())
-    notices += _counted("duplicates_removed", doubled, "faces stood in the file twice")
+    vertices, faces, source, notices = _welded(vertices, faces, settings)
+    faces, collapsed, found = _each_once(faces)
+    notices += found
     vectors = area_vectors(vertices, faces)
     areas = np.sqrt(np.einsum("ij,ij->i", vectors, vectors))
-    flat = areas <= settings.sliver * diagonal**2
+    flat = areas <= settings.sliver * areas.mean() if len(areas) else areas == 0.0
     if flat.all():
         raise EmptyMesh("no triangle of the file has an area: export the mesh again")
     labels = face_components(faces, len(vertices))
@@ -112,18 +108,30 @@ def cleaned(vertices: Floats, faces: Ints, settings: CleanSettings = CLEAN_SETTI
     return Cleaned(vertices, faces, source, watertight, notices + found)
 
 
+def _each_once(faces: Ints) -> tuple[Ints, int, tuple[Notice, ...]]:
+    """Faces of three different vertices, each once; how many had collapsed; what to say."""
+    distinct = has_distinct_corners(faces)
+    faces, collapsed = faces[distinct], int((~distinct).sum())
+    once = _first_of_equals(faces)
+    doubled = int((~once).sum())
+    notices = _counted("duplicates_removed", doubled, "faces stood in the file twice")
+    return faces[once], collapsed, notices
+
+
 def _counted(code: str, count: int, words: str) -> tuple[Notice, ...]:
     return (Notice(code, f"{count:,} {words}"),) if count else ()
 
 
 def _welded(
-    vertices: Floats, faces: Ints, diagonal: float, settings: CleanSettings
+    vertices: Floats, faces: Ints, settings: CleanSettings
 ) -> tuple[Floats, Ints, Ints, tuple[Notice, ...]]:
     """The exact weld, and where it leaves the faces apart the weld of nearly equal corners."""
     points, joined, source = welded(vertices, faces)
     if len(points) <= settings.loose_ratio * len(faces):
         return points, joined, source, ()
-    far = float(np.abs(points).max())
+    corners = points[np.unique(joined)]
+    diagonal = float(np.linalg.norm(np.ptp(corners, axis=0)))
+    far = float(np.abs(corners).max())
     tolerance = max(settings.near_extent * diagonal, settings.near_coordinate * far)
     if not tolerance > 0.0:
         return points, joined, source, ()
