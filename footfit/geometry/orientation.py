@@ -20,6 +20,7 @@ from footfit.geometry.pose_fit import (
     joined,
     levelled,
     reverse_cost,
+    size_of,
 )
 from footfit.geometry.reference_shapes import ReferenceShape, ReferenceShapes, Singles
 from footfit.geometry.rotations import nearest_rotation, super_fibonacci
@@ -169,13 +170,23 @@ def _searched(
     points, normals, fit = cloud.few, cloud.few_normals, settings.fit
     poses = levelled(rotations, points, shape.middle_y, fit)
     costs = forward_costs(poses, points, normals, shape, fit)
-    costs = costs + fit.implausible_cost * ~plausible(1 / poses.scale, windows)
+    limits = _limits(points, windows, fit)
+    costs = costs + fit.implausible_cost * ~plausible(1 / poses.scale, limits)
     best = np.argsort(costs, kind="stable")[: settings.kept_coarse]
     poses = icp_steps(poses.at(best), points, normals, shape, settings.icp_steps, fit)
     costs = forward_costs(poses, points, normals, shape, fit)
-    costs = costs + fit.implausible_cost * ~plausible(1 / poses.scale, windows)
+    costs = costs + fit.implausible_cost * ~plausible(1 / poses.scale, limits)
     apart = _apart(poses, costs, settings)
     return poses.at(apart), costs[apart]
+
+
+def _limits(
+    points: Singles, windows: tuple[tuple[float, float], ...], fit: FitSettings
+) -> tuple[tuple[float, float], ...]:
+    """The windows, without the lengths for which nearly all of the mesh would be leg."""
+    least = 1.001 * fit.least_length * size_of(points)
+    whole = windows or ((0.0, np.inf),)
+    return tuple((max(low, least), high) for low, high in whole)
 
 
 def plausible(lengths: Floats | Singles, windows: tuple[tuple[float, float], ...]) -> Bools:

@@ -10,7 +10,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from footfit.geometry.arrays import Bools, Ints
+from footfit.geometry.arrays import Bools, Floats, Ints
 from footfit.geometry.reference_shapes import ReferenceShape, Singles
 from footfit.geometry.rotations import turned_by
 
@@ -24,13 +24,14 @@ class FitSettings:
     leg_height: float = 0.42  # above it a point costs at most leg_cost: any leg is harmless
     leg_cost: float = 0.45
     low_height: float = 0.35  # the part that gives length and shift in the coarse search
-    least_length: float = 0.02  # of the mesh's own extent: a pose never shrinks the mesh to a point
+    least_length: float = 0.25  # of the mesh's size: else a pose would call nearly all of it leg
     implausible_cost: float = 0.6
     icp_height: float = 0.47
     icp_quantile: float = 0.85
     normal_floor: float = 0.05
     point_weight: float = 0.15
     max_turn: float = 0.35
+    max_shift: float = 0.20
     max_scale_step: float = 0.07
     scale_range: tuple[float, float] = (0.70, 1.35)
 
@@ -87,6 +88,12 @@ def forward_costs(
     return np.asarray(costs.mean(axis=1))
 
 
+def size_of(points: Singles) -> float:
+    """About the greatest extent of points (n, 3), in whatever pose."""
+    away = points - points.mean(axis=0)
+    return 2 * float(np.sqrt(np.einsum("ij,ij->i", away, away).max()))
+
+
 def levelled(rotations: Singles, points: Singles, middle_y: float, settings: FitSettings) -> Poses:
     """Poses with given rotations; length and shift come from the mesh's low part, in two rounds."""
     x, y, z = np.moveaxis(points @ rotations.transpose(0, 2, 1), 2, 0)
@@ -94,13 +101,13 @@ def levelled(rotations: Singles, points: Singles, middle_y: float, settings: Fit
     height = z - ground[:, None]
     back, front = x.min(axis=1), x.max(axis=1)
     low = np.ones(x.shape, dtype=bool)
+    least = np.float32(settings.least_length * size_of(points))
     for _ in range(2):
-        low = height < settings.low_height * (front - back)[:, None]
+        low = height < settings.low_height * np.maximum(front - back, least)[:, None]
         back = np.where(low, x, np.inf).min(axis=1)
         front = np.where(low, x, -np.inf).max(axis=1)
     left = np.where(low, y, -np.inf).max(axis=1)
     right = np.where(low, y, np.inf).min(axis=1)
-    least = settings.least_length * np.ptp(points)
     scale = 1 / np.maximum(front - back, least)
     shift = -np.stack([back, (left + right) / 2, ground], axis=1) * scale[:, None]
     shift[:, 1] += middle_y
@@ -131,7 +138,7 @@ def icp_steps(
 
 def _gauss_newton(
     poses: Poses, points: Singles, normals: Singles, shape: ReferenceShape, settings: FitSettings
-) -> Singles:
+) -> Floats:
     """The step (k, 7) in turn, shift and logarithm of the scale, about the reference's origin."""
     q = moved(poses, points)
     turned = normals @ poses.rotation.transpose(0, 2, 1)
@@ -164,13 +171,18 @@ def _gauss_newton(
     return np.asarray(-np.linalg.solve(matrix, normal[:, :7, 7:])[..., 0])
 
 
-def _stepped(poses: Poses, step: Singles, settings: FitSettings) -> Poses:
-    turn = step[:, :3]
-    size = np.linalg.norm(turn, axis=1, keepdims=True)
-    turn = turn * np.minimum(1, settings.max_turn / np.maximum(size, 1e-12))
-    small = turned_by(turn.astype(np.float64)).astype(np.float32)
-    growth = np.exp(np.clip(step[:, 6], -settings.max_scale_step, settings.max_scale_step))
-    growth = growth.astype(np.float32)
+def _stepped(poses: Poses, step: Floats, settings: FitSettings) -> Poses:
+    """The poses after one step, shortened as a whole where a part of it is too long."""
+    size = np.stack(
+        [
+            np.linalg.norm(step[:, :3], axis=1) / settings.max_turn,
+            np.linalg.norm(step[:, 3:6], axis=1) / settings.max_shift,
+            np.abs(step[:, 6]) / settings.max_scale_step,
+        ]
+    ).max(axis=0)
+    step = step / np.maximum(size, 1.0)[:, None]
+    small = turned_by(step[:, :3]).astype(np.float32)
+    growth = np.exp(step[:, 6]).astype(np.float32)
     shift = growth[:, None] * np.einsum("kij,kj->ki", small, poses.shift) + step[:, 3:6]
     return Poses(small @ poses.rotation, shift.astype(np.float32), poses.scale * growth)
 
