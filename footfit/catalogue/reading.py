@@ -17,8 +17,8 @@ from footfit.errors import CatalogueDamaged, UnknownLast
 Fields = dict[str, Any]
 """One row by column, as the driver gives it: None, int, float, str or bytes."""
 
-UNHASHED = frozenset({"id", "last_id", "record_sha256", "sha256"})
-"""Columns outside of the hashes: the hashes themselves, and keys, which foreign keys check."""
+UNHASHED = frozenset({"id", "last_id", "record_sha256"})
+"""Columns outside of a last's hash: the hash itself, and keys, which foreign keys check."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -64,9 +64,9 @@ def _hashed(row: Fields | None) -> Fields:
 def hashed_row(row: Fields) -> str:
     """The hash of one row that stands by itself: a mesh copy, the reference.
 
-    The key of the last counts here, so that a row cannot pass for another last's.
+    Its keys count here, so that it cannot pass for another last's.
     """
-    return digest({"row": {**_hashed(row), "last_id": row["last_id"]}})
+    return digest({"row": {column: value for column, value in row.items() if column != "sha256"}})
 
 
 def rows(connection: sqlite3.Connection, table: str, last_id: int | None = None) -> list[Fields]:

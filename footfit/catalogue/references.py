@@ -14,6 +14,7 @@ from footfit.catalogue.reading import (
     StoredLast,
     hashed_row,
     last_names,
+    rows,
     stored_lasts,
 )
 from footfit.catalogue.records import eigenframe_of
@@ -34,17 +35,17 @@ def stored_reference(connection: sqlite3.Connection) -> tuple[int, Reference] | 
     CatalogueDamaged
         Its row is not what was stored.
     """
-    row = connection.execute("SELECT last_id, om_e, centroid_mm, sha256 FROM reference").fetchone()
-    if row is None:
+    found = rows(connection, "reference")
+    if not found:
         return None
-    fields: Fields = dict(zip(("last_id", "om_e", "centroid_mm", "sha256"), row, strict=True))
-    if fields["sha256"] != hashed_row(fields):
+    row = found[0]
+    name = last_names(connection).get(row["last_id"])
+    if name is None or row["sha256"] != hashed_row(row):
         raise CatalogueDamaged(
             "has a damaged reference; type: footfit set-reference LAST, which makes it anew"
         )
-    name = last_names(connection)[fields["last_id"]]
-    return fields["last_id"], Reference(
-        name, array_of(fields["om_e"], 3, 3), array_of(fields["centroid_mm"])
+    return row["last_id"], Reference(
+        name, array_of(row["om_e"], 3, 3), array_of(row["centroid_mm"])
     )
 
 

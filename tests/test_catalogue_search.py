@@ -1,0 +1,114 @@
+"""What matching reads: the lasts that pass, no mesh, no SQLAlchemy."""
+
+from __future__ import annotations
+
+import sqlite3
+import subprocess
+import sys
+from collections.abc import Iterator
+from dataclasses import replace
+from pathlib import Path
+
+import pytest
+
+from footfit.catalogue.search import Filters, rejection
+from footfit.catalogue.store import Catalogue, open_catalogue
+from tests import records
+
+LASTS = 12
+
+
+@pytest.fixture(scope="module")
+def path(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """A catalogue whose lasts are added in no order of names."""
+    place = tmp_path_factory.mktemp("search") / "lasts.footfit"
+    with open_catalogue(place, write=True) as catalogue:
+        for seed in (7, 2, 11, 0, 5, 9, 1, 3, 10, 4, 8, 6):
+            catalogue.add(records.last(f"last-{seed:02d}", seed), records.mesh_copy(seed))
+    return place
+
+
+@pytest.fixture
+def catalogue(path: Path) -> Iterator[Catalogue]:
+    """It, open for reading."""
+    with open_catalogue(path) as opened:
+        yield opened
+
+
+def test_all_lasts_come_by_name_as_records_do(catalogue: Catalogue) -> None:
+    rows = catalogue.rows_for_search()
+    names = [record.labels.name for record in rows.records]
+    assert names == [f"last-{seed:02d}" for seed in range(LASTS)] == list(catalogue.names())
+    assert records.plain(rows.records) == records.plain([catalogue.record(name) for name in names])
+    assert (rows.rejected, rows.damaged, rows.outdated) == ((), (), ())
+
+
+def test_filters_keep_what_they_say_and_count_the_rest(catalogue: Catalogue) -> None:
+    lasts = catalogue.records()
+    rows = catalogue.rows_for_search(style="Oxford", size_system="EU", sizes=(36, 44))
+    kept = [
+        record.labels.name
+        for record in lasts
+        if record.labels.style == "oxford"
+        and record.labels.size_system == "eu"
+        and 36 <= float(record.labels.size or 0) <= 44
+    ]
+    assert [record.labels.name for record in rows.records] == kept
+    assert kept
+    assert sum(count for _, count in rows.rejected) == LASTS - len(kept)
+    assert dict(rows.rejected)["style"] == sum(r.labels.style != "oxford" for r in lasts)
+    lengths = sorted(record.length_mm for record in lasts)
+    window = catalogue.rows_for_search(length_mm=(lengths[2], lengths[5]))
+    assert sorted(record.length_mm for record in window.records) == lengths[2:6]
+    assert window.rejected == (("length_mm", LASTS - 4),)
+
+
+@pytest.mark.parametrize(
+    ("size", "passes"),
+    [("42", True), ("42.5", True), ("42,5", True), ("43.5", False), ("XL", False), (None, False)],
+)
+def test_a_size_that_is_no_number_is_in_no_range(size: str | None, passes: bool) -> None:
+    record = records.last(size=size)
+    assert (rejection(record, Filters(sizes=(42, 43))) is None) is passes
+    assert rejection(record, Filters()) is None
+
+
+def test_ranking_reads_no_mesh(path: Path, tmp_path: Path) -> None:
+    copy = tmp_path / "meshless"
+    copy.write_bytes(path.read_bytes())
+    with sqlite3.connect(copy) as connection:
+        connection.execute("DROP TABLE mesh_copy")
+    connection.close()
+    with open_catalogue(path) as whole, open_catalogue(copy) as meshless:
+        assert records.plain(meshless.rows_for_search()) == records.plain(whole.rows_for_search())
+
+
+def test_a_profile_of_another_definition_is_set_apart(path: Path, tmp_path: Path) -> None:
+    copy = tmp_path / "older"
+    copy.write_bytes(path.read_bytes())
+    flare = records.profile(3)
+    older = replace(flare, definition=replace(flare.definition, version="flare/0"))
+    with open_catalogue(copy, write=True) as catalogue:
+        catalogue.update_profile("last-03", older)
+        rows = catalogue.rows_for_search()
+        assert rows.outdated == ("last-03",)
+        assert len(rows.records) == LASTS - 1
+        assert catalogue.record("last-03").flare.definition.version == "flare/0"
+        assert dict(catalogue.facts().definitions)["flare/0"] == 1
+
+
+def test_reading_opens_neither_sqlalchemy_nor_alembic_nor_a_mesh_library(path: Path) -> None:
+    code = (
+        "import sys; from footfit.catalogue.store import open_catalogue\n"
+        "with open_catalogue(sys.argv[1]) as catalogue: rows = catalogue.rows_for_search()\n"
+        "heavy = {'sqlalchemy', 'alembic', 'trimesh', 'scipy'} & set(sys.modules)\n"
+        "print(len(rows.records), sorted(heavy))"
+    )
+    done = subprocess.run(
+        [sys.executable, "-c", code, str(path)],
+        capture_output=True,
+        text=True,
+        check=True,
+        cwd=Path(__file__).resolve().parents[1],
+    )
+    assert done.stdout.strip() == f"{LASTS} []"
