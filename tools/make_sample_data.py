@@ -2,7 +2,8 @@
 
     python -m tools.make_sample_data FEET [-o sample_data]
 
-FEET is the folder of CC0 feet that ``sample_data/README.md`` names. Same input, same bytes.
+FEET is the folder of CC0 feet that ``sample_data/README.md`` names; ``sample_data/feet`` will do.
+Same input, same bytes.
 """
 
 from __future__ import annotations
@@ -10,7 +11,6 @@ from __future__ import annotations
 import argparse
 import csv
 import io
-import shutil
 from dataclasses import dataclass, replace
 from pathlib import Path
 
@@ -178,7 +178,8 @@ def write_samples(feet: Path, folder: Path) -> None:
         (folder / row["path"]).write_bytes(content)
     (folder / "lasts.csv").write_text(manifest([row for row, _ in files]), encoding="utf-8")
     for name in FEET:
-        shutil.copyfile(feet / name, folder / "feet" / name)
+        content = (feet / name).read_bytes()  # FEET may be the output's own folder
+        (folder / "feet" / name).write_bytes(content)
 
 
 def main() -> None:
