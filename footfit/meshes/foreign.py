@@ -32,7 +32,7 @@ _BEGINNINGS: tuple[tuple[bytes, str], ...] = (
     (b"# .PCD", "a PCD point cloud (mesh it first)"),
     (b"\x7fELF", "a program"),
     (b"MZ", "a program"),
-    (b"#!", "a script"),
+    (b"#!/", "a script"),
     (b"\xff\xfe", "UTF-16 text"),
     (b"\xfe\xff", "UTF-16 text"),
 )

@@ -44,13 +44,17 @@ def _is_ascii_stl(data: bytes) -> bool:
     return begins and is_text(data)
 
 
+def _is_obj_text(data: bytes) -> bool:
+    return is_text(data) and known_foreign(data) is None and is_obj(data)
+
+
 # In this order: the surest mark first.
 FORMATS: tuple[MeshFormat, ...] = (
     MeshFormat("stl-binary", "stl", is_binary_stl, read_binary_stl),
     MeshFormat("ply", "ply", is_ply, read_ply),
     MeshFormat("off", "off", is_off, read_off),
     MeshFormat("stl-ascii", "stl", _is_ascii_stl, read_ascii_stl),
-    MeshFormat("obj", "obj", lambda data: is_text(data) and is_obj(data), read_obj),
+    MeshFormat("obj", "obj", _is_obj_text, read_obj),
 )
 EXTENSIONS = tuple(sorted({known.extension for known in FORMATS}))
 _READABLE = "STL, OBJ, PLY or OFF"

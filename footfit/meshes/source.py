@@ -18,6 +18,8 @@ _READ_FLAGS = (
     | getattr(os, "O_BINARY", 0)  # Windows would translate line ends
 )
 
+_PIECE_BYTES = 4_000_000
+
 
 def file_bytes(path: str, limits: Limits) -> bytes:
     """Everything in a regular file.
@@ -39,13 +41,16 @@ def file_bytes(path: str, limits: Limits) -> bytes:
         descriptor = os.open(path, _READ_FLAGS)
         with os.fdopen(descriptor, "rb") as stream:
             _check(os.fstat(descriptor), limits)
-            return stream_bytes(stream, limits)
+            return stream_bytes(stream, limits, os.fstat(descriptor).st_size)
     except (OSError, ValueError) as error:  # ValueError: a name with a NUL in it
         raise UnreadableFile(_reason(error), path) from error
 
 
-def stream_bytes(stream: BinaryIO, limits: Limits) -> bytes:
+def stream_bytes(stream: BinaryIO, limits: Limits, expected: int = 0) -> bytes:
     """Everything in an open binary stream, such as standard input.
+
+    Read piece by piece: asking for ``limits.file_bytes`` at once would take that much memory for
+    the smallest stream. ``expected`` is the likely size, which saves joining pieces.
 
     Raises
     ------
@@ -54,9 +59,13 @@ def stream_bytes(stream: BinaryIO, limits: Limits) -> bytes:
     EmptyMesh
         Zero bytes.
     """
-    data = stream.read(limits.file_bytes + 1)
-    if len(data) > limits.file_bytes:
-        raise TooLarge(_too_large(limits))
+    pieces, size = [stream.read(expected + 1)], 0
+    while pieces[-1]:
+        size += len(pieces[-1])
+        if size > limits.file_bytes:
+            raise TooLarge(_too_large(limits))
+        pieces.append(stream.read(_PIECE_BYTES))
+    data = pieces[0] if len(pieces) == 2 else b"".join(pieces)
     if not data:
         raise EmptyMesh("the file is empty (0 bytes): export it again")
     return data

@@ -1,0 +1,245 @@
+"""Files that must be refused, or read in spite of what is wrong, made by code.
+
+``BAD`` are bytes with the error that reading them must end in; ``ODD`` are bytes that hold the
+reference mesh all the same. ``bad_paths`` makes the special files of a file system.
+"""
+
+from __future__ import annotations
+
+import gzip
+import io
+import os
+import struct
+import zipfile
+from collections.abc import Callable
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+
+from footfit.errors import (
+    DamagedMesh,
+    EmptyMesh,
+    InputError,
+    TooLarge,
+    UnknownFormat,
+    UnreadableFile,
+)
+from footfit.meshes.write import encoded_mesh
+from tests import shapes
+
+VERTICES, FACES = shapes.ellipsoid((125.0, 50.0, 35.0), subdivisions=2)
+
+
+@dataclass(frozen=True)
+class Bad:
+    """A file's name and content, and how reading it must end."""
+
+    name: str
+    make: Callable[[], bytes]
+    error: type[InputError]
+
+    def __str__(self) -> str:
+        return self.name
+
+
+def stl() -> bytes:
+    return encoded_mesh(VERTICES, FACES, "stl")
+
+
+def ply() -> bytes:
+    return encoded_mesh(VERTICES, FACES, "ply")
+
+
+def obj() -> bytes:
+    return encoded_mesh(VERTICES, FACES, "obj")
+
+
+def off() -> bytes:
+    return encoded_mesh(VERTICES, FACES, "off")
+
+
+def ascii_stl(vertices=VERTICES, faces=FACES) -> bytes:
+    lines = ["solid vertex facet"]
+    for corners in vertices[faces].tolist():
+        lines += ["facet normal nan 0 0", " outer loop"]
+        lines += [f"  vertex {x:.17g} {y:.17g} {z:.17g}" for x, y, z in corners]
+        lines += [" endloop", "endfacet"]
+    return ("\n".join([*lines, "endsolid vertex facet"]) + "\n").encode()
+
+
+def ascii_ply(vertices=VERTICES, faces=FACES) -> bytes:
+    rows = [f"{x!r} {y!r} {z!r} 200" for x, y, z in vertices.tolist()]
+    rows += [f"3 {a} {b} {c}" for a, b, c in faces.tolist()]
+    header = (
+        f"ply\nformat ascii 1.0\ncomment made by code\nelement vertex {len(vertices)}\n"
+        "property double x\nproperty double y\nproperty double z\nproperty uchar red\n"
+        f"element face {len(faces)}\nproperty list uchar int vertex_index\nend_header\n"
+    )
+    return (header + "\n".join(rows) + "\n").encode()
+
+
+def with_count(count: int) -> bytes:
+    return stl()[:80] + struct.pack("<I", count) + stl()[84:]
+
+
+def with_first_coordinate(value: float) -> bytes:
+    data = bytearray(stl())
+    data[96:100] = struct.pack("<f", value)
+    return bytes(data)
+
+
+def ply_header(vertex_count: object, face_count: object, list_type: str = "uint") -> bytes:
+    return (
+        f"ply\nformat binary_little_endian 1.0\nelement vertex {vertex_count}\n"
+        "property float x\nproperty float y\nproperty float z\n"
+        f"element face {face_count}\nproperty list {list_type} int vertex_indices\nend_header\n"
+    ).encode()
+
+
+def ply_bomb(list_length: int) -> bytes:
+    triangle = np.eye(3, dtype="<f4").tobytes()
+    return ply_header(3, 1) + triangle + struct.pack("<I3i", list_length, 0, 1, 2)
+
+
+def obj_with(line: str) -> bytes:
+    return b"v 0 0 0\nv 200 0 0\nv 0 200 0\n" + line.encode() + b"\n"
+
+
+def long_face(corners: int) -> bytes:
+    return obj_with("f " + " ".join(str(1 + corner % 3) for corner in range(corners)))
+
+
+def zipped() -> bytes:
+    memory = io.BytesIO()
+    with zipfile.ZipFile(memory, "w") as archive:
+        archive.writestr("foot.stl", stl())
+    return memory.getvalue()
+
+
+def flat_stl() -> bytes:
+    return encoded_mesh(VERTICES * [1.0, 0.0, 0.0], FACES, "stl")
+
+
+BAD = [
+    Bad("empty.stl", lambda: b"", EmptyMesh),
+    Bad("header-only.stl", lambda: bytes(84), EmptyMesh),
+    Bad("half-a-header.stl", lambda: bytes(50), DamagedMesh),
+    Bad("cut-off.stl", lambda: stl()[:-37], DamagedMesh),
+    Bad("solid-and-cut-off.stl", lambda: b"solid" + stl()[5:-37], DamagedMesh),
+    Bad("count-too-high.stl", lambda: with_count(2**32 - 1), DamagedMesh),
+    Bad("count-too-low.stl", lambda: with_count(1), DamagedMesh),
+    Bad("count-zero.stl", lambda: with_count(0), DamagedMesh),
+    Bad("nan.stl", lambda: with_first_coordinate(float("nan")), DamagedMesh),
+    Bad("infinite.stl", lambda: with_first_coordinate(float("inf")), DamagedMesh),
+    Bad("absurd.stl", lambda: with_first_coordinate(3e38), DamagedMesh),
+    Bad("no-area.stl", flat_stl, EmptyMesh),
+    Bad("cut-off-ascii.stl", lambda: ascii_stl()[: len(ascii_stl()) // 2], DamagedMesh),
+    Bad("misspelt-ascii.stl", lambda: ascii_stl().replace(b"loop", b"lopp", 3), DamagedMesh),
+    Bad("no-number-ascii.stl", lambda: ascii_stl().replace(b"vertex 1", b"vertex x"), DamagedMesh),
+    Bad("two-in-one-ascii.stl", lambda: ascii_stl().replace(b".", b"-.", 9), DamagedMesh),
+    Bad("solid-nothing.stl", lambda: b"solid nothing\nendsolid nothing\n", EmptyMesh),
+    Bad("random.stl", lambda: np.random.default_rng(5).bytes(5000), DamagedMesh),
+    Bad("random", lambda: np.random.default_rng(5).bytes(5000), UnknownFormat),
+    Bad("cut-off.ply", lambda: ply()[:-3], DamagedMesh),
+    Bad("headless.ply", lambda: ply()[:60], DamagedMesh),
+    Bad("count-too-high.ply", lambda: ply_header(10**6, 10**6) + bytes(99), DamagedMesh),
+    Bad("count-past-limit.ply", lambda: ply_header(10**9, 1) + bytes(99), TooLarge),
+    Bad("count-absurd.ply", lambda: ply_header("9" * 5000, 1) + bytes(99), DamagedMesh),
+    Bad("count-negative.ply", lambda: ply_header(-3, 1) + bytes(99), DamagedMesh),
+    Bad("list-bomb.ply", lambda: ply_bomb(2**32 - 1), DamagedMesh),
+    Bad("list-bomb-2.ply", lambda: ply_bomb(2**20), DamagedMesh),
+    Bad("list-of-floats.ply", lambda: ply_header(3, 1, "float") + b"\xff" * 60, DamagedMesh),
+    Bad("index-past-end.ply", lambda: ply()[:-4] + struct.pack("<i", 10**6), DamagedMesh),
+    Bad("index-negative.ply", lambda: ply()[:-4] + struct.pack("<i", -1), DamagedMesh),
+    Bad("points-only.ply", lambda: ply_header(3, 0) + bytes(36), EmptyMesh),
+    Bad("no-z.ply", lambda: ply().replace(b" z\n", b" w\n"), DamagedMesh),
+    Bad("no-such-type.ply", lambda: ply().replace(b"double x", b"quad32 x"), DamagedMesh),
+    Bad("cut-off-ascii.ply", lambda: ascii_ply()[:-60], DamagedMesh),
+    Bad("half-an-index.ply", lambda: ascii_ply().replace(b"\n3 0 ", b"\n3 0.5 "), DamagedMesh),
+    Bad("index-zero.obj", lambda: obj_with("f 0 1 2"), DamagedMesh),
+    Bad("index-past-end.obj", lambda: obj_with("f 1 2 4"), DamagedMesh),
+    Bad("index-too-far-back.obj", lambda: obj_with("f -1 -2 -4"), DamagedMesh),
+    Bad("index-no-number.obj", lambda: obj_with("f 1 2 three"), DamagedMesh),
+    Bad("index-huge.obj", lambda: obj_with("f 1 2 99999999999999999999999"), DamagedMesh),
+    Bad("index-fraction.obj", lambda: obj_with("f 1 2 2.5"), DamagedMesh),
+    Bad("points-only.obj", lambda: obj_with("p 1 2 3"), EmptyMesh),
+    Bad("two-coordinates.obj", lambda: obj_with("v 1 2\nf 1 2 3"), DamagedMesh),
+    Bad("nan.obj", lambda: obj_with("v nan 2 3\nf 1 2 4"), DamagedMesh),
+    Bad("overflow.obj", lambda: obj_with("v 1e999 2 3\nf 1 2 4"), DamagedMesh),
+    Bad("one-point-faces.obj", lambda: obj_with("f 1 1 1"), EmptyMesh),
+    Bad("edges-only.obj", lambda: obj_with("f 1 2"), EmptyMesh),
+    Bad("long-face.obj", lambda: long_face(700_000), TooLarge),
+    Bad("cut-off.off", lambda: off()[: len(off()) // 2], DamagedMesh),
+    Bad("no-counts.off", lambda: b"OFF\n", DamagedMesh),
+    Bad("count-too-high.off", lambda: b"OFF\n900 900 0\n0 0 0\n", DamagedMesh),
+    Bad("count-past-limit.off", lambda: b"OFF\n1e15 1 0\n0 0 0\n", TooLarge),
+    Bad("count-negative.off", lambda: b"OFF\n-1 1 0\n0 0 0\n", DamagedMesh),
+    Bad("count-nan.off", lambda: b"OFF\nnan 1 0\n0 0 0\n", DamagedMesh),
+    Bad("corner-missing.off", lambda: off().replace(b"\n3 0 ", b"\n4 0 ", 1), DamagedMesh),
+    Bad("corner-count-nan.off", lambda: off().replace(b"\n3 0 ", b"\nnan 0 ", 1), DamagedMesh),
+    Bad("picture.stl", lambda: b"\x89PNG\r\n\x1a\n" + bytes(300), UnknownFormat),
+    Bad("archive.stl", zipped, UnknownFormat),
+    Bad("packed.stl", lambda: gzip.compress(stl()), UnknownFormat),
+    Bad("page.stl", lambda: b"\n<!DOCTYPE HTML><html><p>404</p></html>", UnknownFormat),
+    Bad("page.obj", lambda: b"<html>\nv 1 2 3\nf 1 2 3\n</html>", UnknownFormat),
+    Bad("pointer.stl", lambda: b"version https://git-lfs.github.com/spec/v1\n", UnknownFormat),
+    Bad("document.stl", lambda: b"%PDF-1.7\n" + bytes(200), UnknownFormat),
+    Bad("letter.stl", lambda: b"Dear last maker,\nthe foot is attached.\n", UnknownFormat),
+    Bad("letter.obj", lambda: b"Dear last maker,\nthe foot is attached.\n", UnknownFormat),
+    Bad("table.ply", lambda: b"x,y,z\n1,2,3\n", UnknownFormat),
+    Bad("wide.stl", lambda: ascii_stl().decode().encode("utf-16"), UnknownFormat),
+    Bad("zeros", lambda: bytes(1000), UnknownFormat),
+]
+
+ODD = {
+    "solid-header.stl": lambda: b"solid foot" + stl()[10:],
+    "trailing.stl": lambda: stl() + b"made by a scanner",
+    "ascii.stl": ascii_stl,
+    "ascii-upper.STL": lambda: ascii_stl().upper(),
+    "ascii-crlf.stl": lambda: ascii_stl().replace(b"\n", b"\r\n"),
+    "ascii-cr.stl": lambda: ascii_stl().replace(b"\n", b"\r"),
+    "ascii-bom.stl": lambda: b"\xef\xbb\xbf" + ascii_stl(),
+    "ascii-solids.stl": lambda: ascii_stl(faces=FACES[:99]) + ascii_stl(faces=FACES[99:]),
+    "ascii-no-end.stl": lambda: ascii_stl().rpartition(b"endsolid")[0],
+    "ascii.ply": ascii_ply,
+    "ascii-crlf.ply": lambda: ascii_ply().replace(b"\n", b"\r\n"),
+    "called-otherwise.obj": ply,
+    "no-extension": off,
+    "comments.off": lambda: (
+        off().replace(b"OFF\n", b"OFF # a foot\n#\n\n").replace(b"\n3", b" # x\n3")
+    ),
+    "coloured.off": lambda: off().replace(b"OFF", b"COFF").replace(b"\n3 0", b"  .1 .2 .3 1\n3 0"),
+    "one-line.off": lambda: off().replace(b"OFF\n", b"OFF ", 1),
+    "materials.obj": lambda: (
+        b"mtllib /dev/stdin\nusemtl x\ng a\n" + obj().replace(b"\nf", b"\ns 1\nf")
+    ),
+    "coloured.obj": lambda: obj().replace(b"\nv", b" .5 .5 .5 # grey\nv"),
+    "continued.obj": lambda: obj().replace(b"f ", b"f \\\n"),
+    "faces-first.obj": lambda: b"".join(sorted(obj().splitlines(keepends=True), key=_faces_first)),
+}
+
+
+def _faces_first(line: bytes) -> bool:
+    return not line.startswith(b"f")
+
+
+def bad_paths(folder: Path) -> list[tuple[Path, type[InputError]]]:
+    """Paths that are no readable regular file of a bearable size, made in ``folder``."""
+    pipe, inner, loop, huge = (
+        folder / name for name in ("pipe.stl", "inner.stl", "loop", "huge.stl")
+    )
+    os.mkfifo(pipe)
+    inner.mkdir()
+    loop.symlink_to(loop)
+    with huge.open("wb") as stream:
+        stream.truncate(10**12)  # sparse: it takes no room
+    return [
+        (pipe, UnreadableFile),
+        (inner, UnreadableFile),
+        (loop, UnreadableFile),
+        (folder / "missing.stl", UnreadableFile),
+        (folder / "nul\0.stl", UnreadableFile),
+        (Path("/dev/zero"), UnreadableFile),
+        (huge, TooLarge),
+    ]
