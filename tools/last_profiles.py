@@ -106,7 +106,8 @@ def _drafted_bottom(x: Floats, heel: float, spring: float) -> Floats:
     shank = heel * (1.0 - fall / fall[-1])
     hollow = 0.010 * np.exp(-0.5 * ((x - 0.43) / 0.09) ** 2)
     toe = spring * np.clip((x - 0.67) / 0.33, 0.0, None) ** 2.2
-    return shank + hollow + toe
+    bottom: Floats = shank + hollow + toe
+    return bottom
 
 
 def _resting_slope(x: Floats, z: Floats) -> float:
