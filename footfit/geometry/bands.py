@@ -68,7 +68,7 @@ def _outer_mean(
     low: tuple[Floats, Floats],
 ) -> Floats:
     outside = (sign * across - extreme[segments.plane][:, None]) / depth + 1.0  # 1 at the extreme
-    near = np.flatnonzero(outside.max(axis=1) > 0.0)
+    near = np.flatnonzero(np.maximum(outside[:, 0], outside[:, 1]) > 0.0)
     outside, across = outside[near], across[near]
     begin, stop = _share_under(-outside, np.zeros(len(near)))
     begin, stop = np.maximum(begin, low[0][near]), np.minimum(stop, low[1][near])

@@ -10,6 +10,7 @@ import numpy as np
 
 from footfit.geometry.arrays import Floats, Ints
 from footfit.geometry.bottom import bottom_curvature, extended_stations
+from footfit.geometry.bottom_surface import surface_curvature_profile
 from footfit.geometry.centre_line import BottomShape, CentreLine, bottom_shape, centre_line
 from footfit.geometry.flare_definition import (
     CHANNELS,
@@ -95,8 +96,10 @@ def flare_profile(
 def _channels(
     shape: BottomShape, line: CentreLine, definition: FlareDefinition
 ) -> dict[str, Floats | None]:
+    plan = _plan_curvature(line, definition)
     places = (bottom_curvature(shape, line, p, definition) for p in definition.bottom_places)
-    return dict(zip(CHANNELS, (_plan_curvature(line, definition), *places, None), strict=True))
+    surface = surface_curvature_profile(shape, line, definition)
+    return dict(zip(CHANNELS, (plan, *places, surface), strict=True))
 
 
 def _plan_curvature(line: CentreLine, definition: FlareDefinition) -> Floats:

@@ -52,10 +52,10 @@ class FlareDefinition:
     bottom_places: tuple[float, float, float] = (0.20, 0.50, 0.80)  # of the width, from medial
     bottom_bandwidth: float = 0.10
     chord: tuple[float, float] = (0.15, 0.65)  # seat and ball: the line between them is taken out
-    surface_radius: float = 0.06  # the scale of the curvature
-    surface_width: float = 0.60  # the middle share of the width; the rest is the edge, not the sole
-    surface_bandwidth: float = 0.03
-    surface_down: float = 0.5  # a sole's normal points down by at least this cosine
+    surface_bandwidth: float = 0.05  # along the line
+    surface_width: float = 0.70  # of the half width, where the weight has fallen to 0
+    surface_ends: tuple[float, float] = (0.03, 0.12)  # no weight before, whole weight after
+    surface_piece: float = 0.03  # longer facets are weighed piece by piece
 
     # What the angle is called: below the first outflare, above the second inflare.
     last_straight_deg: tuple[float, float] = (4.0, 12.0)

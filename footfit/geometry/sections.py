@@ -112,8 +112,10 @@ def sections_across(vertices: Floats, faces: Ints, x: Floats) -> Segments:
 
 def _crossings(corner_values: Floats, levels: Floats) -> tuple[Ints, Ints]:
     """Which plane crosses which face, ordered by plane: both (m,)."""
-    first = np.searchsorted(levels, corner_values.min(axis=1), side="left")
-    last = np.searchsorted(levels, corner_values.max(axis=1), side="left")
+    # Column by column: a reduction over an axis of three is five times slower.
+    a, b, c = corner_values.T
+    first = np.searchsorted(levels, np.minimum(np.minimum(a, b), c), side="left")
+    last = np.searchsorted(levels, np.maximum(np.maximum(a, b), c), side="left")
     count = last - first
     face = np.repeat(np.arange(len(count)), count)
     before = np.cumsum(count) - count
@@ -139,7 +141,7 @@ def _crossing_points(
 
 def lowest(values: Floats, segments: Segments) -> Floats:
     """The least of ``values`` (m,) or (m, 2) on each plane, (planes,); NaN where there is none."""
-    per_segment = values if values.ndim == 1 else values.min(axis=1)
+    per_segment = values if values.ndim == 1 else np.minimum(values[:, 0], values[:, 1])
     result = np.full(segments.planes, np.nan)
     if len(per_segment):
         start = np.flatnonzero(np.diff(segments.plane, prepend=-1))
@@ -175,10 +177,11 @@ def extremes_below(
     share = (level[:, 0] - height[:, 0]) / drop
     cut = across[:, 0] + share * (across[:, 1] - across[:, 0])
     straddles = low[:, 0] != low[:, 1]
-    candidates = np.column_stack([across, np.where(straddles, cut, np.nan)])
-    allowed = np.column_stack([low, straddles])
-    least = lowest(np.where(allowed, candidates, np.inf).min(axis=1), segments)
-    most = highest(np.where(allowed, candidates, -np.inf).max(axis=1), segments)
+    ends = ((across[:, 0], low[:, 0]), (across[:, 1], low[:, 1]), (cut, straddles))
+    first, second, third = (np.where(allowed, place, np.inf) for place, allowed in ends)
+    least = lowest(np.minimum(np.minimum(first, second), third), segments)
+    first, second, third = (np.where(allowed, place, -np.inf) for place, allowed in ends)
+    most = highest(np.maximum(np.maximum(first, second), third), segments)
     return least, most
 
 
