@@ -6,8 +6,8 @@ import numpy as np
 
 from footfit.geometry.flare import CHANNELS, FlareDefinition, FlareProfile
 from footfit.results import (
-    Alignment,
     AlignedScan,
+    Alignment,
     Candidate,
     CatalogueFacts,
     Eigenframe,
@@ -46,7 +46,9 @@ def centre_offset(s, turn_deg):
 def tube(length_mm=260.0, turn_deg=10.0, left=False, rings=80, sides=48):
     """A closed foot-shaped tube in the canonical frame: (vertices_mm, faces)."""
     s = 0.5 - 0.5 * np.cos(np.linspace(0.03, np.pi - 0.03, rings))
-    wide = np.interp(s, [0, 0.04, 0.15, 0.45, 0.7, 0.9, 1], [0.05, 0.09, 0.12, 0.135, 0.19, 0.13, 0.03])
+    wide = np.interp(
+        s, [0, 0.04, 0.15, 0.45, 0.7, 0.9, 1], [0.05, 0.09, 0.12, 0.135, 0.19, 0.13, 0.03]
+    )
     high = np.interp(s, [0, 0.05, 0.2, 0.4, 0.65, 0.9, 1], [0.15, 0.3, 0.36, 0.3, 0.18, 0.09, 0.04])
     angle = np.linspace(0, 2 * np.pi, sides, endpoint=False)
     x = np.repeat(s[:, None], sides, 1)
@@ -157,10 +159,11 @@ def record(name="derby-42", turn_deg=8.0, length_mm=273.0, left=False, **labels)
 
 def candidate(rank, last, foot_length_mm=260.0, foot_turn_deg=10.0, **more):
     labels, delta = last.labels, last.flare.angle_deg - foot_turn_deg
+    room, more_or_less = last.length_mm - foot_length_mm, "more" if delta > 0 else "less"
     values = {
         "verdict": None,
-        "why": f"{last.length_mm - foot_length_mm:.1f} mm toe room (asked 13); turns {abs(delta):.1f} deg "
-        f"{'more' if delta > 0 else 'less'} inward than the foot",
+        "why": f"{room:.1f} mm toe room (asked 13); "
+        f"turns {abs(delta):.1f} deg {more_or_less} inward than the foot",
         "tied_with": (),
         "mirrored": False,
     } | more

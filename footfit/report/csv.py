@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING
 from footfit.geometry.flare import CHANNELS
 from footfit.report.numbers import degrees, millimetres, ratio
 from footfit.report.parts import FIT_NAMES, NOT_YET, last_part
+from footfit.report.text import visible
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
@@ -65,9 +66,9 @@ LAST_COLUMNS = (
     "reference",
 )
 
-# A spreadsheet runs a cell that starts so; a list separator or a line's end inside a cell can
-# start one too, where a country's settings split there.
-_FORMULA = re.compile(r"(^|[;\t\r\n])(?=[=+\-@\t\r＝＋－＠])")
+# A spreadsheet runs a cell that starts so; a semicolon inside a cell starts another one where a
+# country's settings split there.
+_FORMULA = re.compile(r"(^|;)(?=[=+\-@＝＋－＠])")
 _NUMBER = re.compile(r"[+-]?\d+([.,]\d+)?")
 
 
@@ -83,7 +84,10 @@ def harmless(text: str) -> str:
 
 
 def csv_text(columns: tuple[str, ...], rows: Iterable[Iterable[Cell]], *, header: bool) -> str:
-    """Rows as CSV: a comma between, quotes where needed, a line feed behind each row."""
+    """Rows as CSV: a comma between, quotes where needed, one line a row.
+
+    Control characters in a text, line ends among them, are shown as their escapes.
+    """
     target = io.StringIO()
     writer = csv.writer(target, lineterminator="\n")
     if header:
@@ -96,7 +100,7 @@ def _cell(value: Cell) -> str:
     if isinstance(value, bool):
         return "true" if value else "false"
     if isinstance(value, str):
-        return harmless(value.encode("utf-8", "replace").decode("utf-8"))
+        return harmless(visible(value))
     return "" if value is None else str(value)
 
 

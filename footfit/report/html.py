@@ -63,10 +63,10 @@ def match_report(match: Match, shapes: Shapes | None = None) -> str:
         f"<p>{text(HOW[match.by])}</p>",
         _table(match),
         f"<p>{text(_left_out(match))}</p>",
+        "<h2>How to read it</h2>",
+        _legend(match),
         "<h2>Pictures</h2>",
         *(_pictures(match, index, shapes) for index in range(len(match.feet))),
-        "<h2>How to read this page</h2>",
-        _legend(match),
         f"<footer>footfit {text(__version__)}</footer>",
     ]
     return _page(title=f"footfit: {_names(match)}", body="\n".join(body))
@@ -188,12 +188,12 @@ def _row(candidate: Candidate, *, judged: bool) -> str:
     cells = [
         (str(candidate.rank), "n"),
         (candidate.last, "name"),
-        (_labels(candidate) or "-", ""),
+        (_labels(candidate) or "-", "label"),
         (plain(candidate.distance, 2), "n"),
         (signed(candidate.flare.delta_deg), "n"),
         (room, "n"),
         *([(candidate.verdict or "-", "")] if judged else []),
-        (candidate.why + tie, ""),
+        (candidate.why + tie, "why"),
     ]
     row = "".join(f'<td class="{kind}">{text(value)}</td>' for value, kind in cells)
     kind = "first" if candidate.rank == 1 else "other"

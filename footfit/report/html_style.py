@@ -30,17 +30,23 @@ th, td { text-align: left; vertical-align: top; padding: 8px 14px 8px 0;
   border-bottom: 1px solid var(--line); }
 th { color: var(--quiet); font-weight: 600; font-size: 13px; }
 td { overflow-wrap: anywhere; }
-.n { text-align: right; white-space: nowrap; font-variant-numeric: tabular-nums; }
-.name { font-weight: 650; }
+td.label { min-width: 8.5em; }
+.n { text-align: right; font-variant-numeric: tabular-nums; }
+td.n { white-space: nowrap; }
+td.why { min-width: 15em; }
+.name { font-weight: 650; min-width: 8.5em; }
 tr.first td { background: var(--wash); }
-.warn { border-left: 4px solid #b45309; padding: 4px 12px; margin: 8px 0; background: #fff8ee; }
+.warn { max-width: none; border-left: 4px solid #b45309; padding: 4px 12px; margin: 8px 0;
+  background: #fff8ee; }
 figure { margin: 14px 0 24px; }
 figure img { width: 100%; height: auto; display: block; }
 figcaption { color: var(--quiet); font-size: 13px; margin-top: 4px; }
 footer { margin-top: 36px; color: var(--quiet); font-size: 13px; }
 @page { size: A4; margin: 14mm; }
 @media print {
-  body { padding: 0; max-width: none; font-size: 11pt; }
+  body { padding: 0; max-width: none; font-size: 9.5pt; }
+  th { font-size: 8.5pt; }
+  td.label, td.name { min-width: 7em; }
   h2, h3 { break-after: avoid; }
   figure, .foot, .best, tr { break-inside: avoid; }
   .best, .warn, tr.first td { print-color-adjust: exact; -webkit-print-color-adjust: exact; }

@@ -1,0 +1,229 @@
+"""The JSON documents: keys as docs/json.md lists them, numbers rounded, one line of UTF-8 each."""
+
+from __future__ import annotations
+
+import json
+import math
+import re
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from footfit import __version__
+from footfit.errors import SeveralFeet
+from footfit.report import documents, last_documents
+from footfit.report.numbers import nested, rounded
+from footfit.report.parts import finite, paper_frame_angle_deg
+from footfit.results import Measured, MeshCopy, Notice, UpgradeOutcome
+from tests import answers
+
+PAGE = Path(__file__).resolve().parents[1] / "docs" / "json.md"
+
+
+def every_document():
+    """One document per schema, each with everything in it."""
+    record = answers.record()
+    upgrade = UpgradeOutcome("a.footfit", "0001", "0002", "flare/1", ("derby-42",), None)
+    warned = answers.alignment(warnings=(Notice("open", "open"),), reference=answers.reference())
+    return [
+        documents.align_document(warned),
+        documents.flare_document(answers.foot()),
+        documents.match_document(answers.match()),
+        documents.ingest_document(answers.outcome()),
+        documents.curvature_document(answers.curvature()),
+        documents.error_document(SeveralFeet("two feet; take them apart", "a.stl")),
+        last_documents.list_lasts_document([record], "derby-42"),
+        last_documents.show_last_document(record, "derby-42"),
+        last_documents.set_reference_document(answers.reference(), 12),
+        last_documents.rename_last_document("a", "b"),
+        last_documents.remove_last_document("a"),
+        last_documents.export_last_document("a", "a.stl", MeshCopy(b"", 10, 0.1)),
+        last_documents.catalogue_info_document(answers.facts()),
+        last_documents.upgrade_catalogue_document(upgrade),
+        last_documents.demo_document("demo", 12, "derby-42", ["report.html"]),
+    ]
+
+
+def listed_keys():
+    """Heading to the keys in the first column of the table under it."""
+    found: dict[str, set[str]] = {}
+    heading = ""
+    for line in PAGE.read_text(encoding="utf-8").splitlines():
+        if line.startswith("#"):
+            heading = line.lstrip("# ")
+        elif line.startswith("| `"):
+            keys = re.findall(r"`([^`]+)`", line.split("|")[1])
+            found.setdefault(heading, set()).update(keys)
+    return found
+
+
+COMMON = {"schema", "footfit_version"}
+
+
+def test_the_page_lists_the_keys_of_every_document() -> None:
+    listed = listed_keys()
+    schemas = {document["schema"] for document in every_document()}
+    assert schemas == {heading for heading in listed if heading.startswith("footfit.")}
+    for document in every_document():
+        assert set(document) - COMMON == listed[document["schema"]], document["schema"]
+        assert document["footfit_version"] == __version__
+
+
+def test_the_page_lists_the_keys_of_every_part() -> None:
+    listed = listed_keys()
+    align, flare, match = every_document()[:3]
+    foot, candidate = match["feet"][0], match["candidates"][0]
+    assert set(align["mesh"]) == listed["mesh"]
+    assert set(align["side_confidence"]) == listed["side_confidence"]
+    assert set(align["pose"]) == listed["pose"]
+    assert set(align["warnings"][0]) == listed["warning"]
+    assert set(foot["flare"]) == listed["flare profile"] <= set(flare)
+    assert set(foot) == listed["foot"]
+    assert set(candidate) == listed["candidate"]
+    assert set(candidate["clearance_mm"]["length"]) == listed["measured value"]
+    lasts = last_documents.list_lasts_document([answers.record()], None)["lasts"]
+    assert set(lasts[0]) == listed["last"]
+
+
+def test_every_document_is_one_line_that_reads_back() -> None:
+    for document in every_document():
+        line = documents.json_line(document)
+        assert len(line.splitlines()) == 1
+        assert json.loads(line) == document
+        assert list(json.loads(line)) == sorted(document)
+
+
+def numbers(value):
+    """Every number of a document."""
+    if isinstance(value, dict):
+        value = list(value.values())
+    if isinstance(value, list):
+        return [number for item in value for number in numbers(item)]
+    return [value] if isinstance(value, float) else []
+
+
+def test_no_number_has_more_digits_than_it_means() -> None:
+    for document in every_document():
+        document.pop("definition", None)
+        for foot in document.get("feet", []):
+            foot["flare"].pop("definition")
+        for number in numbers(document):
+            assert number == round(number, 6)
+            assert math.copysign(1.0, number) > 0 or number < 0
+    align = every_document()[0]
+    assert align["length_mm"] == round(align["length_mm"], 3)
+    assert align["centroid_mm"] == [round(x, 3) for x in align["centroid_mm"]]
+
+
+def test_what_is_not_measured_is_null_with_a_reason() -> None:
+    match = documents.match_document(answers.match())
+    clearance = match["candidates"][0]["clearance_mm"]
+    assert clearance["length"]["reason"] is None
+    assert clearance["length"]["value"] == pytest.approx(11.5)
+    for name in ("ball_width", "ball_girth", "heel_width", "instep_girth"):
+        assert clearance[name]["value"] is None
+        assert clearance[name]["reason"]
+    spoilt = replace(answers.foot(), flare=answers.profile(spoilt=("bottom_surface",)))
+    flare = documents.flare_document(spoilt)
+    assert flare["curvature"]["bottom_surface"] is None
+    assert len(flare["curvature"]["plan"]) == len(flare["stations"])
+
+
+def test_a_measured_nan_becomes_a_reason() -> None:
+    feet = (answers.foot(),)
+    last = answers.record()
+    nan = replace(answers.candidate(1, last), clearance_mm=(("length", Measured(float("nan"))),))
+    match = documents.match_document(answers.match(feet, candidates=(nan,)))
+    assert match["candidates"][0]["clearance_mm"]["length"]["value"] is None
+    assert match["candidates"][0]["clearance_mm"]["length"]["reason"] == "not measured"
+    documents.json_line(match)
+
+
+def test_the_transform_takes_the_file_to_the_frame() -> None:
+    alignment = answers.alignment()
+    document = documents.align_document(alignment)
+    assert np.allclose(document["transform"], alignment.transform, atol=1e-6)
+    assert np.allclose(document["eigenvectors"], alignment.eigenframe.eigenvectors, atol=1e-6)
+    assert document["eigenvalues_mm2"] == sorted(document["eigenvalues_mm2"], reverse=True)
+
+
+def test_rejected_lasts_are_counted_by_reason() -> None:
+    match = documents.match_document(answers.match())
+    assert match["rejected"] == {"count": 7, "by_reason": {"too_long": 3, "too_short": 4}}
+
+
+def test_a_curvature_counts_only_vertices_that_have_one() -> None:
+    curvature = answers.curvature()
+    document = documents.curvature_document(curvature, output="c.ply")
+    assert document["defined_vertices"] == len(curvature.mean) - 5
+    spread = document["mean_per_mm"]
+    assert spread["p05"] < spread["p50"] < spread["p95"]
+    nothing = replace(curvature, k1=np.full_like(curvature.k1, np.nan))
+    assert documents.curvature_document(nothing)["k1_per_mm"]["p50"] is None
+
+
+@given(st.text(max_size=40))
+@settings(deadline=None, max_examples=200)
+def test_any_name_gives_one_line_of_utf8_that_reads_back(name: str) -> None:
+    line = documents.json_line(documents.document("x", {"name": name}))
+    assert len(line.splitlines()) == 1
+    assert json.loads(line.encode("utf-8"))["name"] == name
+
+
+def test_a_file_name_that_is_no_text_reads_back() -> None:
+    name = b"f\xfc\xdf.stl".decode("utf-8", "surrogateescape")
+    line = documents.json_line({"path": name})
+    assert json.loads(line.encode("utf-8"))["path"] == name
+
+
+@given(st.floats(-1e9, 1e9) | st.sampled_from([math.nan, math.inf, -math.inf]), st.integers(0, 6))
+@settings(deadline=None, max_examples=200)
+def test_rounding_keeps_the_number_and_nulls_the_rest(value: float, digits: int) -> None:
+    result = rounded(value, digits)
+    if not math.isfinite(value):
+        assert result is None
+    else:
+        assert abs(result - value) <= 0.5000001 * 10.0**-digits + 1e-15 * abs(value)
+        assert str(result) != "-0.0"
+        assert nested([value], digits)[0] == pytest.approx(result, rel=1e-12)
+
+
+def test_definitions_lose_nothing_but_what_json_cannot_say() -> None:
+    held = {"a": (1, 2.5, float("nan")), "b": np.float64(0.1), "c": np.int64(3), "d": True}
+    assert finite(held) == {"a": [1, 2.5, None], "b": 0.1, "c": 3, "d": True}
+
+
+@pytest.mark.parametrize("left", [False, True])
+@pytest.mark.parametrize("planted_deg", [0.0, 11.5, 90.0, 171.0])
+def test_the_papers_frame_is_turned_by_the_planted_angle(left: bool, planted_deg: float) -> None:
+    """The paper's frame of a left last is that of its mirror image; the angle is the same."""
+    angle = np.radians(planted_deg)
+    turn = np.array(
+        [[np.cos(angle), -np.sin(angle), 0], [np.sin(angle), np.cos(angle), 0], [0, 0, 1.0]]
+    )
+    record = answers.record(left=left)
+    rotation = record.canonical_transform[:3, :3]
+    file_mirror = np.diag([-1.0, 1, 1]) if left else np.eye(3)
+    frame_mirror = np.diag([1.0, -1, 1]) if left else np.eye(3)
+    paper = answers.placed(turn @ frame_mirror @ rotation @ file_mirror, [1, 2, 3], scale=1000.0)
+    turned = replace(record, paper_transform=paper)
+    assert np.linalg.det(paper[:3, :3]) > 0
+    assert paper_frame_angle_deg(turned) == pytest.approx(planted_deg, abs=1e-6)
+    assert paper_frame_angle_deg(replace(record, paper_transform=None)) is None
+
+
+def test_lasts_are_listed_by_name_with_the_reference_marked() -> None:
+    records = [answers.record("b"), answers.record("a")]
+    document = last_documents.list_lasts_document(records, "b")
+    assert [last["last"] for last in document["lasts"]] == ["a", "b"]
+    assert [last["reference"] for last in document["lasts"]] == [False, True]
+
+
+def test_a_record_is_a_file_of_one_document() -> None:
+    text = last_documents.record_text(answers.record(), None)
+    assert text.endswith("}\n")
+    assert json.loads(text)["paper_frame_angle_deg"] == 0.0

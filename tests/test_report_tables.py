@@ -1,0 +1,128 @@
+"""Tables: 80 columns, words for everything, and no outside string that acts."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from rich.cells import cell_len
+
+from footfit.report import last_tables, tables
+from footfit.report.tables import terminal_text
+from footfit.results import DemoOutcome, MeshCopy, SideVerdict, UpgradeOutcome
+from tests import answers
+
+LONG = "a-very-long-name-of-a-last-made-for-somebody-with-patience-42-eu-wide"
+
+
+def every_table(name: str = "derby-42"):
+    record = answers.record(name, family=name, style=name)
+    upgrade = UpgradeOutcome(name, "0001", "0002", "flare/1", (name,), name)
+    foot = answers.foot(name, reference=replace(answers.reference(), last=name))
+    return [
+        tables.align_table(foot.aligned.alignment),
+        tables.flare_table(foot),
+        tables.match_table(answers.match((foot,), names=(name, "oxford-42"))),
+        tables.ingest_line(answers.outcome(last=name)),
+        tables.ingest_line(answers.outcome(status="refused", last=None, error=name, path=name)),
+        tables.curvature_table(answers.curvature(name)),
+        last_tables.list_lasts_table([record], name),
+        last_tables.show_last_table(record, name),
+        last_tables.catalogue_info_table(answers.facts(path=name, styles=((name, 1),))),
+        last_tables.set_reference_line(replace(answers.reference(), last=name), 3),
+        last_tables.rename_last_line(name, name),
+        last_tables.remove_last_line(name),
+        last_tables.export_last_line(name, name, MeshCopy(b"", 10, 0.1)),
+        last_tables.upgrade_catalogue_line(upgrade),
+        last_tables.demo_table(DemoOutcome(name, 12, name, (name,))),
+    ]
+
+
+@pytest.mark.parametrize("name", ["derby-42", LONG])
+@pytest.mark.parametrize("width", [80, 120])
+def test_no_line_is_wider_than_the_terminal(name: str, width: int) -> None:
+    for table in every_table(name):
+        for line in terminal_text(table, width).splitlines():
+            assert cell_len(line) <= width
+
+
+def test_a_long_name_is_folded_and_not_cut() -> None:
+    lines = terminal_text(tables.match_table(answers.match(names=(LONG,))), 80).splitlines()
+    rows = lines[next(i for i, line in enumerate(lines) if "─" in line) + 1 :]
+    assert "".join(line[3:22].strip() for line in rows).startswith(LONG)
+
+
+def test_the_match_says_what_a_fitter_asks() -> None:
+    text = terminal_text(tables.match_table(answers.match()), 100)
+    assert "right foot, 260.0 mm long, flare +10.0 ± 0.2 deg (straight)" in text
+    assert "derby, EU 42 G" in text
+    assert "+11.5" in text
+    assert "toe room" in text
+    assert "5 of 12 lasts, by fit, profile walking. Left out: 3 too long; 4 too short." in text
+
+
+def test_nothing_fits_is_an_answer() -> None:
+    text = terminal_text(tables.match_table(answers.match(candidates=())))
+    assert "No last fits." in text
+
+
+def test_a_verdict_is_a_word_and_has_its_column_once_it_is_there() -> None:
+    match = answers.match()
+    judged = tuple(replace(c, verdict="acceptable") for c in match.candidates)
+    assert "verdict" not in terminal_text(tables.match_table(match))
+    text = terminal_text(tables.match_table(replace(match, candidates=judged)), 120)
+    assert "verdict" in text
+    assert text.count("acceptable") == len(judged)
+
+
+def test_ties_and_mirroring_are_said() -> None:
+    match = answers.match()
+    first = replace(match.candidates[0], tied_with=("a", "b", "c", "d"), mirrored=True)
+    text = terminal_text(tables.match_table(replace(match, candidates=(first,))), 240)
+    assert "; mirrored; tied with a, b, c and 1 more" in text
+
+
+def test_plain_text_has_no_escape_and_colour_has() -> None:
+    table = tables.match_table(answers.match())
+    assert "\x1b" not in terminal_text(table, colour=False)
+    assert "\x1b[" in terminal_text(table, colour=True)
+
+
+@pytest.mark.parametrize(
+    "name", ["[bold]x[/bold]", "[/]", "x\x1b[2Jy", "a\nb\rc", "a\u202eb", ":smile:"]
+)
+def test_names_cannot_act(name: str) -> None:
+    for table in every_table(name):
+        text = terminal_text(table, 200)
+        assert "\x1b" not in text
+        assert "\r" not in text
+        assert "\u202e" not in text
+        assert tables.visible(name)[:3] in text
+
+
+@given(st.text(min_size=1, max_size=25))
+@settings(deadline=None, max_examples=60)
+def test_any_name_can_be_shown(name: str) -> None:
+    for table in every_table(name):
+        text = terminal_text(table, 80)
+        assert all(sign.isprintable() or sign == "\n" for sign in text)
+
+
+def test_the_side_says_who_said_so() -> None:
+    assert tables.side_words(SideVerdict("left", "low", 2.0, "given")) == "left (given)"
+
+
+def test_the_list_marks_the_reference() -> None:
+    text = terminal_text(last_tables.list_lasts_table([answers.record()], "derby-42"))
+    assert "derby-42 *" in text
+    assert "derby-42 is the reference" in text
+    text = terminal_text(last_tables.list_lasts_table([], None))
+    assert "0 lasts; no reference is set" in text
+
+
+def test_the_catalogue_keeps_no_feet_and_says_so() -> None:
+    assert "a foot is read, matched and forgotten" in terminal_text(
+        last_tables.catalogue_info_table(answers.facts())
+    )
