@@ -22,15 +22,15 @@ class DeviationSettings:
     candidates, most_candidates : int
         How many samples' triangles are tried for each point at first, and for the farthest points
         at last. Too few can only make a distance come out too large.
-    tried_again : int
-        How many of the farthest points are tried against more.
+    trials : int
+        How many points times triangles each of those later rounds may try.
     """
 
     spacing_mm: float = 5.0
     most_splits: int = 32
     candidates: int = 4
     most_candidates: int = 256
-    tried_again: int = 1_000
+    trials: int = 16_000
 
 
 DEVIATION_SETTINGS = DeviationSettings()
@@ -111,7 +111,8 @@ def _farthest(
             best[chosen] = np.minimum(best[chosen], distances)
         if count >= min(settings.most_candidates, len(samples)):
             return float(best.max())
-        chosen, count = np.argsort(best)[-settings.tried_again :], 4 * count
+        count *= 4
+        chosen = np.argsort(best)[-(settings.trials // count) :]
 
 
 def point_triangle_distances(points: Floats, corners: Floats) -> Floats:

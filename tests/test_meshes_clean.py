@@ -1,0 +1,195 @@
+"""Cleaning: what is wrong with a mesh is planted, and must be found, said and undone."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from footfit.errors import EmptyMesh
+from footfit.geometry.surface import signed_volume, surface_area
+from footfit.geometry.topology import is_closed, is_consistently_wound
+from footfit.meshes.clean import cleaned
+from tests import distortions, shapes
+
+FOOT = shapes.ellipsoid((125.0, 50.0, 40.0), subdivisions=3)
+
+
+def codes(mesh):
+    return [notice.code for notice in mesh.warnings]
+
+
+def message(mesh, code):
+    (found,) = [notice.message for notice in mesh.warnings if notice.code == code]
+    return found
+
+
+def rng(seed=0):
+    return np.random.default_rng(seed)
+
+
+def small(size, shift, subdivisions=1):
+    vertices, faces = shapes.sphere(size, subdivisions)
+    return vertices + np.asarray(shift), faces
+
+
+def posed(vertices, faces, seed=1):
+    return distortions.moved(vertices, distortions.random_pose(rng(seed))), faces
+
+
+def test_a_clean_mesh_stays_as_it_is():
+    vertices, faces = FOOT
+    mesh = cleaned(vertices, faces)
+    assert mesh.warnings == ()
+    assert mesh.watertight
+    assert np.array_equal(mesh.vertices[mesh.faces], vertices[faces])
+    assert np.array_equal(mesh.source_to_vertex, np.arange(len(vertices)))
+
+
+def test_soup_becomes_a_surface():
+    vertices, faces = distortions.soup(*FOOT)
+    mesh = cleaned(vertices, faces)
+    assert (len(mesh.vertices), mesh.watertight, mesh.warnings) == (len(FOOT[0]), True, ())
+    assert np.array_equal(mesh.vertices[mesh.source_to_vertex], vertices)
+
+
+def test_corners_rounded_apart_are_joined_and_it_is_said():
+    vertices, faces = distortions.soup(*posed(*FOOT))
+    vertices = vertices + rng().uniform(-2e-5, 2e-5, vertices.shape)
+    mesh = cleaned(vertices, faces)
+    assert "near_vertices_welded" in codes(mesh)
+    assert len(mesh.vertices) == len(FOOT[0])
+    assert mesh.watertight
+    assert np.abs(mesh.vertices[mesh.source_to_vertex] - vertices).max() < 1e-4
+
+
+def test_faces_without_area_and_faces_twice_go():
+    vertices, faces = FOOT
+    a, b = faces[0, :2]
+    middle = len(vertices)
+    vertices = np.vstack([vertices, 0.5 * (vertices[a] + vertices[b]), [0.0, 0.0, 0.0]])
+    debris = [[a, a, b], [a, b, middle], faces[5], faces[6][::-1]]
+    mesh = cleaned(vertices, np.vstack([faces, debris]))
+    assert message(mesh, "degenerate_removed").startswith("2 ")
+    assert message(mesh, "duplicates_removed").startswith("2 ")
+    assert len(mesh.faces) == len(faces)
+    assert mesh.source_to_vertex[-1] == -1
+    assert surface_area(mesh.vertices, mesh.faces) == pytest.approx(surface_area(*FOOT))
+
+
+def test_a_face_without_area_that_closes_a_surface_leaves_it_watertight():
+    corners = np.array([[0.0, 0, 0], [100, 0, 0], [0, 100, 0], [0, 0, 100], [50, 0, 0]])
+    faces = np.array([[0, 2, 1], [1, 2, 3], [2, 0, 3], [0, 4, 3], [4, 1, 3], [0, 1, 4]])
+    mesh = cleaned(corners, faces)
+    assert mesh.watertight
+    assert (len(mesh.faces), codes(mesh)) == (5, ["degenerate_removed"])
+
+
+def test_specks_go_wherever_they_lie_and_two_shapes_stay():
+    specks = [small(1.0, shift) for shift in ([0, 0, 0], [400.0, 0, 0], [0, 60.0, 60.0])]
+    mesh = cleaned(*distortions.joined(FOOT, *specks))
+    assert message(mesh, "specks_removed").startswith("3 ")
+    assert len(mesh.faces) == len(FOOT[1])
+    two = cleaned(*shapes.two_feet(*FOOT))
+    assert len(two.faces) == 2 * len(FOOT[1])
+    assert "specks_removed" not in codes(two)
+
+
+def test_a_small_patch_stays_where_it_touches_the_shape_and_goes_where_it_does_not():
+    toe = small(9.0, [120.0, 20.0, 0.0], 2)
+    assert len(cleaned(*distortions.joined(FOOT, toe)).faces) == len(FOOT[1]) + len(toe[1])
+    away = small(9.0, [300.0, 20.0, 0.0], 2)
+    assert len(cleaned(*distortions.joined(FOOT, away)).faces) == len(FOOT[1])
+
+
+def test_a_surface_in_many_pieces_is_kept_whole():
+    vertices, faces = FOOT
+    pieces = vertices[faces] * 0.98 + 0.02 * vertices[faces].mean(axis=1, keepdims=True)
+    mesh = cleaned(pieces.reshape(-1, 3), np.arange(3 * len(faces)).reshape(-1, 3))
+    assert len(mesh.faces) == len(faces)
+    assert not mesh.watertight
+
+
+@pytest.mark.parametrize("seed", range(4))
+def test_a_floor_plate_beside_the_foot_is_taken_off_in_any_pose(seed):
+    foot = FOOT[0] + [0.0, 0.0, 40.5], FOOT[1]
+    scene = distortions.joined(foot, _floor(z=0.0))
+    mesh = cleaned(*posed(*scene, seed))
+    assert "plate_removed" in codes(mesh)
+    assert len(mesh.faces) == len(FOOT[1])
+
+
+def _floor(z, size=(400.0, 300.0), cells=20):
+    vertices, faces = shapes.flat_sheet(*size, cells)
+    return vertices - vertices.mean(axis=0) + np.array([0.0, 0.0, z]), faces
+
+
+def test_a_lid_and_a_sheet_alone_are_no_floor():
+    lid = _floor(z=41.0, size=(80.0, 60.0))
+    assert "plate_removed" not in codes(cleaned(*distortions.joined(FOOT, lid)))
+    assert "plate_removed" not in codes(cleaned(*_floor(z=0.0)))
+    across = _floor(z=0.0)  # the foot would lie on both sides
+    assert "plate_removed" not in codes(cleaned(*distortions.joined(FOOT, across)))
+
+
+@given(seed=st.integers(0, 10**6), share=st.floats(0.0, 1.0), is_open=st.booleans())
+@settings(max_examples=40, deadline=None)
+def test_winding_becomes_outward_whatever_it_was(seed, share, is_open):
+    vertices, faces = posed(*FOOT, seed)
+    if is_open:
+        vertices, faces = distortions.with_holes(vertices, faces, rng(seed), 2, 20.0)
+    turned = rng(seed).random(len(faces)) < share
+    mixed = np.where(turned[:, None], faces[:, ::-1], faces)
+    mesh = cleaned(vertices, mixed)
+    assert is_consistently_wound(mesh.faces)
+    assert signed_volume(mesh.vertices, mesh.faces) > 0.0
+    assert ("winding_fixed" in codes(mesh)) == bool(turned.any())
+    assert ("open_mesh" in codes(mesh)) == is_open
+
+
+def test_every_piece_looks_outward():
+    one, other = FOOT, distortions.inside_out(*FOOT)
+    scene = distortions.joined(one, (other[0] + [0.0, 150.0, 0.0], other[1]))
+    mesh = cleaned(*scene)
+    assert message(mesh, "winding_fixed").startswith(f"{len(FOOT[1]):,} ")
+    assert signed_volume(mesh.vertices, mesh.faces) == pytest.approx(2.0 * signed_volume(*FOOT))
+
+
+def test_a_fin_is_said_to_be_non_manifold():
+    vertices, faces = FOOT
+    fin = [[faces[0, 0], faces[0, 1], len(vertices)]]
+    mesh = cleaned(np.vstack([vertices, [0.0, 0.0, 90.0]]), np.vstack([faces, fin]))
+    assert {"non_manifold", "open_mesh"} <= set(codes(mesh))
+    assert not mesh.watertight
+
+
+def test_watertight_agrees_with_the_topology():
+    for vertices, faces in (FOOT, shapes.flat_sheet(), shapes.open_cap(), shapes.torus()):
+        assert cleaned(vertices, faces).watertight == is_closed(faces)
+
+
+def test_a_stray_unused_vertex_changes_nothing():
+    vertices = np.vstack([FOOT[0], [1e9, 1e9, 1e9]])
+    mesh = cleaned(vertices, FOOT[1])
+    assert len(mesh.faces) == len(FOOT[1])
+    assert np.ptp(mesh.vertices[:, 0]) == pytest.approx(250.0)
+
+
+def test_nothing_with_an_area_is_refused():
+    point, line, dust = np.zeros((3, 3)), [[1, 1, 2]], FOOT[0] * 1e-200
+    for vertices, faces in ((point, [[0, 1, 2]]), (FOOT[0], line), (dust, FOOT[1])):
+        with pytest.raises(EmptyMesh):
+            cleaned(vertices, np.array(faces))
+
+
+@given(seed=st.integers(0, 10**6))
+@settings(max_examples=20, deadline=None)
+def test_order_does_not_matter(seed):
+    scene = distortions.joined(FOOT, small(2.0, [0, 90.0, 0]))
+    one, other = cleaned(*scene), cleaned(*distortions.shuffled(*scene, rng(seed)))
+    assert codes(one) == codes(other)
+    assert one.watertight == other.watertight
+    assert surface_area(one.vertices, one.faces) == pytest.approx(
+        surface_area(other.vertices, other.faces), rel=1e-12
+    )
