@@ -41,6 +41,8 @@ def comparable(
     vertices: Floats, faces: Ints, found: list[Ints], settings: PiecesSettings = PIECES
 ) -> list[Ints]:
     """Of the pieces (largest first), those of an area comparable with the largest."""
+    if len(found) == 1:
+        return found
     areas = [float(face_areas(vertices, faces[piece]).sum()) for piece in found]
     return [
         piece
@@ -67,21 +69,29 @@ def gap(first: Floats, second: Floats, settings: PiecesSettings = PIECES) -> flo
     return float(np.sqrt(squares.min()))
 
 
-def outwardness(vertices: Floats, faces: Ints) -> float:
-    """How surely faces look outward: about 1 for a convex body, -1 for one turned inside out."""
+@dataclass(frozen=True, slots=True)
+class Facing:
+    """Where a mesh's faces look.
+
+    ``outward`` is about 1 for a convex body and -1 for one turned inside out; ``one_way`` is
+    |sum of area vectors| over the area: 0 for a closed surface, 1 for a flat sheet.
+    """
+
+    outward: float
+    one_way: float
+
+
+def facing(vertices: Floats, faces: Ints) -> Facing:
+    """Where the faces of a mesh look, on the whole."""
     vectors = area_vectors(vertices, faces)
     areas = np.sqrt(np.einsum("ij,ij->i", vectors, vectors))
     away = vertices[faces].mean(axis=1)
-    away = away - areas @ away / areas.sum()
+    away -= areas @ away / areas.sum()
     distance = np.sqrt(np.einsum("ij,ij->i", away, away))
-    return float(np.einsum("ij,ij->", away, vectors) / (areas @ distance))
-
-
-def is_sheet(vertices: Floats, faces: Ints, settings: PiecesSettings = PIECES) -> bool:
-    """Whether the surface looks one way only: a sheet, such as a scan of the sole alone."""
-    vectors = area_vectors(vertices, faces)
-    area = float(np.sqrt(np.einsum("ij,ij->i", vectors, vectors)).sum())
-    return float(np.linalg.norm(vectors.sum(axis=0))) > settings.sheet * area
+    return Facing(
+        outward=float(np.einsum("ij,ij->", away, vectors) / (areas @ distance)),
+        one_way=float(np.linalg.norm(vectors.sum(axis=0)) / areas.sum()),
+    )
 
 
 def part_of(vertices: Floats, faces: Ints, kept: Ints | Bools) -> tuple[Floats, Ints]:

@@ -21,6 +21,7 @@ class FloorSettings:
     tau_last: float = 0.02
     narrowing_steps: int = 12
     final_steps: int = 15
+    still: float = 1e-7
     down_power: int = 4
     reach: float = 0.25  # what lies higher cannot be sole
     support_height: float = 0.06
@@ -78,8 +79,16 @@ def sole_plane(
         weights *= down**settings.down_power
         if np.count_nonzero(weights) < 3:
             return start
-        plane = fitted_plane(points, weights, plane.normal)
+        before, plane = plane, fitted_plane(points, weights, plane.normal)
+        if width == widths[-1] and _unmoved(before, plane, settings.still, length):
+            break
     return plane
+
+
+def _unmoved(before: Plane, after: Plane, still: float, length: float) -> bool:
+    """Whether the plane has come to rest, so that further steps would change nothing."""
+    tilt = float(np.abs(before.normal - after.normal).max())
+    return tilt < still and abs(before.offset - after.offset) < still * length
 
 
 def support(

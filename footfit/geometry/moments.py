@@ -57,8 +57,10 @@ def surface_second_moment(vertices: Floats, faces: Ints) -> Floats:
     [0.333333333333, 0.333333333333, 0.0]
     """
     areas = face_areas(vertices, faces)
-    corners = vertices[faces] - surface_centroid(vertices, faces)
+    corners = vertices[faces]
     barycentres = corners.mean(axis=1)
+    centroid = areas @ barycentres / areas.sum()
+    corners, barycentres = corners - centroid, barycentres - centroid
     moment = 9 * (areas[:, None] * barycentres).T @ barycentres
     for corner in range(3):
         moment += (areas[:, None] * corners[:, corner]).T @ corners[:, corner]

@@ -37,12 +37,14 @@ class OrientationSettings:
     rotations: int = 576
     more_rotations: int = 1728
     sample_points: int = 1500
-    coarse_points: int = 256
+    few_points: int = 256
+    coarse_points: int = 128
     kept_coarse: int = 24
-    icp_steps: int = 12
+    icp_rounds: tuple[tuple[int, int], ...] = ((4, 10), (8, 10))  # steps, poses kept after them
     kept_poses: int = 4
     apart_deg: float = 25.0
     final_steps: int = 10
+    final_stride: int = 3
     rival_deg: float = 37.0
     reverse_height: float = 0.30
     reverse_points: int = 400
@@ -51,6 +53,8 @@ class OrientationSettings:
     retry_margin: float = 0.07
     cost_maximum: float = 0.62
     margin_minimum: float = 0.04
+    doubtful_cost: float = 0.45
+    margin_per_cost: float = 0.5
     margin_without_rival: float = 1.0
 
 
@@ -127,7 +131,7 @@ def _centre(vertices: Floats) -> Floats:
 def _clouds(vertices: Floats, faces: Ints, settings: OrientationSettings) -> tuple[_Cloud, _Cloud]:
     """The mesh as it is, and mirrored, about ``_centre``."""
     sample = even_sample(vertices - _centre(vertices), faces, settings.sample_points)
-    few = farthest_points(sample.points, settings.coarse_points)
+    few = farthest_points(sample.points, settings.few_points)
     points = sample.points.astype(np.float32)
     normals = sample.normals.astype(np.float32)
     flip = MIRROR.astype(np.float32)
@@ -148,7 +152,12 @@ def _candidates(
     rotations = super_fibonacci(count).astype(np.float32)
     result = []
     for shape in references.shapes:
-        found = [_searched(cloud, shape, rotations, windows, settings) for cloud in clouds]
+        start = _coarse(clouds[0], shape, rotations, windows, settings)
+        starts = start, mirror_image(start, shape.middle_y)
+        found = [
+            _searched(cloud, shape, poses, windows, settings)
+            for cloud, poses in zip(clouds, starts, strict=True)
+        ]
         costs = np.concatenate([cost for _, cost in found])
         poses = joined(*(pose for pose, _ in found))
         mirrored = np.repeat([False, True], [len(cost) for _, cost in found])
@@ -159,23 +168,50 @@ def _candidates(
     return result
 
 
-def _searched(
+def _coarse(
     cloud: _Cloud,
     shape: ReferenceShape,
     rotations: Singles,
     windows: tuple[tuple[float, float], ...],
     settings: OrientationSettings,
+) -> Poses:
+    """The cheapest of all rotations, length and shift taken from the mesh's low part.
+
+    Of the mesh as it is only: a left foot lies on a right reference well enough to start from.
+    """
+    fit, few = settings.fit, settings.coarse_points
+    poses = levelled(rotations, cloud.few, shape.middle_y, fit)
+    costs = forward_costs(poses, cloud.few[:few], cloud.few_normals[:few], shape, fit)
+    limits = _limits(cloud.few, windows, fit)
+    costs = costs + fit.implausible_cost * ~plausible(1 / poses.scale, limits)
+    return poses.at(np.argsort(costs, kind="stable")[: settings.kept_coarse])
+
+
+def mirror_image(poses: Poses, middle_y: float) -> Poses:
+    """The poses (of the mirrored mesh) that leave it where the mesh is, but mirrored in place."""
+    flip = MIRROR.astype(np.float32)
+    shift = poses.shift * np.diag(flip)
+    shift[:, 1] += np.float32(2 * middle_y)
+    return Poses(np.asarray(flip @ poses.rotation @ flip), shift, poses.scale)
+
+
+def _searched(
+    cloud: _Cloud,
+    shape: ReferenceShape,
+    poses: Poses,
+    windows: tuple[tuple[float, float], ...],
+    settings: OrientationSettings,
 ) -> tuple[Poses, Singles]:
-    """Poses of one cloud on one reference after the coarse search and ICP, and their costs."""
+    """Poses of one cloud on one reference after ICP, in two halves, and their costs."""
     points, normals, fit = cloud.few, cloud.few_normals, settings.fit
-    poses = levelled(rotations, points, shape.middle_y, fit)
-    costs = forward_costs(poses, points, normals, shape, fit)
     limits = _limits(points, windows, fit)
-    costs = costs + fit.implausible_cost * ~plausible(1 / poses.scale, limits)
-    best = np.argsort(costs, kind="stable")[: settings.kept_coarse]
-    poses = icp_steps(poses.at(best), points, normals, shape, settings.icp_steps, fit)
-    costs = forward_costs(poses, points, normals, shape, fit)
-    costs = costs + fit.implausible_cost * ~plausible(1 / poses.scale, limits)
+    costs = np.zeros(len(poses.scale), dtype=np.float32)
+    for steps, kept in settings.icp_rounds:
+        poses = icp_steps(poses, points, normals, shape, steps, fit)
+        costs = forward_costs(poses, points, normals, shape, fit)
+        costs += np.where(plausible(1 / poses.scale, limits), 0.0, fit.implausible_cost)
+        best = np.argsort(costs, kind="stable")[:kept]
+        poses, costs = poses.at(best), costs[best]
     apart = _apart(poses, costs, settings)
     return poses.at(apart), costs[apart]
 
@@ -217,7 +253,8 @@ def _finished(
     settings: OrientationSettings,
 ) -> _Candidate:
     points, normals, fit = cloud.many, cloud.many_normals, settings.fit
-    pose = icp_steps(pose, points, normals, shape, settings.final_steps, fit)
+    every = slice(None, None, settings.final_stride)
+    pose = icp_steps(pose, points[every], normals[every], shape, settings.final_steps, fit)
     forward = float(forward_costs(pose, points, normals, shape, fit)[0])
     low = np.flatnonzero(shape.points[:, 2] < settings.reverse_height)
     low = low[np.linspace(0, len(low) - 1, settings.reverse_points).astype(int)]
@@ -247,8 +284,17 @@ def _chosen(candidates: list[_Candidate], settings: OrientationSettings) -> Orie
         cost=winner.cost,
         margin=margin,
         kind=winner.shape.kind,
-        accepted=winner.cost <= settings.cost_maximum and margin >= settings.margin_minimum,
+        accepted=is_accepted(winner.cost, margin, settings),
     )
+
+
+def is_accepted(cost: float, margin: float, settings: OrientationSettings = ORIENTATION) -> bool:
+    """Whether a pose is that of a foot or last: the worse it fits, the clearer it must be.
+
+    Cost alone does not tell: a cylinder has .55, an ellipsoid .55; their margins are below .03.
+    """
+    extra = settings.margin_per_cost * max(0.0, cost - settings.doubtful_cost)
+    return cost <= settings.cost_maximum and margin >= settings.margin_minimum + extra
 
 
 def _unmirrored(candidate: _Candidate) -> Floats:

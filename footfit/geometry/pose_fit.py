@@ -23,6 +23,7 @@ class FitSettings:
     normal_weight: float = 0.25
     leg_height: float = 0.42  # above it a point costs at most leg_cost: any leg is harmless
     leg_cost: float = 0.45
+    leg_share: float = 0.70  # a pose that calls more of the points leg is implausible
     low_height: float = 0.35  # the part that gives length and shift in the coarse search
     least_length: float = 0.25  # of the mesh's size: else a pose would call nearly all of it leg
     implausible_cost: float = 0.6
@@ -30,6 +31,7 @@ class FitSettings:
     icp_quantile: float = 0.85
     normal_floor: float = 0.05
     point_weight: float = 0.15
+    damping: float = 1e-6
     max_turn: float = 0.35
     max_shift: float = 0.20
     max_scale_step: float = 0.07
@@ -37,6 +39,9 @@ class FitSettings:
 
 
 FIT = FitSettings()
+LEVI_CIVITA = np.zeros((3, 3, 3))
+LEVI_CIVITA[[0, 1, 2], [1, 2, 0], [2, 0, 1]] = 1.0
+LEVI_CIVITA[[0, 1, 2], [2, 0, 1], [1, 2, 0]] = -1.0
 
 
 @dataclass(frozen=True, slots=True)
@@ -79,13 +84,17 @@ def point_costs(away: Singles, cosine: Singles, height: Singles, settings: FitSe
 def forward_costs(
     poses: Poses, points: Singles, normals: Singles, shape: ReferenceShape, settings: FitSettings
 ) -> Singles:
-    """The mean cost from the mesh's points (n, 3) to the reference, per pose, (k,)."""
+    """The mean cost from the mesh's points (n, 3) to the reference, per pose, (k,).
+
+    A pose that would make nearly all of the mesh leg pays ``implausible_cost`` as well.
+    """
     q = moved(poses, points)
     turned = normals @ poses.rotation.transpose(0, 2, 1)
     index = shape.nearest(q)
     cosine = np.einsum("kni,kni->kn", turned, shape.normals[index])
     costs = point_costs(q - shape.points[index], cosine, q[..., 2], settings)
-    return np.asarray(costs.mean(axis=1))
+    mostly_leg = (q[..., 2] > settings.leg_height).mean(axis=1) > settings.leg_share
+    return np.asarray(costs.mean(axis=1) + np.float32(settings.implausible_cost) * mostly_leg)
 
 
 def size_of(points: Singles) -> float:
@@ -150,25 +159,46 @@ def _gauss_newton(
     bound = np.quantile(costs, settings.icp_quantile, axis=1, method="lower")[:, None]
     weight = np.clip(cosine, settings.normal_floor, 1.0)
     weight *= (costs <= bound) & (q[..., 2] <= settings.icp_height)
-    k, n = weight.shape
-    rows = np.empty((k, n, 4, 8), dtype=np.float32)  # Jacobian and, last, the residual
-    directions = np.empty((k, n, 4, 3), dtype=np.float32)
-    directions[:, :, 0] = plane
-    directions[:, :, 1:] = np.eye(3, dtype=np.float32) * np.float32(settings.point_weight**0.5)
-    directions *= np.sqrt(weight)[..., None, None]
-    qx, qy, qz = (q[..., i, None] for i in range(3))
-    dx, dy, dz = (directions[..., i] for i in range(3))
-    rows[..., 0] = qy * dz - qz * dy  # (omega x q) . d = omega . (q x d)
-    rows[..., 1] = qz * dx - qx * dz
-    rows[..., 2] = qx * dy - qy * dx
-    rows[..., 3:6] = directions
-    rows[..., 6] = qx * dx + qy * dy + qz * dz
-    ax, ay, az = (away[..., i, None] for i in range(3))
-    rows[..., 7] = ax * dx + ay * dy + az * dz
-    rows = rows.reshape(k, 4 * n, 8)
-    normal = (rows.transpose(0, 2, 1) @ rows).astype(np.float64)
-    matrix = normal[:, :7, :7] + 1e-6 * n * np.eye(7)
+    normal = _plane_part(q, away, plane, weight) + settings.point_weight * _point_part(
+        q, away, weight
+    )
+    matrix = normal[:, :7, :7] + settings.damping * weight.shape[1] * np.eye(7)
     return np.asarray(-np.linalg.solve(matrix, normal[:, :7, 7:])[..., 0])
+
+
+def _plane_part(q: Singles, away: Singles, plane: Singles, weight: Singles) -> Floats:
+    """Normal equations (k, 8, 8), the residual last, of the distances along ``plane``."""
+    rows = np.empty((*weight.shape, 8), dtype=np.float32)
+    qx, qy, qz = (q[..., i] for i in range(3))
+    nx, ny, nz = (plane[..., i] for i in range(3))
+    rows[..., 0] = qy * nz - qz * ny  # (omega x q) . n = omega . (q x n)
+    rows[..., 1] = qz * nx - qx * nz
+    rows[..., 2] = qx * ny - qy * nx
+    rows[..., 3:6] = plane
+    rows[..., 6] = qx * nx + qy * ny + qz * nz
+    rows[..., 7] = np.einsum("kni,kni->kn", away, plane)
+    return np.asarray((rows * weight[..., None]).transpose(0, 2, 1) @ rows, dtype=np.float64)
+
+
+def _point_part(q: Singles, away: Singles, weight: Singles) -> Floats:
+    """Normal equations (k, 8, 8) of the distances point to point, from their moments alone."""
+    rows = np.concatenate([q, away, np.ones((*weight.shape, 1), dtype=np.float32)], axis=2)
+    left = np.concatenate([q, np.ones((*weight.shape, 1), dtype=np.float32)], axis=2)
+    moments = ((left * weight[..., None]).transpose(0, 2, 1) @ rows).astype(np.float64)
+    qq, qe, wq = moments[:, :3, :3], moments[:, :3, 3:6], moments[:, 3, :3]
+    we, total = moments[:, 3, 3:6], moments[:, 3, 6]
+    squares = np.trace(qq, axis1=1, axis2=2)
+    normal = np.zeros((len(q), 8, 8))
+    normal[:, :3, :3] = squares[:, None, None] * np.eye(3) - qq
+    normal[:, :3, 3:6] = np.einsum("ijl,kl->kij", LEVI_CIVITA, wq) * -1.0
+    normal[:, 3:6, :3] = normal[:, :3, 3:6].transpose(0, 2, 1)
+    normal[:, 3:6, 3:6] = total[:, None, None] * np.eye(3)
+    normal[:, 3:6, 6] = normal[:, 6, 3:6] = wq
+    normal[:, 6, 6] = squares
+    normal[:, :3, 7] = np.einsum("ijl,kjl->ki", LEVI_CIVITA, qe)  # q x e
+    normal[:, 3:6, 7] = we
+    normal[:, 6, 7] = np.trace(qe, axis1=1, axis2=2)
+    return normal
 
 
 def _stepped(poses: Poses, step: Floats, settings: FitSettings) -> Poses:

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from footfit.geometry.arrays import Floats, Ints
-from footfit.geometry.surface import area_vectors, unit, vertex_normals
+from footfit.geometry.surface import area_vectors, unit, vertex_sums
 
 # The plastic number's fractions: the R2 sequence fills the unit square evenly and needs no seed.
 _R2 = np.array([0.7548776662466927, 0.5698402909980532])
@@ -36,7 +36,7 @@ def even_sample(vertices: Floats, faces: Ints, count: int) -> SurfaceSample:
     root = np.sqrt(u)
     weights = np.stack([1 - root, root * (1 - v), root * v], axis=1)
     corners = faces[chosen]
-    smooth = vertex_normals(vertices, faces)
+    smooth = vertex_sums(vectors, faces, len(vertices))
     return SurfaceSample(
         points=np.einsum("kc,kci->ki", weights, vertices[corners]),
         normals=unit(np.einsum("kc,kci->ki", weights, smooth[corners])),
@@ -67,35 +67,30 @@ def quadrature(vertices: Floats, faces: Ints, edge: float, rounds: int = 5) -> S
     So that an integral over a coarse mesh or over a big flat facet is as good as over a fine one;
     ``rounds`` bounds the splitting.
     """
+    vectors = area_vectors(vertices, faces)
     corners = vertices[faces]
-    smooth = unit(area_vectors(vertices, faces))
     finished: list[tuple[Floats, Floats]] = []
     for _ in range(rounds):
         sides = corners - corners[:, [1, 2, 0]]
         large = (np.einsum("kci,kci->kc", sides, sides) > edge * edge).any(axis=1)
-        finished.append((corners[~large], smooth[~large]))
-        corners, smooth = _quartered(corners[large]), np.tile(smooth[large], (4, 1))
-        if len(corners) == 0:
+        if not large.any():
             break
-    finished.append((corners, smooth))
-    corners = np.concatenate([part for part, _ in finished])
-    areas = _areas(corners)
+        finished.append((corners[~large].mean(axis=1), vectors[~large]))
+        corners, vectors = _quartered(corners[large]), np.tile(vectors[large] / 4, (4, 1))
+    finished.append((corners.mean(axis=1), vectors))
+    vectors = np.concatenate([part for _, part in finished])
+    areas = np.sqrt(np.einsum("ij,ij->i", vectors, vectors))
     return SurfaceSample(
-        points=corners.mean(axis=1),
-        normals=np.concatenate([part for _, part in finished]),
+        points=np.concatenate([part for part, _ in finished]),
+        normals=vectors / np.maximum(areas, np.finfo(np.float64).tiny)[:, None],
         areas=areas,
     )
 
 
 def _quartered(corners: Floats) -> Floats:
+    """The four triangles (4 k, 3, 3) that the middles of the sides cut out of each, k of a kind."""
     middles = 0.5 * (corners + corners[:, [1, 2, 0]])
     a, b, c = (corners[:, i] for i in range(3))
     ab, bc, ca = (middles[:, i] for i in range(3))
     parts = ((a, ab, ca), (ab, b, bc), (ca, bc, c), (ab, bc, ca))
     return np.concatenate([np.stack(part, axis=1) for part in parts])
-
-
-def _areas(corners: Floats) -> Floats:
-    flat = corners.reshape(-1, 3)
-    vectors = area_vectors(flat, np.arange(len(flat)).reshape(-1, 3))
-    return np.asarray(np.sqrt(np.einsum("ij,ij->i", vectors, vectors)))

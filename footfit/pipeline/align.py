@@ -5,10 +5,11 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 from typing import Literal
 
-from footfit.errors import ImplausibleSize, NoReference, UnknownUnits
+from footfit.errors import HalfScan, ImplausibleSize, NoReference, UnknownUnits
 from footfit.geometry import wpca
 from footfit.geometry.arrays import Floats, Ints
-from footfit.geometry.frame import canonical_frame, length_of
+from footfit.geometry.ends import boundary_points, missing_end
+from footfit.geometry.frame import canonical_frame, length_of, turned_sample
 from footfit.geometry.moments import (
     principal_axes,
     printed_covariance,
@@ -17,7 +18,7 @@ from footfit.geometry.moments import (
     vertex_mean,
 )
 from footfit.geometry.rotations import nearest_rotation, transform
-from footfit.geometry.samples import quadrature
+from footfit.geometry.samples import SurfaceSample, quadrature
 from footfit.geometry.side import confidence, side_score
 from footfit.pipeline.prepare import Posed, Windows, posed
 from footfit.results import (
@@ -96,10 +97,11 @@ def aligned(
         )
     shape = posed(scan, _windows(scan.info, known_length_mm))
     frame = _Framed.of(shape)
+    _refuse_half(shape, frame)
     info = _info_with_unit(scan.info, frame.length, known_length_mm)
     factor = info.unit_scale / scan.info.unit_scale
     canonical_mm = factor * frame.points
-    verdict = _verdict(canonical_mm, shape.faces, factor * frame.length, side)
+    verdict = _verdict(frame, side)
     mirrored = verdict.side == "left"
     canonical = transform(frame.rotation, factor * frame.shift, info.unit_scale)
     eigenframe = _eigenframe(factor * shape.vertices, shape.faces, frame.rotation, method)
@@ -171,9 +173,13 @@ def _info_with_unit(info: MeshInfo, length: float, known_length_mm: float | None
 
 @dataclass(frozen=True, slots=True)
 class _Framed:
-    """The canonical frame in provisional mm: points = rotation @ vertices + shift."""
+    """The canonical frame in provisional mm: points = rotation @ vertices + shift.
+
+    ``surface`` is the whole surface as points with areas.
+    """
 
     points: Floats
+    surface: SurfaceSample
     rotation: Floats
     shift: Floats
     length: float
@@ -185,19 +191,29 @@ class _Framed:
         rough = shape.orientation
         about = shape.vertices @ rough.rotation.T + rough.shift
         edge = ALIGN.quadrature_edge * rough.length
-        fine = canonical_frame(quadrature(about, shape.faces, edge), rough.length)
+        sample = quadrature(about, shape.faces, edge)
+        fine = canonical_frame(sample, rough.length)
+        turned = turned_sample(sample, fine.rotation)
+        surface = replace(turned, points=turned.points + fine.shift)
         rotation = nearest_rotation(fine.rotation @ rough.rotation)
         shift = fine.rotation @ rough.shift + fine.shift
         points = shape.vertices @ rotation.T + shift
         quality = PoseQuality(rough.cost, rough.margin, fine.support, fine.sole, rough.kind)
         length = length_of(points, 0.0, fine.length)
-        return cls(points, rotation, shift, length, quality)
+        return cls(points, surface, rotation, shift, length, quality)
 
 
-def _verdict(points_mm: Floats, faces: Ints, length_mm: float, side: str) -> SideVerdict:
+def _refuse_half(shape: Posed, frame: _Framed) -> None:
+    """Raise HalfScan where an end was cut off, since length and flare would be another's."""
+    rim = boundary_points(frame.points, shape.faces)
+    missing = missing_end(frame.surface, rim, frame.length)
+    if missing is not None:
+        raise HalfScan(f"no {missing}: the surface ends there in a cut; scan the whole foot")
+
+
+def _verdict(frame: _Framed, side: str) -> SideVerdict:
     """The side detected, or the one given with what the shape says of it."""
-    edge = ALIGN.quadrature_edge * length_mm
-    score = side_score(quadrature(points_mm, faces, edge).points, length_mm).score
+    score = side_score(frame.surface.points, frame.length).score
     word: Confidence = confidence(score)
     detected: SideName = "right" if score >= 0 else "left"
     if side == "auto":

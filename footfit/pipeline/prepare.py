@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -11,9 +11,8 @@ from footfit.geometry.arrays import Floats, Ints
 from footfit.geometry.feet import (
     PIECES,
     comparable,
+    facing,
     gap,
-    is_sheet,
-    outwardness,
     part_of,
     pieces,
     stand_apart,
@@ -35,6 +34,7 @@ class Posed:
     vertices: Floats
     faces: Ints
     orientation: Orientation
+    sheet: bool
     notices: tuple[Notice, ...]
 
 
@@ -63,7 +63,7 @@ def posed(scan: Scan, windows: Windows) -> Posed:
         shape = _oriented(alone.vertices, alone.faces, windows, alone.notices)
     else:
         shape = _the_one_foot(body, found, windows)
-    if is_sheet(shape.vertices, shape.faces):
+    if shape.orientation.accepted and shape.sheet:
         raise HalfScan("this is a sheet, like a scan of the sole alone; scan the whole foot")
     if not shape.orientation.accepted:
         raise NotAFoot(
@@ -88,6 +88,8 @@ def _without_floor(scan: Scan) -> _Body:
     """The scan without its plate, which may be a piece by itself or grown to the foot."""
     vertices, faces = scan.vertices_mm, scan.faces
     found = pieces(vertices, faces)
+    if len(found) == 1 and without_plate(vertices, faces).all():
+        return _Body(vertices, faces, found, ())
     flat = [is_flat(part_of(vertices, faces, piece)[0]) for piece in found]
     removed = any(flat) and not all(flat)
     if removed:
@@ -106,6 +108,8 @@ def _without_floor(scan: Scan) -> _Body:
 
 def _without_strays(body: _Body) -> _Body:
     """The largest piece with what lies close to it; lesser things beside it are left out."""
+    if len(body.pieces) == 1:
+        return body
     largest = part_of(body.vertices, body.faces, body.pieces[0])[0]
     size = float(np.ptp(largest, axis=0).max())
     near = [
@@ -138,23 +142,29 @@ def _the_one_foot(body: _Body, found: list[Ints], windows: Windows) -> Posed:
     best = min(feet, key=lambda shape: shape.orientation.cost)
     if whole.orientation.accepted and whole.orientation.cost <= best.orientation.cost:
         return whole
-    return Posed(best.vertices, best.faces, best.orientation, (*best.notices, _STRAYS))
+    return replace(best, notices=(*best.notices, _STRAYS))
 
 
 def _oriented(
     vertices: Floats, faces: Ints, windows: Windows, notices: tuple[Notice, ...]
 ) -> Posed:
-    """One mesh with its pose; turned inside out where its faces look inward."""
-    references = shipped_references()
-    outward = outwardness(vertices, faces)
-    inverted = faces[:, [0, 2, 1]]
+    """One mesh with its pose; its faces turned over where they look inward."""
+    looks = facing(vertices, faces)
     turned = (*notices, Notice("winding_fixed", "the faces looked inward and were turned"))
-    if outward < -PIECES.inside_out:
-        return Posed(
-            vertices, inverted, orientation(vertices, inverted, references, windows), turned
+    ways = []
+    if looks.outward > -PIECES.inside_out:
+        ways.append((faces, notices))
+    if looks.outward < PIECES.inside_out:
+        ways.append((faces[:, [0, 2, 1]], turned))
+    sheet = looks.one_way > PIECES.sheet
+    shapes = [
+        Posed(
+            vertices,
+            wound,
+            orientation(vertices, wound, shipped_references(), windows),
+            sheet,
+            said,
         )
-    as_is = Posed(vertices, faces, orientation(vertices, faces, references, windows), notices)
-    if outward > PIECES.inside_out:
-        return as_is
-    other = Posed(vertices, inverted, orientation(vertices, inverted, references, windows), turned)
-    return min(as_is, other, key=lambda shape: shape.orientation.cost)
+        for wound, said in ways
+    ]
+    return min(shapes, key=lambda shape: shape.orientation.cost)
