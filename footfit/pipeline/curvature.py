@@ -9,12 +9,13 @@ import numpy as np
 from footfit.errors import BadOption
 from footfit.geometry.curvature import one_ring_curvature, pooled_curvature
 from footfit.geometry.topology import edges
+from footfit.meshes.extents import principal_extents
 from footfit.results import Notice, Scan, SurfaceCurvature
 
 
 @dataclass(frozen=True, slots=True)
 class CurvatureDefaults:
-    """``radius_per_extent``: the scale where none is given, over the longest extent."""
+    """``radius_per_extent``: the scale where none is given, over the longest principal extent."""
 
     radius_per_extent: float = 0.06
 
@@ -30,7 +31,7 @@ def surface_curvature(scan: Scan, radius_mm: float | None = None) -> SurfaceCurv
     scan : Scan
     radius_mm : float, optional
         The scale of :func:`footfit.geometry.curvature.pooled_curvature`; 0 is the paper's one
-        ring (III.C). None takes 6 % of the longest extent along the file's axes.
+        ring (III.C). None takes 6 % of the longest principal extent.
 
     Raises
     ------
@@ -39,7 +40,7 @@ def surface_curvature(scan: Scan, radius_mm: float | None = None) -> SurfaceCurv
     """
     vertices, faces = scan.vertices_mm, scan.faces
     if radius_mm is None:
-        radius_mm = DEFAULTS.radius_per_extent * float(np.ptp(vertices, axis=0).max())
+        radius_mm = DEFAULTS.radius_per_extent * float(principal_extents(vertices)[0][0])
     if not 0.0 <= radius_mm < np.inf:
         raise BadOption("the radius must be 0 (one ring) or a length in mm, such as --radius 15")
     if radius_mm > 0.0:

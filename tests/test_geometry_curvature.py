@@ -1,0 +1,425 @@
+"""III.C against a slow reference, angle defects against Gauss-Bonnet, pooling against truth."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from footfit.geometry.angles import angle_between
+from footfit.geometry.curvature import (
+    PrincipalCurvatures,
+    angle_defect,
+    concentrated_curvature_one_ring,
+    one_ring_curvature,
+    pooled_curvature,
+    pooled_mean_curvature,
+)
+from footfit.geometry.polylines import curvature_density
+from footfit.geometry.topology import boundary_loops, boundary_vertices, welded
+from tests import shapes
+from tests.distortions import (
+    decimated,
+    half_subdivided,
+    joined,
+    mirrored,
+    plane_cut,
+    random_rotation,
+    shuffled,
+    soup,
+    subdivided,
+    white_noise,
+    with_holes,
+)
+from tests.strategies import rotations, scales, seeds, shifts_mm, surfaces
+
+FIELDS = ("k1", "k2", "mean", "gaussian")
+RADIUS = 15.0
+
+
+# ---------------------------------------------------------------- angle defect
+
+
+@given(surfaces(open_too=False))
+@settings(max_examples=25, deadline=None)
+def test_eq_11_gauss_bonnet_on_closed_meshes_of_genus_0_and_1(mesh):
+    vertices, faces = mesh
+    euler = len(vertices) - 3 * len(faces) // 2 + len(faces)
+    assert euler in (0, 2)
+    assert angle_defect(vertices, faces).sum() == pytest.approx(2 * np.pi * euler, abs=1e-8)
+
+
+def test_eq_11_gauss_bonnet_with_the_turning_of_the_boundary():
+    vertices, faces = shapes.open_cap(50.0, 60.0, 24, 72)
+    defect = angle_defect(vertices, faces)
+    rim = boundary_vertices(faces, len(vertices))
+    assert defect.sum() == pytest.approx(2 * np.pi, abs=1e-9)
+    # On the smooth cap the area gives 2 pi (1 - cos a) and the rim turns by 2 pi cos a.
+    assert defect[~rim].sum() == pytest.approx(2 * np.pi * 0.5, rel=0.05)
+    assert defect[rim].sum() == pytest.approx(2 * np.pi * 0.5, rel=0.05)
+
+
+def test_eq_11_holds_on_a_tube_with_two_rims_and_on_a_holed_sphere():
+    vertices, faces = shapes.cylinder(40.0, 250.0, 24, 10)
+    for height, direction in ((50.0, -1.0), (200.0, 1.0)):
+        vertices, faces = plane_cut(
+            vertices, faces, np.array([0.0, 0.0, height]), np.array([0.0, 0.0, direction])
+        )
+    assert np.nansum(angle_defect(vertices, faces)) == pytest.approx(0.0, abs=1e-9)
+    ball, kept = shapes.sphere(50.0, 3)
+    kept = kept[(ball[kept][:, :, 2].max(axis=1) < 40.0) & (ball[kept][:, :, 0].max(axis=1) < 40.0)]
+    euler = 2 - len(boundary_loops(kept))
+    assert euler == 0
+    assert np.nansum(angle_defect(ball, kept)) == pytest.approx(2 * np.pi * euler, abs=1e-9)
+
+
+def test_the_angle_defect_is_pi_at_a_tetrahedrons_and_half_pi_at_a_cubes_corners():
+    np.testing.assert_allclose(angle_defect(*shapes.tetrahedron()), np.pi)
+    vertices, faces = shapes.cube(10.0, 4)
+    corner = np.all(np.abs(vertices) == 5.0, axis=1)
+    defect = angle_defect(vertices, faces)
+    np.testing.assert_allclose(defect[corner], np.pi / 2)
+    np.testing.assert_allclose(defect[~corner], 0.0, atol=1e-12)
+
+
+# ---------------------------------------------------------------- one ring (III.C)
+
+
+def _slow_one_ring(vertices: np.ndarray, faces: np.ndarray, density: bool) -> np.ndarray:
+    """III.C word for word, one vertex at a time: k1, k2, mean (3, n)."""
+    rim = boundary_vertices(faces, len(vertices))
+    out = np.full((3, len(vertices)), np.nan)
+    for p in np.flatnonzero(~rim):
+        star = faces[(faces == p).any(axis=1)]
+        corners = vertices[star]
+        normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+        normal = np.mean(normals / np.linalg.norm(normals, axis=1)[:, None], axis=0)
+        normal /= np.linalg.norm(normal)
+        link = [tuple(np.roll(face, -list(face).index(p))[1:]) for face in star]
+        values = [_slow_normal_curvature(vertices, p, v, link, normal, density) for v, _ in link]
+        known = [value for value in values if value is not None]
+        if known:
+            out[:, p] = min(known), max(known), np.mean(known)
+    return out
+
+
+def _slow_normal_curvature(vertices, p, v, link, normal, density):
+    ray = vertices[v] - vertices[p]
+    across = np.cross(normal, ray)
+    best, found = -np.inf, None
+    for a, b in link:
+        qa, qb = vertices[a] - vertices[p], vertices[b] - vertices[p]
+        sa, sb = qa @ across, qb @ across
+        if v in (a, b) or (sa < 0) == (sb < 0):
+            continue
+        w = qa + sa / (sa - sb) * (qb - qa)
+        flat = ray - (ray @ normal) * normal
+        back = -(w @ flat) / np.linalg.norm(flat) / np.linalg.norm(w)
+        if w @ flat < 0 and back > best:
+            best, found = back, w
+    if found is None:
+        return None
+    gamma = angle_between(ray, found)
+    middle = ray / np.linalg.norm(ray) + found / np.linalg.norm(found)  # inside the angle at p
+    value = (np.pi - gamma) * (1.0 if middle @ normal < 0 else -1.0)
+    return value / (0.5 * (np.linalg.norm(ray) + np.linalg.norm(found))) if density else value
+
+
+@given(surfaces())
+@settings(max_examples=20, deadline=None)
+def test_one_ring_is_the_papers_construction(mesh):
+    vertices, faces = mesh
+    for density, fast in ((False, concentrated_curvature_one_ring), (True, one_ring_curvature)):
+        found = fast(vertices, faces)
+        slow = _slow_one_ring(vertices, faces, density)
+        for field, expected in zip((found.k1, found.k2, found.mean), slow, strict=True):
+            np.testing.assert_allclose(field, expected, atol=1e-7)
+        np.testing.assert_allclose(found.gaussian, slow[0] * slow[1], atol=1e-7)
+
+
+def test_one_ring_on_a_regular_octahedron_by_hand():
+    # At each corner gamma is the right angle between opposite neighbours: pi - gamma = pi / 2.
+    v = np.array([[1.0, 0, 0], [0, 1, 0], [-1, 0, 0], [0, -1, 0], [0, 0, 1], [0, 0, -1]])
+    upper = [[0, 1, 4], [1, 2, 4], [2, 3, 4], [3, 0, 4]]
+    faces = np.array(upper + [[b, a, 5] for a, b, _ in upper])
+    found = concentrated_curvature_one_ring(v, faces)
+    for field in (found.k1, found.k2, found.mean):
+        np.testing.assert_allclose(field, np.pi / 2)
+    np.testing.assert_allclose(one_ring_curvature(v, faces).mean, np.pi / 2 / np.sqrt(2.0))
+
+
+def test_one_ring_signs_saddles_and_boundaries():
+    vertices, faces = shapes.torus(60.0, 20.0, 96, 48)
+    k1, k2 = shapes.torus_curvatures(vertices, 60.0, 20.0)
+    found = one_ring_curvature(vertices, faces)
+    # The planes of a regular mesh hold the principal directions: exact up to the edges' squares.
+    assert np.quantile(np.abs(found.k2 - k2) * 20.0, 0.95) < 0.05
+    assert np.median(np.abs(found.k1 - k1)) * 20.0 < 0.05
+    inner = k1 < -0.002
+    assert (found.k1[inner] < 0).all()
+    cap, cap_faces = shapes.open_cap(50.0, 60.0, 10, 30)
+    rim = boundary_vertices(cap_faces, len(cap))
+    for name in FIELDS:
+        np.testing.assert_array_equal(
+            np.isnan(getattr(one_ring_curvature(cap, cap_faces), name)), rim
+        )
+
+
+def test_flipping_the_faces_flips_the_sign_and_exchanges_k1_and_k2():
+    vertices, faces = shapes.torus(60.0, 20.0, 28, 14)
+    for kind in (one_ring_curvature, lambda v, f: pooled_curvature(v, f, RADIUS)):
+        out, back = kind(vertices, faces), kind(vertices, faces[:, ::-1])
+        np.testing.assert_allclose(back.k1, -out.k2, atol=1e-12)
+        np.testing.assert_allclose(back.k2, -out.k1, atol=1e-12)
+        np.testing.assert_allclose(back.mean, -out.mean, atol=1e-12)
+
+
+def test_the_sum_of_k1_k2_is_no_gauss_bonnet():
+    """The concentrated curvatures' product is not the angle defect: about 15.0 for 12.57."""
+    vertices, faces = shapes.sphere(50.0, 4)
+    product = concentrated_curvature_one_ring(vertices, faces).gaussian.sum()
+    assert abs(angle_defect(vertices, faces).sum() - 4 * np.pi) < 1e-9
+    assert product > 1.1 * 4 * np.pi
+
+
+# ---------------------------------------------------------------- the laws, both kinds
+
+
+def _pooled(vertices, faces, scale=1.0) -> PrincipalCurvatures:
+    return pooled_curvature(vertices, faces, RADIUS * scale)
+
+
+def _ring(vertices, faces, scale=1.0) -> PrincipalCurvatures:
+    return one_ring_curvature(vertices, faces)
+
+
+def _assert_same(found, expected, atol=1e-7):
+    for name in FIELDS:
+        np.testing.assert_allclose(getattr(found, name), getattr(expected, name), atol=atol)
+
+
+@pytest.mark.parametrize("kind", [_pooled, _ring])
+@given(surfaces(), rotations(), shifts_mm(), scales())
+@settings(max_examples=12, deadline=None)
+def test_rotation_and_shift_keep_and_scale_divides(kind, mesh, rotation, shift, scale):
+    vertices, faces = mesh
+    still = kind(vertices, faces)
+    moved = kind(scale * (vertices @ rotation.T + shift), faces, scale)
+    for name, power in (("k1", 1), ("k2", 1), ("mean", 1), ("gaussian", 2)):
+        np.testing.assert_allclose(
+            getattr(moved, name) * scale**power, getattr(still, name), atol=1e-6
+        )
+
+
+@pytest.mark.parametrize("kind", [_pooled, _ring])
+@given(surfaces(), seeds)
+@settings(max_examples=12, deadline=None)
+def test_a_mirror_and_another_order_change_nothing(kind, mesh, seed):
+    vertices, faces = mesh
+    still = kind(vertices, faces)
+    _assert_same(kind(*mirrored(vertices, faces)), still)
+    rng = np.random.default_rng(seed)
+    order = rng.permutation(len(vertices))
+    place = np.argsort(order)
+    other = rng.permutation(np.roll(place[faces], 1, axis=1))
+    mixed = kind(vertices[order], other)
+    for name in FIELDS:
+        np.testing.assert_allclose(getattr(mixed, name)[place], getattr(still, name), atol=1e-7)
+
+
+@given(surfaces(), seeds)
+@settings(max_examples=10, deadline=None)
+def test_duplicate_vertices_change_nothing_after_the_weld(mesh, seed):
+    vertices, faces = shuffled(*mesh, np.random.default_rng(seed))
+    still = pooled_curvature(vertices, faces, RADIUS)
+    merged, merged_faces, source = welded(*soup(vertices, faces))
+    found = pooled_curvature(merged, merged_faces, RADIUS)
+    np.testing.assert_allclose(found.mean[source], still.mean[faces.ravel()], atol=1e-9)
+
+
+# ---------------------------------------------------------------- at a scale: truth
+
+
+def _error(found, truth) -> tuple[float, float]:
+    """Median errors of k1 and k2 over max(|k1|, |k2|)."""
+    size = np.maximum(np.abs(truth[0]), np.abs(truth[1]))
+    pairs = zip((found.k1, found.k2), truth, strict=True)
+    return tuple(float(np.nanmedian(np.abs(k - t) / size)) for k, t in pairs)
+
+
+def _uneven_sphere(count=4000, seed=0):
+    return shapes.convex_cloud(count, np.random.default_rng(seed))
+
+
+@pytest.mark.parametrize("radius", [4.0, 8.0, 16.0, 32.0])
+def test_a_sphere_is_exact_at_any_radius_up_to_its_mesh(radius):
+    vertices, faces = _uneven_sphere()
+    truth = np.full((2, len(vertices)), 1 / 50.0)
+    assert max(_error(pooled_curvature(vertices, faces, radius), truth)) < 0.02
+    assert np.quantile(np.abs(pooled_curvature(vertices, faces, radius).mean * 50 - 1), 0.99) < 0.05
+
+
+@pytest.mark.parametrize("radius", [10.0, 30.0])
+def test_a_cylinders_wall_is_exact_even_where_the_radius_is_near_its_own(radius):
+    vertices, faces = shapes.cylinder(40.0, 400.0, 96, 150)
+    wall = np.abs(vertices[:, 2] - 200.0) < 60.0
+    found = pooled_curvature(vertices, faces, radius)
+    np.testing.assert_allclose(found.k1[wall] * 40.0, 0.0, atol=1e-3)
+    np.testing.assert_allclose(found.k2[wall] * 40.0, 1.0, atol=2e-3)
+
+
+def test_torus_and_ellipsoid_at_a_scale():
+    vertices, faces = shapes.torus(60.0, 20.0, 192, 96)
+    found = pooled_curvature(vertices, faces, 8.0)
+    assert max(_error(found, shapes.torus_curvatures(vertices, 60.0, 20.0))) < 0.02
+    radii = (60.0, 45.0, 35.0)
+    vertices, faces = shapes.convex_cloud(4000, np.random.default_rng(1), radii)
+    found = pooled_curvature(vertices, faces, 10.0)
+    assert max(_error(found, shapes.ellipsoid_curvatures(vertices, radii))) < 0.03
+
+
+@pytest.mark.parametrize("share", [0.001, 0.003])
+def test_noise_is_pooled_away_where_one_ring_drowns(share):
+    vertices, faces = _uneven_sphere(6000)
+    edge = np.sqrt(4 * np.pi * 50.0**2 / 6000 * 2 / np.sqrt(3))
+    noisy = white_noise(vertices, np.random.default_rng(2), share * 100.0)
+    truth = np.full((2, len(vertices)), 1 / 50.0)
+    pooled = max(_error(pooled_curvature(noisy, faces, 8 * edge), truth))
+    assert pooled < 30.0 * share  # .03 at .1 %, .09 at .3 %
+    assert max(_error(one_ring_curvature(noisy, faces), truth)) > 20.0 * pooled
+
+
+def test_libigl_at_the_same_radius_errs_more():
+    igl = pytest.importorskip("igl", reason="libigl is a benchmark-only peer")
+    vertices, faces = _uneven_sphere(4000)
+    noisy = white_noise(vertices, np.random.default_rng(3), 0.1)
+    sides = vertices[np.roll(faces, 1, axis=1)] - vertices[faces]
+    edge = np.linalg.norm(sides, axis=2).mean()
+    truth = np.full((2, len(vertices)), 1 / 50.0)
+    ours = _error(pooled_curvature(noisy, faces, 5 * edge), truth)
+    peer = igl.principal_curvature(noisy, faces, 5, False)
+    theirs = np.sort(np.abs(np.stack([peer[2], peer[3]])), axis=0)
+    medians = np.median(np.abs(theirs * 50.0 - 1.0), axis=1)
+    assert (np.array(ours) < 0.6 * medians).all()
+
+
+# ---------------------------------------------------------------- at a scale: what scans are like
+
+
+def test_subdivision_of_a_half_moves_it_little():
+    vertices, faces = shapes.sphere(50.0, 4)
+    finer, finer_faces = half_subdivided(vertices, faces)
+    found = pooled_curvature(finer, finer_faces, RADIUS)
+    kept = found.mean[: len(vertices)]
+    np.testing.assert_allclose(kept * 50.0, 1.0, atol=0.02)
+
+
+def test_decimation_moves_it_little():
+    vertices, faces = shapes.sphere(50.0, 5)
+    coarse, coarse_faces = decimated(vertices, faces, 4.0)
+    found = pooled_curvature(coarse, coarse_faces, RADIUS)
+    assert np.quantile(np.abs(found.mean * 50.0 - 1.0), 0.95) < 0.03
+
+
+def test_a_boundary_is_one_sided_and_not_nan():
+    vertices, faces = shapes.open_cap(50.0, 60.0, 24, 72)
+    found = pooled_curvature(vertices, faces, RADIUS)
+    assert np.isfinite(found.mean).all()
+    np.testing.assert_allclose(found.mean * 50.0, 1.0, atol=0.05)
+    holed, kept = with_holes(*_uneven_sphere(3000), np.random.default_rng(4), 6, 8.0)
+    worst = np.abs(pooled_curvature(holed, kept, 12.0).mean * 50.0 - 1.0)
+    assert np.quantile(worst, 0.99) < 0.1
+
+
+def test_a_plane_is_flat_and_big_facets_are_flat_inside():
+    vertices, faces = shapes.flat_sheet(260.0, 100.0, 20)
+    found = pooled_curvature(vertices, faces, RADIUS)
+    np.testing.assert_allclose(np.stack([found.k1, found.k2]), 0.0, atol=1e-12)
+    box, box_faces = shapes.cube(100.0, 16)
+    far = np.sort(np.abs(box), axis=1)[:, 1] < 50.0 - 2 * RADIUS
+    flat = pooled_curvature(box, box_faces, RADIUS)
+    assert far.sum() > 100
+    np.testing.assert_allclose(flat.k2[far] * RADIUS, 0.0, atol=0.02)
+
+
+@pytest.mark.parametrize("radius", [1e-3, 1.0, 100.0, 1e4])
+@pytest.mark.parametrize(
+    "mesh",
+    [shapes.tetrahedron(), shapes.cube(100.0, 1), shapes.cylinder(40.0, 250.0, 12, 1)],
+    ids=["tetrahedron", "box", "prism"],
+)
+def test_a_radius_far_from_the_edges_is_answered_within_reason(mesh, radius):
+    found = pooled_curvature(*mesh, radius)
+    size = np.ptp(mesh[0], axis=0).max()
+    assert np.isfinite(found.k1).all()
+    assert np.abs(np.stack([found.k1, found.k2])).max() * size < 60.0
+    assert (found.mean > 0.0).mean() > 0.8  # convex
+
+
+@pytest.mark.parametrize("share", [0.2, 0.5, 1.0, 3.0])
+def test_a_coarse_sphere_reads_its_radius_even_below_its_edges(share):
+    vertices, faces = shapes.sphere(50.0, 2)
+    edge = np.linalg.norm(vertices[faces[:, 0]] - vertices[faces[:, 1]], axis=1).mean()
+    found = pooled_curvature(vertices, faces, share * edge)
+    np.testing.assert_allclose(found.mean * 50.0, 1.0, atol=0.05)
+
+
+def test_two_sheets_close_together_do_not_mix():
+    ball = _uneven_sphere(3000)
+    inner = (ball[0] * 0.98, ball[1][:, ::-1])
+    alone = pooled_curvature(*ball, 12.0)
+    both = pooled_curvature(*joined(ball, inner), 12.0)
+    np.testing.assert_allclose(both.mean[: len(ball[0])], alone.mean, atol=2e-4)
+
+
+def test_slivers_lonely_vertices_and_empty_faces_break_nothing():
+    vertices, faces = shapes.sphere(50.0, 3)
+    vertices = np.concatenate([vertices, [[500.0, 0.0, 0.0]], vertices[:1] * (1 + 1e-9)])
+    faces = np.concatenate([faces, [[0, len(vertices) - 1, 0]]])
+    found = pooled_curvature(vertices, faces, RADIUS)
+    assert np.isnan(found.mean[-2])
+    np.testing.assert_allclose(found.mean[5:-2] * 50.0, 1.0, atol=0.05)
+    nothing = pooled_curvature(vertices, faces[:0], RADIUS)
+    assert np.isnan(nothing.k1).all()
+    with pytest.raises(ValueError, match="positive"):
+        pooled_curvature(vertices, faces, 0.0)
+
+
+@given(surfaces(), st.floats(-40.0, 40.0), st.floats(3.0, 40.0))
+@settings(max_examples=15, deadline=None)
+def test_a_subset_has_the_values_of_the_whole(mesh, height, radius):
+    vertices, faces = mesh
+    subset = vertices[:, 2] < height
+    whole, part = (pooled_curvature(vertices, faces, radius, s) for s in (None, subset))
+    assert np.isnan(part.mean[~subset]).all()
+    np.testing.assert_allclose(part.mean[subset], whole.mean[subset], atol=1e-3 / radius)
+    mean = pooled_mean_curvature(vertices, faces, radius)
+    part_mean = pooled_mean_curvature(vertices, faces, radius, subset)
+    np.testing.assert_allclose(part_mean[subset], mean[subset], atol=1e-3 / radius)
+
+
+def test_the_short_way_to_the_mean_agrees_with_half_the_sum():
+    for vertices, faces in (_uneven_sphere(), shapes.torus(60.0, 20.0, 192, 96)):
+        short = pooled_mean_curvature(vertices, faces, 8.0)
+        full = pooled_curvature(vertices, faces, 8.0).mean
+        assert np.median(np.abs(short / full - 1.0)) < 0.03
+
+
+def test_sections_of_a_torus_bend_as_its_surface_says():
+    """III.B on the section and III.C at a scale on the surface tell one story."""
+    vertices, faces = shapes.torus(60.0, 20.0, 192, 96)
+    ring = vertices[np.abs(np.arctan2(vertices[:, 1], vertices[:, 0])) < 1e-9]
+    plane = np.stack([np.hypot(ring[:, 0], ring[:, 1]) - 60.0, ring[:, 2]], axis=1)
+    bend = np.median(np.abs(curvature_density(plane, closed=True)))
+    found = pooled_curvature(vertices, faces, 8.0)
+    assert bend == pytest.approx(np.median(found.k2), rel=0.02)
+
+
+def test_random_poses_of_a_subdivided_noisy_scan_agree():
+    rng = np.random.default_rng(7)
+    vertices, faces = subdivided(*_uneven_sphere(2000), None)
+    vertices = white_noise(vertices, rng, 0.1)
+    still = pooled_curvature(vertices, faces, 8.0)
+    moved = pooled_curvature(vertices @ random_rotation(rng).T + 1000.0, faces, 8.0)
+    _assert_same(moved, still, 1e-9)
