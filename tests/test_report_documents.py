@@ -5,6 +5,8 @@ from __future__ import annotations
 import json
 import math
 import re
+import subprocess
+import sys
 from dataclasses import replace
 from pathlib import Path
 
@@ -16,6 +18,7 @@ from hypothesis import strategies as st
 from footfit import __version__
 from footfit.errors import SeveralFeet
 from footfit.report import documents, last_documents
+from footfit.report.lines import failure_document
 from footfit.report.numbers import nested, rounded
 from footfit.report.parts import finite, paper_frame_angle_deg
 from footfit.results import Measured, MeshCopy, Notice, UpgradeOutcome
@@ -87,6 +90,22 @@ def test_the_page_lists_the_keys_of_every_part() -> None:
     assert set(candidate["clearance_mm"]["length"]) == listed["measured value"]
     lasts = last_documents.list_lasts_document([answers.record()], None)["lasts"]
     assert set(lasts[0]) == listed["last"]
+
+
+def test_an_error_says_the_same_by_its_class_and_by_its_words() -> None:
+    error = SeveralFeet("two feet; take them apart", "a.stl")
+    by_words = failure_document("several_feet", 5, "two feet; take them apart", "a.stl")
+    assert documents.error_document(error) == by_words
+
+
+def test_an_error_is_said_without_the_heavy_libraries() -> None:
+    code = (
+        "import sys; from footfit.report.lines import json_line, failure_document;"
+        "json_line(failure_document('x', 3, 'x', None));"
+        "print(sorted({'numpy', 'rich', 'matplotlib', 'scipy'} & set(sys.modules)))"
+    )
+    run = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
+    assert run.stdout.strip() == "[]"
 
 
 def test_every_document_is_one_line_that_reads_back() -> None:

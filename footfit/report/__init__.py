@@ -2,9 +2,9 @@
 
 | module | what it returns |
 |---|---|
-| `documents`, `last_documents` | one JSON document (a dict) per command; `json_line` writes it |
+| `documents`, `last_documents` | one JSON document (a dict) per command; `lines` writes it |
 | `csv` | CSV text of matches, profiles and lasts |
 | `tables`, `last_tables` | rich renderables for the terminal; `terminal_text` writes them |
-| `flare_plot`, `align_plot`, `curvature_plot`, `match_plot` | figures; `figures` writes SVG, PNG |
+| `plots` | every picture as SVG or PNG, from the `*_figure` modules |
 | `html` | the page of one match |
 """

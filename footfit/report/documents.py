@@ -1,21 +1,20 @@
 """One JSON document per answer about meshes; docs/json.md lists every key.
 
-A document is a dict of plain values. `json_line` writes it: one line, keys sorted, no NaN.
+A document is a dict of plain values; `lines.json_line` writes it.
 """
 
 from __future__ import annotations
 
-import json
-import re
 from typing import TYPE_CHECKING
 
 import numpy as np
 
-from footfit import __version__
+from footfit.report.lines import Json, document
+from footfit.report.lines import error_document as error_document
+from footfit.report.lines import json_line as json_line
 from footfit.report.numbers import (
     MILLIMETRE_DIGITS,
     RATIO_DIGITS,
-    Json,
     degrees,
     millimetres,
     nested,
@@ -33,7 +32,6 @@ from footfit.report.parts import (
 )
 
 if TYPE_CHECKING:
-    from footfit.errors import FootfitError
     from footfit.geometry.arrays import Floats
     from footfit.results import (
         Alignment,
@@ -45,47 +43,6 @@ if TYPE_CHECKING:
     )
 
 QUANTILES = (0.05, 0.5, 0.95)
-
-# What json.dumps leaves in place and a reader could take for the end of a line, or cannot
-# encode as UTF-8: file names that were no text arrive as lone surrogates.
-_UNSAFE = re.compile("[\x7f-\x9f\u2028\u2029\ud800-\udfff]")
-
-
-def document(command: str, keys: Json) -> Json:
-    """``keys`` under the command's schema and this version."""
-    return {"schema": f"footfit.{command}/1", "footfit_version": __version__, **keys}
-
-
-def json_line(document: Json) -> str:
-    r"""One document as one line of UTF-8 text, without the line's end.
-
-    Raises
-    ------
-    ValueError
-        A number is not finite: the documents of this package never hold one.
-
-    Examples
-    --------
-    >>> json_line({"b": 1.5, "a": "Müller\n\u2028"})
-    '{"a":"Müller\\n\\u2028","b":1.5}'
-    """
-    text = json.dumps(
-        document, sort_keys=True, ensure_ascii=False, allow_nan=False, separators=(",", ":")
-    )
-    return _UNSAFE.sub(lambda match: f"\\u{ord(match[0]):04x}", text)
-
-
-def error_document(error: FootfitError) -> Json:
-    """``footfit.error/1``: the last line of stderr, and a failed mesh's line on stdout."""
-    return document(
-        "error",
-        {
-            "code": error.code,
-            "exit": int(error.exit),
-            "message": error.message,
-            "path": error.path,
-        },
-    )
 
 
 def align_document(alignment: Alignment) -> Json:

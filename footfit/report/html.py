@@ -32,7 +32,7 @@ if TYPE_CHECKING:
 
 HOW = {
     "fit": "Lasts whose length leaves the toe room that the profile asks for, nearest flare "
-    "profile first.",
+    "profile first; of tied lasts the one with the best length comes first.",
     "flare": "All lasts, nearest flare profile first. This search is scale-free: it compares "
     "shapes and cannot tell one size from another, so look at the length.",
     "shape": "All lasts, nearest in length and flare profile first: which last is this?",

@@ -48,6 +48,9 @@ footer { margin-top: 36px; color: var(--quiet); font-size: 13px; }
   th { font-size: 8.5pt; }
   td.label, td.name { min-width: 7em; }
   h2, h3 { break-after: avoid; }
+  figure { margin: 6px 0 10px; }
+  figure img { width: 80%; margin: 0 auto; }
+  h2 { margin-top: 20px; }
   figure, .foot, .best, tr { break-inside: avoid; }
   .best, .warn, tr.first td { print-color-adjust: exact; -webkit-print-color-adjust: exact; }
 }

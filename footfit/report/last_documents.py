@@ -4,11 +4,10 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from footfit.report.documents import document, json_line
+from footfit.report.lines import Json, document, json_line
 from footfit.report.numbers import (
     MILLIMETRE_DIGITS,
     RATIO_DIGITS,
-    Json,
     degrees,
     millimetres,
     nested,

@@ -7,6 +7,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from footfit.report.lines import Json
+
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike
 
@@ -15,8 +17,6 @@ if TYPE_CHECKING:
 MILLIMETRE_DIGITS = 3
 DEGREE_DIGITS = 3
 RATIO_DIGITS = 6
-
-Json = dict[str, object]
 
 
 def rounded(value: float | None, digits: int) -> float | None:

@@ -9,9 +9,9 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from footfit.geometry.flare import CHANNELS
+from footfit.report.lines import Json
 from footfit.report.numbers import (
     RATIO_DIGITS,
-    Json,
     degrees,
     measured_value,
     millimetres,

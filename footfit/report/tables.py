@@ -41,7 +41,8 @@ if TYPE_CHECKING:
     )
 
 LIKENESS = {
-    "fit": "distance: how far the flare profile is from the foot's (0 = the same)",
+    "fit": "distance: how far the flare profile is from the foot's (0 = the same); "
+    "of tied lasts the one with the best length comes first",
     "flare": "distance: how far the flare profile is from the foot's (0 = the same), at any size",
     "shape": "distance: how far length and flare profile are from the mesh's (0 = the same)",
 }
