@@ -7,7 +7,7 @@ import stat
 from pathlib import Path
 from typing import BinaryIO
 
-from footfit.errors import EmptyMesh, TooLarge, UnreadableFile
+from footfit.errors import EmptyMesh, FootfitError, TooLarge, UnreadableFile
 from footfit.meshes.limits import Limits
 
 _READ_FLAGS = (
@@ -42,6 +42,8 @@ def file_bytes(path: str, limits: Limits) -> bytes:
         with os.fdopen(descriptor, "rb") as stream:
             _check(os.fstat(descriptor), limits)
             return stream_bytes(stream, limits, os.fstat(descriptor).st_size)
+    except FootfitError as error:
+        raise error.at(path) from error
     except (OSError, ValueError) as error:  # ValueError: a name with a NUL in it
         raise UnreadableFile(_reason(error), path) from error
 

@@ -6,9 +6,10 @@ import re
 from collections.abc import Iterator
 
 import numpy as np
+from numpy.typing import NDArray
 
 from footfit.errors import DamagedMesh, EmptyMesh
-from footfit.geometry.arrays import Floats
+from footfit.geometry.arrays import Floats, Ints
 from footfit.meshes.limits import Limits
 from footfit.meshes.raw import RawMesh, check_counts
 from footfit.meshes.tokens import floats, unix_text, word_offsets
@@ -17,7 +18,7 @@ from footfit.results import Notice
 HEADER_BYTES = 84
 FACET = np.dtype([("normal", "<f4", (3,)), ("corners", "<f4", (9,)), ("attribute", "<u2")])
 _TRAILING_BYTES = 4_096  # what exporters append; more is a count that lies
-_CHUNK_BYTES = 16_000_000
+_CHUNK_BYTES = 4_000_000
 
 # The 21 words of an ASCII facet: a keyword, or None where a number stands.
 _POINT = ("vertex", None, None, None)
@@ -27,11 +28,10 @@ _GRAMMAR = (
     *("endloop", "endfacet"),
 )
 _KEYWORDS = tuple((place, word.encode()) for place, word in enumerate(_GRAMMAR) if word)
-_NORMAL_PLACES = (2, 3, 4)
-_SOLID_LINE = re.compile(rb"^[ \t]*(?:end[ \t]*)?solid\b[^\n]*$", re.IGNORECASE | re.MULTILINE)
+_POINTS, _AFTER_POINTS = (8, 12, 16), (11, 15, 19)
+_LAST_FACET = re.compile(rb"endfacet\s", re.IGNORECASE)
 _END = re.compile(rb"end[ \t]*solid", re.IGNORECASE)
 _UNENDED = Notice("end_missing", "the ASCII STL has no endsolid line: its end may be missing")
-_LAST_FACET = re.compile(rb"endfacet\s", re.IGNORECASE)
 
 
 def declared_facets(data: bytes) -> int | None:
@@ -89,15 +89,15 @@ def read_ascii_stl(data: bytes, limits: Limits) -> RawMesh:
     EmptyMesh, TooLarge
         No facets, or more than ``limits`` allow.
     """
-    text = _SOLID_LINE.sub(b"", unix_text(data))
+    text = unix_text(data)
     corners, facets = [], 0
     for chunk in _chunks(text):
-        corners.append(_facet_corners(chunk))
+        corners.append(_facet_corners(_without_solid_lines(chunk.lower())))
         facets += len(corners[-1]) // 3
         check_counts(0, facets, limits)
     if facets == 0:
         raise EmptyMesh("the STL holds no facets: export it again")
-    ended = _END.search(data, max(0, len(data) - limits.header_bytes)) is not None
+    ended = _END.search(text, max(0, len(text) - limits.header_bytes)) is not None
     return _soup(np.concatenate(corners), () if ended else (_UNENDED,))
 
 
@@ -113,45 +113,45 @@ def _chunks(text: bytes) -> Iterator[bytes]:
         begin = end
 
 
+def _without_solid_lines(text: bytes) -> bytes:
+    """The text without the lines that begin or end a solid, whatever name they give it."""
+    pieces, begin = [], 0
+    while (at := text.find(b"solid", begin)) >= 0:
+        line = max(begin, text.rfind(b"\n", begin, at))
+        end = text.find(b"\n", at)
+        end = len(text) if end < 0 else end
+        names = text[line:at].strip() in (b"", b"end")
+        pieces.append(text[begin : line if names else end])
+        begin = end
+    return b"".join([*pieces, text[begin:]]) if pieces else text
+
+
 def _facet_corners(text: bytes) -> Floats:
-    """The corners (3 m, 3) of a text that is nothing but facets."""
-    buffer = np.frombuffer(text, dtype=np.uint8).copy()
+    """The corners (3 m, 3) of a lower-case text that is nothing but facets."""
+    buffer = np.frombuffer(text, dtype=np.uint8)
     words = word_offsets(buffer)
     if len(words) % len(_GRAMMAR):
         raise DamagedMesh("the ASCII STL ends within a facet: it is cut off, export it again")
-    if not len(words):
-        return np.empty((0, 3))
-    ends = np.append(words[1:], len(buffer)).reshape(-1, len(_GRAMMAR))
-    words = words.reshape(-1, len(_GRAMMAR))
+    facets = words.reshape(-1, len(_GRAMMAR))
     for place, keyword in _KEYWORDS:
-        _blank_keyword(buffer, words[:, place], keyword)
-    for place in _NORMAL_PLACES:
-        _blank(buffer, words[:, place], ends[:, place])
-    return floats(buffer.tobytes(), 9 * len(words)).reshape(-1, 3)
+        _check_keyword(buffer, facets[:, place], keyword)
+    change = np.zeros(len(buffer), dtype=np.int8)  # +1 where a point begins, -1 where it ends
+    change[facets[:, _POINTS]] = 1
+    change[facets[:, _AFTER_POINTS]] = -1
+    inside = np.cumsum(change, dtype=np.int8).astype(bool)
+    return floats(buffer[inside].tobytes(), 9 * len(facets)).reshape(-1, 3)
 
 
-def _blank_keyword(buffer: np.ndarray, words: np.ndarray, keyword: bytes) -> None:
-    """Overwrite a keyword by spaces where each facet must have it, in any case."""
-    places = words[:, None] + np.arange(len(keyword) + 1)
-    inside = places < len(buffer)
-    found = np.where(inside, buffer[np.minimum(places, len(buffer) - 1)], ord(" "))
-    if (
-        not ((found[:, :-1] | 32) == np.frombuffer(keyword, np.uint8)).all()
-        or (found[:, -1] > 32).any()
-    ):
+def _check_keyword(buffer: NDArray[np.uint8], words: Ints, keyword: bytes) -> None:
+    """Refuse the facets unless ``keyword`` stands at each of ``words``."""
+    places = np.minimum(words[:, None] + np.arange(len(keyword) + 1), len(buffer) - 1)
+    found = buffer[places]
+    whole = (found[:, -1] <= ord(" ")) | (words + len(keyword) >= len(buffer))
+    if not (whole.all() and (found[:, :-1] == np.frombuffer(keyword, np.uint8)).all()):
         raise DamagedMesh(
             f"the ASCII STL lacks the word {keyword.decode()!r} where a facet needs it:"
             " export it again"
         )
-    buffer[places[:, :-1]] = ord(" ")
-
-
-def _blank(buffer: np.ndarray, begins: np.ndarray, ends: np.ndarray) -> None:
-    """Overwrite the stretches from ``begins`` to ``ends`` by spaces."""
-    change = np.zeros(len(buffer) + 1, dtype=np.int8)
-    change[begins] += 1
-    change[ends] -= 1
-    buffer[np.cumsum(change[:-1], dtype=np.int8).astype(bool)] = ord(" ")
 
 
 def _soup(corners: Floats, warnings: tuple[Notice, ...]) -> RawMesh:
