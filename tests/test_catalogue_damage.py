@@ -150,7 +150,7 @@ def test_flipped_bits_are_found_and_never_ranked(sound: Path, tmp_path: Path) ->
 def _differs(catalogue: Catalogue, truth: object) -> bool:
     try:
         return dump(catalogue) != truth
-    except sqlite3.DatabaseError:
+    except (sqlite3.DatabaseError, UnicodeDecodeError):
         return True
 
 
@@ -199,3 +199,29 @@ def test_a_stale_paper_transform_is_found(sound: Path, path: Path) -> None:
     with open_catalogue(path) as catalogue:
         found = {(finding.code, finding.last) for finding in catalogue.findings()}
     assert found == {("paper_transform", f"last-{i}") for i in range(LASTS)}
+
+
+@pytest.mark.parametrize(
+    ("old", "new"),
+    [
+        ("name", "nbme"),
+        ("record_sha256", "record_sha257"),
+        ("position", "pos\xed\xed\xed\xed\xed"),
+        ("last_id", "lost_id"),
+        ("style", "stylf"),
+        ("curvature_bottom_80", "curvature_bottom_90"),  # null in every last
+        ("sha256", "sha257"),
+    ],
+)
+def test_a_flip_in_the_schema_itself_is_refused_or_found(path: Path, old: str, new: str) -> None:
+    """The text of the schema is bytes of the file like any others."""
+    data = path.read_bytes()
+    path.write_bytes(data.replace(old.encode("latin-1"), new.encode("latin-1")))
+    assert path.read_bytes() != data
+    try:
+        with open_catalogue(path) as catalogue:
+            assert catalogue.findings()
+            ranked = catalogue.rows_for_search().records
+            assert all(record.labels.style is None or old != "style" for record in ranked)
+    except CatalogueUnusable:
+        pass

@@ -11,7 +11,7 @@ import pytest
 from footfit.catalogue import schema as models
 from footfit.catalogue.engine import connected, engine_on
 from footfit.catalogue.marks import MARKS
-from footfit.catalogue.migrate import Schema, copy_path, migrations_folder
+from footfit.catalogue.migrate import Schema, copy_path, create, migrations_folder
 from footfit.catalogue.store import open_catalogue
 from footfit.errors import CatalogueDamaged, CatalogueUnusable, NewerCatalogue
 from tests import records
@@ -184,3 +184,17 @@ def test_a_revision_that_never_was_is_damage(path: Path) -> None:
     other.close()
     with pytest.raises(CatalogueDamaged, match="0q01"), open_catalogue(path):
         pass
+
+
+def test_a_catalogue_that_another_process_made_meanwhile_is_left_as_it_is(
+    path: Path, tmp_path: Path
+) -> None:
+    """Also one of a later footfit, which only the opening after it refuses."""
+    newer = later_schema(tmp_path / "migrations")
+    with open_catalogue(path, write=True, schema=newer):
+        pass
+    before = path.read_bytes()
+    connection = connected(path, "rwc")
+    create(connection, Schema())
+    connection.close()
+    assert path.read_bytes() == before

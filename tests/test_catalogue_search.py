@@ -11,8 +11,10 @@ from pathlib import Path
 
 import pytest
 
+from footfit.catalogue.blobs import definition_of, definition_text
 from footfit.catalogue.search import Filters, rejection
 from footfit.catalogue.store import Catalogue, open_catalogue
+from footfit.geometry.flare import FlareDefinition
 from tests import records
 
 LASTS = 12
@@ -95,6 +97,13 @@ def test_a_profile_of_another_definition_is_set_apart(path: Path, tmp_path: Path
         assert len(rows.records) == LASTS - 1
         assert catalogue.record("last-03").flare.definition.version == "flare/0"
         assert dict(catalogue.facts().definitions)["flare/0"] == 1
+
+
+def test_a_definition_comes_back_equal_from_its_text() -> None:
+    """Equal with its types: a tuple that comes back as a list would make every last outdated."""
+    definition = FlareDefinition()
+    assert definition_of(definition_text(definition)) == definition
+    hash(definition_of(definition_text(definition)))
 
 
 def test_reading_opens_neither_sqlalchemy_nor_alembic_nor_a_mesh_library(path: Path) -> None:

@@ -350,8 +350,9 @@ def test_damage_is_never_sealed_as_sound(catalogue: Catalogue) -> None:
         lambda: catalogue.update_profile("last-1", records.profile()),
         lambda: catalogue.record("last-1"),
     ):
-        with pytest.raises(CatalogueDamaged, match="'last-1'"):
+        with pytest.raises(CatalogueDamaged, match="'last-1'") as caught:
             write()
+        assert caught.value.path == str(catalogue.file.path)
     assert [finding.last for finding in catalogue.findings()] == ["last-1"]
 
 

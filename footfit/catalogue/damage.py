@@ -44,7 +44,7 @@ def findings(connection: sqlite3.Connection) -> list[Finding]:
     for check in CHECKS:
         try:
             found.extend(check(connection))
-        except sqlite3.DatabaseError as error:
+        except (sqlite3.DatabaseError, UnicodeDecodeError) as error:
             found.append(Finding("unreadable", f"a part cannot be read: {error}"))
         except CatalogueDamaged as error:
             found.append(Finding("damaged", error.message))
@@ -67,6 +67,16 @@ def _pages(connection: sqlite3.Connection) -> Iterator[Finding]:
             yield Finding("integrity", " ".join(str(line).split()))
 
 
+def _columns(connection: sqlite3.Connection) -> Iterator[Finding]:
+    """The text of the schema is bytes of the file too."""
+    from footfit.catalogue.schema import Base
+
+    for name, table in Base.metadata.tables.items():
+        stored = {row[1] for row in connection.execute(f"PRAGMA table_info({name})")}
+        for column in sorted(set(table.columns.keys()) - stored):
+            yield Finding("column", f"the table {name} lacks the column {column}")
+
+
 def _keys(connection: sqlite3.Connection) -> Iterator[Finding]:
     for table, rowid, parent, _ in connection.execute("PRAGMA foreign_key_check"):
         yield Finding("foreign_key", f"row {rowid} of {table} points to no row of {parent}")
@@ -81,7 +91,7 @@ def _lasts(connection: sqlite3.Connection) -> Iterator[Finding]:
 def _mesh_copies(connection: sqlite3.Connection) -> Iterator[Finding]:
     names = last_names(connection)
     for row in rows(connection, "mesh_copy"):
-        if row["sha256"] != hashed_row(row):
+        if row.get("sha256") != hashed_row(row):
             name = names.get(row["last_id"], "?")
             yield Finding("mesh_copy", "its mesh copy is not what was stored", name)
 
@@ -107,5 +117,5 @@ def _agrees(stored: StoredLast, transform: np.ndarray) -> bool:
     )
 
 
-CHECKS: tuple[Check, ...] = (_marks, _pages, _keys, _lasts, _mesh_copies, _reference)
+CHECKS: tuple[Check, ...] = (_marks, _columns, _pages, _keys, _lasts, _mesh_copies, _reference)
 """All checks, in the order of their findings; a new one is one more function here."""

@@ -44,6 +44,8 @@ class Settings:
 
 SETTINGS = Settings()
 
+LACKS = "lacks a table or a column that it must have; restore it from a backup"
+
 OpenMode = Literal["ro", "rw", "rwc"]
 
 _BY_RESULT_CODE: dict[int, tuple[type[CatalogueUnusable], str]] = {
@@ -85,6 +87,8 @@ _BY_RESULT_CODE: dict[int, tuple[type[CatalogueUnusable], str]] = {
 def in_words(error: BaseException, path: Path) -> CatalogueUnusable | None:
     """SQLite's error as footfit's; None for one that is no fault of the file or the disk."""
     driver = getattr(error, "orig", error)
+    if isinstance(driver, UnicodeDecodeError):  # a column's name: values are read leniently
+        return CatalogueDamaged("has a damaged schema; restore it from a backup", str(path))
     if not isinstance(driver, sqlite3.Error):
         return None
     # The extended code keeps the primary one in its low byte.
@@ -92,16 +96,18 @@ def in_words(error: BaseException, path: Path) -> CatalogueUnusable | None:
     if code in _BY_RESULT_CODE:
         kind, words = _BY_RESULT_CODE[code]
         return kind(words, str(path))
-    if code == sqlite3.SQLITE_ERROR and "no such" in str(driver):
-        return CatalogueDamaged("lacks a table or column that it must have", str(path))
+    if code == sqlite3.SQLITE_ERROR and ("no such" in str(driver) or "no column" in str(driver)):
+        return CatalogueDamaged(LACKS, str(path))
     return None
 
 
 @contextmanager
 def worded(path: Path) -> Iterator[None]:
-    """Turn SQLite's errors, bare or wrapped by SQLAlchemy, into footfit's."""
+    """Turn SQLite's errors, bare or wrapped by SQLAlchemy, into footfit's, naming the file."""
     try:
         yield
+    except CatalogueUnusable as error:
+        raise error.at(str(path)) from error.__cause__
     except Exception as error:
         words = in_words(error, path)
         if words is None:

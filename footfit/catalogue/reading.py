@@ -35,7 +35,7 @@ class StoredLast:
     @property
     def name(self) -> str:
         r"""The name as stored; bytes of it that are no UTF-8 are shown as ``\x..``."""
-        raw = str(self.last["name"]).encode("utf-8", "surrogateescape")
+        raw = str(self.last.get("name")).encode("utf-8", "surrogateescape")
         return raw.decode("utf-8", "backslashreplace")
 
     @property
@@ -54,7 +54,7 @@ class StoredLast:
     @property
     def intact(self) -> bool:
         """Are the rows what was stored?"""
-        return bool(self.last["record_sha256"] == self.content_digest)
+        return bool(self.last.get("record_sha256") == self.content_digest)
 
 
 def _hashed(row: Fields | None) -> Fields:
@@ -70,11 +70,19 @@ def hashed_row(row: Fields) -> str:
 
 
 def rows(connection: sqlite3.Connection, table: str, last_id: int | None = None) -> list[Fields]:
-    """The rows of a table in the order of storage; those of one last where ``last_id`` is given."""
+    """The rows of a table in the order of storage; those of one last where ``last_id`` is given.
+
+    Raises
+    ------
+    CatalogueDamaged
+        The table has lost the column of its key.
+    """
     key = "id" if table == "last" else "last_id"
     where, values = ("", ()) if last_id is None else (f" WHERE {key} = ?", (last_id,))
     cursor = connection.execute(f"SELECT * FROM {table}{where} ORDER BY rowid", values)
     columns = [column[0] for column in cursor.description]
+    if key not in columns:
+        raise CatalogueDamaged(f"lacks the column {key!r} of {table!r}; restore it from a backup")
     return [dict(zip(columns, row, strict=True)) for row in cursor]
 
 
@@ -111,7 +119,8 @@ def _grouped(found: list[Fields]) -> dict[int, list[Fields]]:
 
 
 def _position(row: Fields) -> tuple[str, Any]:
-    return type(row["position"]).__name__, row["position"]
+    position = row.get("position")
+    return type(position).__name__, position
 
 
 def last_names(connection: sqlite3.Connection) -> dict[int, str]:

@@ -6,7 +6,9 @@ import math
 from collections.abc import Mapping
 
 from footfit.catalogue.blobs import array_of, definition_of
+from footfit.catalogue.engine import LACKS
 from footfit.catalogue.reading import Fields, StoredLast
+from footfit.errors import CatalogueDamaged
 from footfit.geometry.flare import CHANNELS, FlareProfile
 from footfit.results import (
     Eigenframe,
@@ -23,7 +25,20 @@ from footfit.results import (
 
 
 def record_of(stored: StoredLast, names: Mapping[int, str]) -> LastRecord:
-    """The record of a last whose rows are intact; ``names`` of all lasts, for its parent."""
+    """The record of a last whose rows are intact; ``names`` of all lasts, for its parent.
+
+    Raises
+    ------
+    CatalogueDamaged
+        The tables have lost a column: one that is null everywhere is under no hash.
+    """
+    try:
+        return _record(stored, names)
+    except KeyError as error:
+        raise CatalogueDamaged(LACKS) from error
+
+
+def _record(stored: StoredLast, names: Mapping[int, str]) -> LastRecord:
     last, frame, flare = stored.last, stored.frame, stored.flare
     assert frame is not None
     assert flare is not None

@@ -40,7 +40,7 @@ def stored_reference(connection: sqlite3.Connection) -> tuple[int, Reference] | 
         return None
     row = found[0]
     name = last_names(connection).get(row["last_id"])
-    if name is None or row["sha256"] != hashed_row(row):
+    if name is None or row.get("sha256") != hashed_row(row):
         raise CatalogueDamaged(
             "has a damaged reference; type: footfit set-reference LAST, which makes it anew"
         )

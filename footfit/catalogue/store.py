@@ -131,7 +131,7 @@ class Catalogue:
             found = rows(connection, "mesh_copy", last_id(connection, name))
         if not found:
             raise UnknownLast(f"{name!r} was stored without its mesh; ingest it with --replace")
-        if found[0]["sha256"] != hashed_row(found[0]):
+        if found[0].get("sha256") != hashed_row(found[0]):
             raise CatalogueDamaged(
                 f"the mesh of {name!r} is damaged in it; ingest it again with --replace",
                 str(self.file.path),
