@@ -84,8 +84,12 @@ def with_count(count: int) -> bytes:
 
 
 def with_first_coordinate(value: float) -> bytes:
+    return with_first_bits(struct.unpack("<I", struct.pack("<f", value))[0])
+
+
+def with_first_bits(bits: int) -> bytes:
     data = bytearray(stl())
-    data[96:100] = struct.pack("<f", value)
+    data[96:100] = struct.pack("<I", bits)
     return bytes(data)
 
 
@@ -131,6 +135,7 @@ BAD = [
     Bad("count-too-low.stl", lambda: with_count(1), DamagedMesh),
     Bad("count-zero.stl", lambda: with_count(0), DamagedMesh),
     Bad("nan.stl", lambda: with_first_coordinate(float("nan")), DamagedMesh),
+    Bad("signalling-nan.stl", lambda: with_first_bits(0x7FA00000), DamagedMesh),
     Bad("infinite.stl", lambda: with_first_coordinate(float("inf")), DamagedMesh),
     Bad("absurd.stl", lambda: with_first_coordinate(3e38), DamagedMesh),
     Bad("no-area.stl", flat_stl, EmptyMesh),
@@ -163,6 +168,8 @@ BAD = [
     Bad("index-no-number.obj", lambda: obj_with("f 1 2 three"), DamagedMesh),
     Bad("index-huge.obj", lambda: obj_with("f 1 2 99999999999999999999999"), DamagedMesh),
     Bad("index-fraction.obj", lambda: obj_with("f 1 2 2.5"), DamagedMesh),
+    Bad("faces-only.obj", lambda: b"# v 1\n f 1 2 3\nf 1 2 3\nv\n", UnknownFormat),
+    Bad("faces-only.off", lambda: b"OFF\n0 1 0\n3 0 1 2\n", DamagedMesh),
     Bad("points-only.obj", lambda: obj_with("p 1 2 3"), EmptyMesh),
     Bad("two-coordinates.obj", lambda: obj_with("v 1 2\nf 1 2 3"), DamagedMesh),
     Bad("nan.obj", lambda: obj_with("v nan 2 3\nf 1 2 4"), DamagedMesh),

@@ -43,6 +43,7 @@ def codes(scan):
 
 
 @pytest.mark.parametrize("bad", corpus.BAD, ids=str)
+@pytest.mark.filterwarnings("error")
 def test_a_bad_file_ends_in_its_error_and_one_line(bad, tmp_path):
     path = write(tmp_path, bad.name, bad.make())
     with pytest.raises(bad.error) as caught:

@@ -12,7 +12,7 @@ from footfit.errors import DamagedMesh
 from footfit.geometry.arrays import Floats, Ints
 from footfit.meshes.limits import Limits
 from footfit.meshes.polygons import fans, whole
-from footfit.meshes.raw import RawMesh, check_counts
+from footfit.meshes.raw import RawMesh, check_counts, doubles
 from footfit.meshes.tokens import floats, unix_text, word_offsets
 
 _NAMES = "char uchar short ushort int uint float double float32 float64"
@@ -241,7 +241,7 @@ def _vertices(columns: dict[str, _Column]) -> Floats:
     axes = [columns[name] for name in ("x", "y", "z") if name in columns]
     if len(axes) < 3 or any(axis.counts is not None for axis in axes):
         raise DamagedMesh("the PLY file's vertices lack x, y or z: export it again")
-    return np.stack([axis.values.astype(np.float64) for axis in axes], axis=1)
+    return np.stack([doubles(axis.values) for axis in axes], axis=1)
 
 
 def _faces(columns: dict[str, _Column], limits: Limits) -> Ints:

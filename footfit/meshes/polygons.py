@@ -8,6 +8,7 @@ from numpy.typing import NDArray
 from footfit.errors import DamagedMesh, TooLarge
 from footfit.geometry.arrays import Ints
 from footfit.meshes.limits import Limits
+from footfit.meshes.raw import doubles
 
 _EXACT = 2.0**53  # up to here a double holds every integer
 
@@ -63,7 +64,7 @@ def whole(values: NDArray[np.generic]) -> Ints:
     """
     if values.dtype.kind in "iu":
         return values.astype(np.int64)  # what wraps around is negative, and refused as such
-    numbers = values.astype(np.float64)
+    numbers = doubles(values)
     exact = np.abs(numbers) < _EXACT  # False for NaN
     if not exact.all() or (numbers != np.floor(numbers)).any():
         raise DamagedMesh("a face names a vertex by something that is no index: export it again")

@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import NDArray
 
 from footfit.errors import DamagedMesh, EmptyMesh, TooLarge
 from footfit.geometry.arrays import Floats, Ints
@@ -26,6 +27,12 @@ class RawMesh:
     unit: str | None = None
 
 
+def doubles(values: NDArray[np.generic]) -> Floats:
+    """The numbers as float64. A signalling NaN makes NumPy warn; it is refused by `sound`."""
+    with np.errstate(invalid="ignore"):
+        return values.astype(np.float64)
+
+
 def sound(raw: RawMesh, limits: Limits) -> RawMesh:
     """The same mesh, once its numbers are finite, its indices in range and its counts bearable.
 
@@ -42,6 +49,11 @@ def sound(raw: RawMesh, limits: Limits) -> RawMesh:
     if len(raw.faces) == 0:
         found = f"{len(raw.vertices)} points but no faces" if len(raw.vertices) else "no triangles"
         raise EmptyMesh(f"the file holds {found}: export a triangle mesh")
+    if raw.faces.min() < 0 or raw.faces.max() >= len(raw.vertices):
+        raise DamagedMesh(
+            f"a face names a vertex that is not there (the file has {len(raw.vertices)} vertices):"
+            " export the mesh again"
+        )
     finite = np.isfinite(raw.vertices)
     if not finite.all():
         bad = np.flatnonzero(~finite.all(axis=1))
@@ -52,11 +64,6 @@ def sound(raw: RawMesh, limits: Limits) -> RawMesh:
     if np.abs(raw.vertices).max() > limits.coordinate:
         raise DamagedMesh(
             f"a coordinate is past {limits.coordinate:g}: the file is damaged, export it again"
-        )
-    if raw.faces.min() < 0 or raw.faces.max() >= len(raw.vertices):
-        raise DamagedMesh(
-            f"a face names a vertex that is not there (the file has {len(raw.vertices)} vertices):"
-            " export the mesh again"
         )
     return raw
 

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from footfit.errors import DamagedMesh, EmptyMesh
 from footfit.geometry.arrays import Floats, Ints
 from footfit.meshes.limits import Limits
-from footfit.meshes.raw import RawMesh, check_counts
+from footfit.meshes.raw import RawMesh, check_counts, doubles
 from footfit.meshes.tokens import floats, unix_text, word_offsets
 from footfit.results import Notice
 
@@ -76,7 +76,7 @@ def read_binary_stl(data: bytes, limits: Limits) -> RawMesh:
         raise EmptyMesh("the STL holds no facets: export it again")
     check_counts(0, count, limits)
     facets = np.frombuffer(data, dtype=FACET, count=count, offset=HEADER_BYTES)
-    return _soup(facets["corners"].reshape(-1, 3).astype(np.float64), _trailing_notice(trailing))
+    return _soup(doubles(facets["corners"].reshape(-1, 3)), _trailing_notice(trailing))
 
 
 def read_ascii_stl(data: bytes, limits: Limits) -> RawMesh:
