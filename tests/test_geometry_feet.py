@@ -1,0 +1,72 @@
+"""Pieces, inside-out faces, sheets, cut ends."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from footfit.geometry.ends import boundary_points, missing_end
+from footfit.geometry.feet import comparable, facing, gap, part_of, pieces, stand_apart
+from footfit.geometry.samples import quadrature
+from tests import distortions, shapes
+from tools.lasts import LastSpec, last_mesh
+
+
+@pytest.fixture(scope="module")
+def last():
+    return last_mesh(LastSpec(rings=40, segments=32))
+
+
+def test_two_lasts_are_two_comparable_pieces_that_stand_apart(last):
+    vertices, faces = shapes.two_feet(*last)
+    found = comparable(vertices, faces, pieces(vertices, faces))
+    first, second = (part_of(vertices, faces, piece)[0] for piece in found)
+    assert len(found) == 2
+    assert stand_apart(first, second)
+    # on a sample of vertices: never less than the true gap, and not much more
+    assert 40.0 <= gap(first, second) < 70.0
+
+
+def test_a_speck_and_an_inner_shell_are_not_two_feet(last):
+    vertices, _ = last
+    speck = shapes.cube(4.0, 2)
+    both = distortions.joined(last, (speck[0] + [0, 90, 0], speck[1]))
+    assert len(pieces(*both)) == 1
+    assert not stand_apart(vertices, vertices * 0.97)
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_facing_knows_inside_from_outside_in_any_pose(last, seed):
+    pose = distortions.random_pose(np.random.default_rng(seed))
+    moved = distortions.moved(last[0], pose)
+    looks, turned = facing(moved, last[1]), facing(*distortions.inside_out(moved, last[1]))
+    assert looks.outward > 0.5
+    assert turned.outward == pytest.approx(-looks.outward)
+    assert looks.one_way < 1e-9
+
+
+def test_facing_of_a_sheet_and_of_a_half_sphere():
+    assert facing(*shapes.flat_sheet()).one_way == pytest.approx(1.0)
+    # a half sphere: the area vectors add up to its equator's disc, half of its area
+    half = shapes.open_cap(50.0, 90.0)
+    assert facing(*half).one_way == pytest.approx(0.5, abs=0.01)
+
+
+@pytest.mark.parametrize(("x", "towards", "missing"), [(80, -1, "heel"), (180, 1, "toes")])
+def test_a_cut_end_is_missed(last, x, towards, missing):
+    cut = distortions.plane_cut(*last, np.array([x, 0.0, 0.0]), np.array([towards, 0.0, 0.0]))
+    sample = quadrature(*cut, 8.0)
+    assert missing_end(sample, boundary_points(*cut), 270.0) == missing
+
+
+def test_a_closed_cut_end_is_missed_too():
+    vertices, faces = shapes.cube(1.0, 8)
+    box = vertices * [200.0, 90.0, 60.0]
+    assert missing_end(quadrature(box, faces, 8.0), np.zeros((0, 3)), 270.0) == "heel"
+
+
+@pytest.mark.parametrize("toe", ["round", "square", "pointed", "almond"])
+def test_whole_lasts_and_cut_legs_miss_nothing(toe):
+    last = last_mesh(LastSpec(toe_shape=toe, rings=60, segments=48))
+    for mesh in (last, distortions.leg_cut(*last, 60.0)):
+        assert missing_end(quadrature(*mesh, 8.0), boundary_points(*mesh), 270.0) is None

@@ -1,0 +1,112 @@
+"""The canonical frame: laws it must obey, and the planted pose of a shape with a flat sole."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from footfit.geometry.frame import about_z, canonical_frame, levelling
+from footfit.geometry.quantiles import area_quantile
+from footfit.geometry.rotations import angle_deg, turned_by
+from footfit.geometry.samples import quadrature
+from tests import distortions, shapes
+from tools.lasts import LastSpec, last_mesh
+
+
+@pytest.fixture(scope="module")
+def last():
+    return last_mesh(LastSpec(rings=60, segments=40))
+
+
+def frame_of(vertices, faces, length=270.0):
+    return canonical_frame(quadrature(vertices, faces, 0.03 * length), length)
+
+
+def test_a_box_stands_on_its_side_with_its_long_axis_along_x():
+    vertices, faces = shapes.cube(1.0, 8)
+    box = (vertices + np.array([0.5, 0.0, 0.5])) * [260.0, 90.0, 60.0]
+    tilt = turned_by(np.array([[0.06, -0.05, 0.08]]))[0]
+    frame = frame_of(box @ tilt.T + [3.0, -4.0, 2.0], faces, 260.0)
+    assert frame.sole
+    assert angle_deg(frame.rotation @ tilt, np.eye(3)) < 0.01
+    placed = (box @ tilt.T + [3.0, -4.0, 2.0]) @ frame.rotation.T + frame.shift
+    assert placed[:, 2].min() == pytest.approx(0.0, abs=0.01)
+    assert placed[:, 0].min() == pytest.approx(0.0, abs=0.5)  # .3 % of the area lies behind x = 0
+    assert placed[:, 1].mean() == pytest.approx(0.0, abs=0.01)
+    assert frame.length == pytest.approx(260.0, abs=4.0)  # of the triangles' middles
+    # the bottom, in full: 260 x 90 over the length squared
+    assert frame.support == pytest.approx(260 * 90 / frame.length**2, rel=0.05)
+
+
+@settings(max_examples=10, deadline=None)
+@given(seed=st.integers(0, 2**32 - 1))
+def test_the_frame_forgets_the_pose_it_was_started_from(last, seed):
+    vertices, faces = last
+    home = frame_of(vertices, faces)
+    turn = turned_by(np.random.default_rng(seed).uniform(-0.1, 0.1, (1, 3)))[0]
+    frame = frame_of(vertices @ turn.T, faces)
+    assert angle_deg(frame.rotation @ turn, home.rotation) < 0.05
+    placed = vertices @ turn.T @ frame.rotation.T + frame.shift
+    assert np.abs(placed - (vertices @ home.rotation.T + home.shift)).max() < 0.15
+
+
+def test_a_mirrored_shape_has_the_mirrored_frame(last):
+    home = frame_of(*last)
+    twin = frame_of(*distortions.mirrored(*last))
+    flip = np.diag([1.0, -1.0, 1.0])
+    np.testing.assert_allclose(twin.rotation, flip @ home.rotation @ flip, atol=1e-9)
+    np.testing.assert_allclose(twin.shift, flip @ home.shift, atol=1e-6)
+
+
+@settings(max_examples=10, deadline=None)
+@given(scale=st.floats(0.001, 10.0))
+def test_the_frame_scales_with_the_shape(last, scale):
+    vertices, faces = last
+    home = frame_of(vertices, faces)
+    frame = canonical_frame(quadrature(vertices * scale, faces, 8.1 * scale), 270.0 * scale)
+    assert angle_deg(frame.rotation, home.rotation) < 1e-6
+    np.testing.assert_allclose(frame.shift / scale, home.shift, atol=1e-6)
+
+
+def test_half_subdivision_hardly_moves_the_frame(last):
+    home, finer = frame_of(*last), frame_of(*distortions.half_subdivided(*last))
+    assert angle_deg(home.rotation, finer.rotation) < 0.3
+    assert np.abs(home.shift - finer.shift).max() < 0.5
+
+
+def test_a_shape_without_a_sole_rests_on_its_rim(last):
+    vertices, faces = last
+    bottom = np.array([0.0, 0.0, -1.0])
+    cut = distortions.plane_cut(vertices, faces, np.array([0.0, 0.0, 15.0]), bottom)
+    frame = frame_of(*cut)
+    assert not frame.sole
+    placed = cut[0] @ frame.rotation.T + frame.shift
+    rim = cut[0][:, 2] < 15.0 + 1e-9
+    assert np.ptp(placed[rim, 2]) < 2.0
+
+
+@settings(max_examples=30, deadline=None)
+@given(seed=st.integers(0, 2**32 - 1))
+def test_levelling_is_the_smallest_turn_to_z(seed):
+    normal = np.random.default_rng(seed).normal(size=3)
+    normal /= np.linalg.norm(normal)
+    turn = levelling(normal) if normal[2] > -0.99 else None
+    if turn is None:
+        return
+    np.testing.assert_allclose(turn @ normal, [0, 0, 1], atol=1e-9)
+    tilt = np.degrees(np.arctan2(np.hypot(*normal[:2]), normal[2]))
+    assert angle_deg(turn, np.eye(3)) == pytest.approx(tilt, abs=1e-6)
+
+
+def test_about_z_takes_a_direction_to_x():
+    assert np.allclose(about_z(np.array([3.0, 4.0])) @ [3.0, 4.0, 1.0], [5.0, 0.0, 1.0])
+
+
+def test_a_quantile_by_area_does_not_count_points():
+    values = np.repeat([1.0, 2.0, 3.0], [1, 100, 1])
+    areas = np.repeat([10.0, 0.01, 10.0], [1, 100, 1])
+    assert area_quantile(values, areas, 0.1) == pytest.approx(1.0)
+    with pytest.raises(ValueError, match="nothing"):
+        area_quantile(values[:0], areas[:0], 0.5)

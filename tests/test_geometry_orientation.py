@@ -1,0 +1,130 @@
+"""The pose of lasts and feet in any pose, and what is refused; the fit's algebra."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from footfit.geometry.orientation import is_accepted, mirror_image, orientation
+from footfit.geometry.pose_fit import FIT, Poses, _plane_part, _point_part, icp_steps, levelled
+from footfit.geometry.rotations import turned_by
+from footfit.geometry.samples import even_sample
+from footfit.pipeline.references import shipped_references
+from tests import distortions, shapes
+from tools.lasts import LastSpec, last_mesh
+
+WINDOW = ((100.0, 400.0),)
+SEEDS = st.integers(0, 2**32 - 1)
+
+
+@pytest.fixture(scope="module")
+def last():
+    return last_mesh(LastSpec(rings=60, segments=40))
+
+
+def test_the_normal_equations_are_those_of_the_rows_written_out():
+    rng = np.random.default_rng(0)
+    q, away, plane = (rng.normal(size=(2, 30, 3)).astype(np.float32) for _ in range(3))
+    weight = rng.random((2, 30)).astype(np.float32)
+    by_point, by_plane = np.zeros((2, 8, 8)), np.zeros((2, 8, 8))
+    for k in range(2):
+        for point, gap, normal, w in zip(q[k], away[k], plane[k], weight[k], strict=True):
+            for direction, total in ((None, by_plane), *((e, by_point) for e in np.eye(3))):
+                d = normal if direction is None else direction
+                row = np.r_[np.cross(point, d), d, point @ d, gap @ d]
+                total[k] += w * np.outer(row, row)
+    used = (slice(None), slice(7), slice(None))  # the last row is never read
+    np.testing.assert_allclose(_point_part(q, away, weight)[used], by_point[used], atol=1e-4)
+    np.testing.assert_allclose(_plane_part(q, away, plane, weight), by_plane, atol=1e-4)
+
+
+def test_icp_finds_back_a_small_known_motion():
+    """A reference's own points, moved a little and scaled, are put back."""
+    shape = shipped_references().shapes[0]
+    body = shape.points[:, 2] < 0.4
+    points, normals = shape.points[body][::8], shape.normals[body][::8]
+    turn = turned_by(np.array([[0.10, -0.08, 0.12]]))[0]
+    moved = (points @ turn.T + [0.02, -0.01, 0.015]).astype(np.float32)
+    start = Poses(
+        np.eye(3, dtype=np.float32)[None], np.zeros((1, 3), np.float32), np.ones(1, np.float32)
+    )
+    found = icp_steps(start, moved, (normals @ turn.T).astype(np.float32), shape, 25, FIT)
+    back = moved @ found.rotation[0].T * found.scale[0] + found.shift[0]
+    assert np.linalg.norm(back - points, axis=1).max() < 0.02
+
+
+def test_levelling_takes_length_and_shift_from_the_low_part():
+    vertices, _ = shapes.cube(1.0, 4)
+    box = (vertices + np.array([0.5, 0.0, 0.5])) * [200.0, 80.0, 60.0] + [30.0, 7.0, -5.0]
+    poses = levelled(np.eye(3, dtype=np.float32)[None], box.astype(np.float32), 0.1, FIT)
+    assert 1 / poses.scale[0] == pytest.approx(200.0, rel=1e-5)
+    corner = box.min(axis=0) * poses.scale[0] + poses.shift[0]
+    assert corner == pytest.approx([0.0, 0.1 - 0.2, 0.0], abs=1e-5)
+
+
+def test_a_mirror_image_of_a_pose_keeps_the_place_mirrored():
+    rng = np.random.default_rng(2)
+    pose = Poses(
+        distortions.random_rotation(rng)[None].astype(np.float32),
+        rng.normal(size=(1, 3)).astype(np.float32),
+        np.ones(1, np.float32),
+    )
+    points = rng.normal(size=(20, 3)).astype(np.float32)
+    flip = np.array([1, -1, 1], np.float32)
+    image = mirror_image(pose, 0.25)
+    here = points @ pose.rotation[0].T + pose.shift[0]
+    there = (points * flip) @ image.rotation[0].T + image.shift[0]
+    np.testing.assert_allclose(there, here * flip + [0, 0.5, 0], atol=1e-5)
+
+
+@settings(max_examples=8, deadline=None)
+@given(seed=SEEDS, left=st.booleans())
+def test_a_last_in_any_pose_is_set_upright(last, seed, left):
+    vertices, faces = distortions.mirrored(*last) if left else last
+    pose = distortions.random_pose(np.random.default_rng(seed))
+    found = orientation(distortions.moved(vertices, pose), faces, shipped_references(), WINDOW)
+    turn = found.rotation @ pose[:3, :3]
+    assert found.accepted
+    assert found.kind == "last"
+    assert turn[0, 0] > np.cos(np.radians(20))
+    assert turn[2, 2] > np.cos(np.radians(20))
+
+
+@pytest.mark.parametrize("known_size", [True, False])
+@pytest.mark.parametrize(
+    "make",
+    [
+        shapes.cylinder,
+        shapes.ellipsoid,
+        shapes.sphere,
+        shapes.hand,
+        shapes.shin,
+        shapes.flat_sheet,
+        lambda: (shapes.cube(1.0, 8)[0] * [260.0, 95.0, 80.0], shapes.cube(1.0, 8)[1]),
+    ],
+    ids=["cylinder", "ellipsoid", "sphere", "hand", "shin", "sheet", "box"],
+)
+def test_what_is_no_foot_is_not_accepted(make, known_size):
+    vertices, faces = make()
+    for seed in range(2):
+        pose = distortions.random_pose(np.random.default_rng(seed))
+        windows = WINDOW if known_size else ()
+        moved = distortions.moved(vertices, pose)
+        assert not orientation(moved, faces, shipped_references(), windows).accepted
+
+
+def test_a_doubtful_fit_needs_a_clearer_margin():
+    assert is_accepted(0.30, 0.05)
+    assert not is_accepted(0.60, 0.05)
+    assert is_accepted(0.60, 0.20)
+    assert not is_accepted(0.70, 0.50)
+
+
+def test_the_sample_is_spread_by_area():
+    vertices, faces = shapes.cube(100.0, 4)
+    sample = even_sample(vertices, faces, 1200)
+    on_top = (np.abs(sample.points[:, 2] - 50.0) < 1e-9).mean()
+    assert on_top == pytest.approx(1 / 6, abs=0.005)
+    assert sample.areas.sum() == pytest.approx(6e4)

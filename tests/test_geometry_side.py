@@ -1,0 +1,47 @@
+"""The side's score is odd under mirroring and knows lasts whose side is planted."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from footfit.geometry.frame import canonical_frame
+from footfit.geometry.samples import quadrature
+from footfit.geometry.side import confidence, side_score
+from tools.lasts import LastSpec, last_mesh
+
+
+def canonical_points(spec):
+    vertices, faces = last_mesh(spec)
+    sample = quadrature(vertices, faces, 0.03 * spec.length_mm)
+    frame = canonical_frame(sample, spec.length_mm)
+    return sample.points @ frame.rotation.T + frame.shift, frame.length
+
+
+@pytest.mark.parametrize("flare_deg", [4.0, 8.0, 14.0])
+@pytest.mark.parametrize("heel_height_mm", [0.0, 25.0, 60.0])
+def test_inflared_lasts_are_right_and_their_mirror_images_left(flare_deg, heel_height_mm):
+    spec = LastSpec(flare_deg=flare_deg, heel_height_mm=heel_height_mm, rings=60, segments=48)
+    points, length = canonical_points(spec)
+    here = side_score(points, length)
+    there = side_score(points * [1.0, -1.0, 1.0], length)
+    assert here.score > 0.5
+    assert there.score == pytest.approx(-here.score, abs=1e-9)
+
+
+def test_a_symmetric_shape_is_undecided():
+    rng = np.random.default_rng(0)
+    half = rng.random((4000, 3)) * [260.0, 45.0, 60.0]
+    points = np.concatenate([half, half * [1.0, -1.0, 1.0]])
+    score = side_score(points, 260.0).score
+    assert abs(score) < 1e-6
+    assert confidence(score) == "undecided"
+
+
+def test_the_words_follow_the_score():
+    words = [confidence(score) for score in (-4.0, -1.0, 0.2, 1.0, 2.5)]
+    assert words == ["sure", "low", "undecided", "low", "sure"]
+
+
+def test_too_few_stations_say_nothing():
+    assert side_score(np.zeros((30, 3)), 260.0).score == 0.0
