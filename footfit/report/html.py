@@ -101,10 +101,8 @@ def _names(match: Match) -> str:
 
 def _lead(match: Match) -> str:
     noun = "last" if match.catalogue_lasts == 1 else "lasts"
-    return (
-        f"{_names(match)} against {match.catalogue_lasts} {noun}, by {match.by}, "
-        f"fit profile {match.profile}."
-    )
+    profile = f", fit profile {match.profile}" if match.by == "fit" else ""
+    return f"{_names(match)} against {match.catalogue_lasts} {noun}, by {match.by}{profile}."
 
 
 def _best(match: Match) -> str:

@@ -78,11 +78,12 @@ def on_side(shape: Shape, own: SideName | None, wanted: SideName | None) -> Shap
     return vertices * np.array([1.0, -1.0, 1.0]), faces[:, ::-1]
 
 
-def legend_name(candidate: Candidate) -> str:
-    """A last's name, shortened, with its rank and flare difference."""
+def legend_name(candidate: Candidate, foot: Profiled) -> str:
+    """A last's rank and name, shortened, with its flare against this foot's."""
     name = visible(candidate.last)
+    delta = signed(candidate.record.flare.angle_deg - foot.flare.angle_deg)
     short = name if len(name) <= NAME_LENGTH else f"{name[: NAME_LENGTH - 1]}…"
-    return f"{candidate.rank}  {short}, flare {signed(candidate.flare.delta_deg)}° from the foot's"
+    return f"{candidate.rank}  {short}, flare {delta}° from the foot's"
 
 
 def _style(index: int) -> dict[str, Any]:
@@ -156,7 +157,7 @@ def _heading(axes: Axes, profiled: Profiled, lasts: tuple[Candidate, ...]) -> No
     axes.plot(flare.stations, flare.heading_deg, color=FOOT, linewidth=2.2, label=angle)
     for index, last in enumerate(lasts):
         curve = last.record.flare
-        label = legend_name(last)
+        label = legend_name(last, profiled)
         axes.plot(curve.stations, curve.heading_deg, label=label, **_style(index))
     axes.tick_params(labelbottom=False)
     axes.set_ylabel("heading (deg)\n+ to medial")

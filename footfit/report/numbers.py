@@ -48,18 +48,17 @@ def ratio(value: float | None) -> float | None:
 
 
 def nested(values: ArrayLike, digits: int) -> list[object]:
-    """An array as nested lists of rounded numbers, None where it is not finite.
+    """An array as nested lists of numbers, each as `rounded` gives it.
 
     Examples
     --------
     >>> nested([[1.00049, -0.0001], [float("inf"), 2.0]], 3)
     [[1.0, 0.0], [None, 2.0]]
     """
-    array = np.round(np.asarray(values, dtype=np.float64), digits) + 0.0
-    boxed = array.astype(object)
-    boxed[~np.isfinite(array)] = None
-    listed: list[object] = boxed.tolist()
-    return listed
+    array = np.asarray(values, dtype=np.float64)
+    if array.ndim > 1:
+        return [nested(row, digits) for row in array]
+    return [rounded(value, digits) for value in array.tolist()]
 
 
 def measured_value(measured: Measured) -> Json:

@@ -222,7 +222,7 @@ def _why(candidate: Candidate) -> Text:
 def _closing(match: Match) -> str:
     noun = "last" if match.catalogue_lasts == 1 else "lasts"
     words = f"{len(match.candidates)} of {match.catalogue_lasts} {noun}, by {match.by}"
-    words += f", profile {visible(match.profile)}"
+    words += f", profile {visible(match.profile)}" if match.by == "fit" else ""
     left_out = "; ".join(
         f"{count} {visible(reason).replace('_', ' ')}" for reason, count in match.rejected
     )
