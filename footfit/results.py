@@ -341,3 +341,28 @@ class Match:
     candidates: tuple[Candidate, ...]
     rejected: tuple[tuple[str, int], ...]
     warnings: tuple[Notice, ...]
+
+
+# ---------------------------------------------------------------- library
+
+
+@dataclass(frozen=True, slots=True)
+class UpgradeOutcome:
+    """What ``upgrade-catalogue`` did: the schema's revisions and the profiles re-computed."""
+
+    path: str
+    revision_before: str
+    revision_after: str
+    definition: str
+    recomputed: tuple[str, ...]
+    backup: str | None
+
+
+@dataclass(frozen=True, slots=True)
+class DemoOutcome:
+    """Where the demo's files lie; the report is the last of ``outputs``."""
+
+    folder: str
+    lasts: int
+    best: str | None
+    outputs: tuple[str, ...]

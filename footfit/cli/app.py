@@ -1,7 +1,84 @@
-"""The application: every command, and the one boundary where an error becomes a line."""
+"""The application: every command by name, and the entry point."""
 
 from __future__ import annotations
 
+import sys
+from typing import Annotated
+
+import typer
+
+from footfit import __version__
+from footfit.cli.align import align
+from footfit.cli.boundary import guarded
+from footfit.cli.catalogue_info import catalogue_info
+from footfit.cli.curvature import curvature
+from footfit.cli.demo import demo
+from footfit.cli.export_last import export_last
+from footfit.cli.flare import flare
+from footfit.cli.ingest_last import ingest_last
+from footfit.cli.list_lasts import list_lasts
+from footfit.cli.match import match
+from footfit.cli.remove_last import remove_last
+from footfit.cli.rename_last import rename_last
+from footfit.cli.set_reference import set_reference
+from footfit.cli.settings import one_blas_thread
+from footfit.cli.show_last import show_last
+from footfit.cli.upgrade_catalogue import upgrade_catalogue
+
+PAPER, LIBRARY, START = "The paper's commands", "The library of lasts", "Start here"
+
+COMMANDS = (
+    ("demo", demo, START),
+    ("ingest-last", ingest_last, PAPER),
+    ("set-reference", set_reference, PAPER),
+    ("align", align, PAPER),
+    ("flare", flare, PAPER),
+    ("curvature", curvature, PAPER),
+    ("match", match, PAPER),
+    ("list-lasts", list_lasts, LIBRARY),
+    ("show-last", show_last, LIBRARY),
+    ("rename-last", rename_last, LIBRARY),
+    ("remove-last", remove_last, LIBRARY),
+    ("export-last", export_last, LIBRARY),
+    ("catalogue-info", catalogue_info, LIBRARY),
+    ("upgrade-catalogue", upgrade_catalogue, LIBRARY),
+)
+"""Every command: its name, its function, its panel in the help."""
+
+
+def _version(wanted: bool) -> None:
+    if wanted:
+        typer.echo(f"footfit {__version__}")
+        raise typer.Exit
+
+
+def _root(
+    version: Annotated[
+        bool,
+        typer.Option("--version", callback=_version, is_eager=True, help="Show the version."),
+    ] = False,
+) -> None:
+    """Which shoe last fits this foot, and why?
+
+    Scans of feet and lasts in, ranked lasts with reasons out. New here? footfit demo
+    """
+
+
+def application() -> typer.Typer:
+    """The Typer application with every command of `COMMANDS`."""
+    app = typer.Typer(
+        no_args_is_help=True,
+        pretty_exceptions_enable=False,
+        context_settings={"help_option_names": ["-h", "--help"]},
+        rich_markup_mode="rich",
+    )
+    app.callback()(_root)
+    for name, function, panel in COMMANDS:
+        app.command(name, rich_help_panel=panel)(function)
+    return app
+
 
 def main() -> None:
-    """Run the command line."""
+    """Run the command line and exit with its code."""
+    one_blas_thread()
+    sys.exit(guarded(application(), sys.argv[1:]))

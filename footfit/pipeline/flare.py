@@ -8,7 +8,7 @@ from footfit.errors import SideUndecided
 from footfit.geometry import measures
 from footfit.geometry.arrays import Floats, Ints
 from footfit.geometry.flare import FlareDefinition, flare_profile
-from footfit.results import AlignedScan, Measure, Measured, Profiled
+from footfit.results import AlignedScan, Measure, Measured, Profiled, SideName
 
 
 def profiled(aligned: AlignedScan, definition: FlareDefinition | None = None) -> Profiled:
@@ -42,13 +42,15 @@ def profiled(aligned: AlignedScan, definition: FlareDefinition | None = None) ->
 
 
 def right_shape(aligned: AlignedScan) -> tuple[Floats, Ints]:
-    """The canonical mesh as a right one: vertices (n, 3) in mm and faces (m, 3), wound outward.
+    """The canonical mesh as a right one: vertices (n, 3) in mm and faces (m, 3), wound outward."""
+    return as_right(aligned.vertices_mm, aligned.faces, aligned.alignment.side.side)
 
-    A left mesh comes mirrored, y to -y, with its faces turned over.
-    """
-    if aligned.alignment.side.side != "left":
-        return aligned.vertices_mm, aligned.faces
-    return aligned.vertices_mm * np.array([1.0, -1.0, 1.0]), aligned.faces[:, ::-1]
+
+def as_right(vertices_mm: Floats, faces: Ints, side: SideName | None) -> tuple[Floats, Ints]:
+    """A canonical mesh as a right one; a left mesh is mirrored, its faces turned over."""
+    if side != "left":
+        return vertices_mm, faces
+    return vertices_mm * np.array([1.0, -1.0, 1.0]), faces[:, ::-1]
 
 
 def measured(vertices_mm: Floats, faces: Ints) -> tuple[Measure, ...]:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
+from typing import BinaryIO
 
 from footfit.errors import UnreadableFile
 
@@ -46,6 +47,19 @@ def mesh_sources(arguments: Sequence[str]) -> list[Source]:
     """
     paths = dict.fromkeys(path for argument in arguments for path in _expanded(argument))
     return [Source(path) for path in paths]
+
+
+def stdin_source(stream: BinaryIO, mesh_format: str) -> Source:
+    """One mesh from an open stream, behind the same size guard as a file.
+
+    Raises
+    ------
+    TooLarge, EmptyMesh
+        Past the limit, or nothing came.
+    """
+    from footfit.meshes.read import read_stream
+
+    return Source(None, read_stream(stream), mesh_format)
 
 
 def _expanded(argument: str) -> list[str]:

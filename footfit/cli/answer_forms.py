@@ -1,0 +1,119 @@
+"""How each command says a value: as a JSON document, as a table, with which warnings.
+
+One constant per command, so that a new command adds one line here. Command bodies import this
+module when they run: ``-h`` opens none of the report layer.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any, Generic, TypeVar
+
+from footfit.report import documents, last_documents, last_tables, tables
+from footfit.results import (
+    AlignedScan,
+    CatalogueFacts,
+    DemoOutcome,
+    IngestOutcome,
+    LastRecord,
+    Match,
+    MeshCopy,
+    Notice,
+    Profiled,
+    Reference,
+    SurfaceCurvature,
+    UpgradeOutcome,
+)
+
+if TYPE_CHECKING:
+    from rich.console import RenderableType
+
+T = TypeVar("T")
+Warned = tuple[str | None, Iterable[Notice]]
+
+
+def _nothing(_value: object) -> Warned:
+    return None, ()
+
+
+@dataclass(frozen=True, slots=True)
+class Answer(Generic[T]):
+    """One command's way to say a value of type ``T``."""
+
+    document: Callable[[T], dict[str, Any]]
+    table: Callable[[T], RenderableType]
+    warnings: Callable[[T], Warned] = _nothing
+
+
+ALIGN: Answer[AlignedScan] = Answer(
+    lambda scan: documents.align_document(scan.alignment),
+    lambda scan: tables.align_table(scan.alignment),
+    lambda scan: (scan.alignment.info.path, scan.alignment.warnings),
+)
+FLARE: Answer[Profiled] = Answer(
+    documents.flare_document,
+    tables.flare_table,
+    lambda shape: (shape.aligned.alignment.info.path, shape.aligned.alignment.warnings),
+)
+CURVATURE: Answer[SurfaceCurvature] = Answer(
+    documents.curvature_document,
+    tables.curvature_table,
+    lambda values: (values.info.path, values.warnings),
+)
+MATCH: Answer[Match] = Answer(
+    documents.match_document,
+    tables.match_table,
+    lambda match: (None, _match_notices(match)),
+)
+INGEST_LAST: Answer[IngestOutcome] = Answer(
+    documents.ingest_document,
+    tables.ingest_line,
+    lambda outcome: (outcome.path, outcome.warnings),
+)
+SET_REFERENCE: Answer[tuple[Reference, int]] = Answer(
+    lambda changed: last_documents.set_reference_document(*changed),
+    lambda changed: last_tables.set_reference_line(*changed),
+)
+LIST_LASTS: Answer[tuple[list[LastRecord], str | None]] = Answer(
+    lambda found: last_documents.list_lasts_document(*found),
+    lambda found: last_tables.list_lasts_table(*found),
+)
+SHOW_LAST: Answer[tuple[LastRecord, str | None]] = Answer(
+    lambda found: last_documents.show_last_document(*found),
+    lambda found: last_tables.show_last_table(*found),
+)
+RENAME_LAST: Answer[tuple[str, str]] = Answer(
+    lambda names: last_documents.rename_last_document(*names),
+    lambda names: last_tables.rename_last_line(*names),
+)
+REMOVE_LAST: Answer[str] = Answer(
+    last_documents.remove_last_document,
+    last_tables.remove_last_line,
+)
+EXPORT_LAST: Answer[tuple[str, str, MeshCopy | None]] = Answer(
+    lambda written: last_documents.export_last_document(*written),
+    lambda written: last_tables.export_last_line(*written),
+)
+CATALOGUE_INFO: Answer[CatalogueFacts] = Answer(
+    last_documents.catalogue_info_document,
+    last_tables.catalogue_info_table,
+)
+UPGRADE_CATALOGUE: Answer[UpgradeOutcome] = Answer(
+    last_documents.upgrade_catalogue_document,
+    last_tables.upgrade_catalogue_line,
+)
+DEMO: Answer[DemoOutcome] = Answer(
+    lambda demo: last_documents.demo_document(demo.folder, demo.lasts, demo.best, demo.outputs),
+    last_tables.demo_table,
+)
+
+
+def _match_notices(match: Match) -> list[Notice]:
+    """A match's warnings, those of each foot first and naming its file."""
+    feet = [
+        Notice(notice.code, f"{foot.aligned.alignment.info.path or '-'}: {notice.message}")
+        for foot in match.feet
+        for notice in foot.aligned.alignment.warnings
+    ]
+    return [*feet, *match.warnings]

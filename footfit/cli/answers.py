@@ -1,0 +1,128 @@
+"""How a batch is answered: each mesh as it comes, warnings beside, one exit code at the end."""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, TypeVar
+
+from footfit.cli.console import answer, error_line, say, say_notices, show
+from footfit.errors import BadOption, FootfitError
+
+if TYPE_CHECKING:
+    from footfit.cli.answer_forms import Answer
+    from footfit.pipeline.batch import Outcome
+    from footfit.pipeline.sources import Source
+
+T = TypeVar("T")
+
+
+@dataclass(frozen=True, slots=True)
+class Voice:
+    """How to speak: JSON lines or tables; with or without messages; how many are awaited.
+
+    ``answers`` False: stdout is taken by something else (``--csv -``).
+    """
+
+    as_json: bool
+    quiet: bool
+    total: int = 1
+    answers: bool = True
+
+
+def sources_of(arguments: Sequence[str], format: str | None) -> list[Source]:
+    """The meshes that a command was given, standard input among them.
+
+    Raises
+    ------
+    BadOption
+        ``-`` beside other meshes, or without ``--format``.
+    UnreadableFile
+        A folder or glob without a mesh.
+    """
+    from footfit.pipeline.sources import mesh_sources, stdin_source
+
+    if "-" not in arguments:
+        return mesh_sources(arguments)
+    if list(arguments) != ["-"]:
+        raise BadOption("- reads one mesh from standard input; give it alone")
+    if format is None:
+        raise BadOption("a mesh on standard input needs --format, for example --format stl")
+    return [stdin_source(sys.stdin.buffer, format)]
+
+
+def only_one(sources: Sequence[Source], *outputs: Path | None) -> None:
+    """Refuse an output file for several meshes.
+
+    Raises
+    ------
+    BadOption
+        Several meshes would be written over one another.
+    """
+    named = [str(path) for path in outputs if path is not None]
+    if named and len(sources) != 1:
+        raise BadOption(f"is one file and there are {len(sources)} meshes; give one mesh", named[0])
+
+
+def told(
+    outcomes: Iterable[Outcome[Any, T]],
+    answer_of: Answer[T],
+    voice: Voice,
+    then: Callable[[T], object] | None = None,
+) -> int:
+    """Say each outcome as it comes, and do ``then`` with its value; return the exit code.
+
+    One bad mesh stops nothing: its line says so, and the code at the end is the failures'.
+    """
+    from footfit.pipeline.batch import common_code
+
+    errors: list[FootfitError] = []
+    for outcome in counted(outcomes, voice):
+        if outcome.value is None:
+            assert outcome.error is not None
+            errors.append(outcome.error)
+            tell_error(outcome.error, voice)
+            continue
+        tell(outcome.value, answer_of, voice)
+        if then is not None:
+            then(outcome.value)
+    if errors and voice.total > 1:
+        say(f"{len(errors)} of {voice.total} meshes failed", quiet=voice.quiet or voice.as_json)
+    return common_code(int(error.exit) for error in errors)
+
+
+def tell(value: T, answer_of: Answer[T], voice: Voice) -> None:
+    """One value: its warnings on stderr, itself on stdout."""
+    path, notices = answer_of.warnings(value)
+    say_notices(notices, path, quiet=voice.quiet)
+    if not voice.answers:
+        return
+    if voice.as_json:
+        from footfit.report.documents import json_line
+
+        answer(json_line(answer_of.document(value)))
+    else:
+        show(answer_of.table(value))
+
+
+def tell_error(error: FootfitError, voice: Voice) -> None:
+    """One failure: its line on stderr and, with --json, its document on stdout as well."""
+    line = error_line(error, as_json=voice.as_json)
+    if voice.as_json and voice.answers:
+        answer(line)
+    say(line)
+
+
+def counted(items: Iterable[T], voice: Voice) -> Iterator[T]:
+    """``items`` behind a progress bar, where a person watches several meshes go by."""
+    if voice.quiet or voice.as_json or voice.total < 2 or not sys.stderr.isatty():
+        yield from items
+        return
+    from rich.console import Console
+    from rich.progress import BarColumn, MofNCompleteColumn, Progress, TimeRemainingColumn
+
+    columns = (BarColumn(), MofNCompleteColumn(), TimeRemainingColumn())
+    with Progress(*columns, console=Console(stderr=True), transient=True) as bar:
+        yield from bar.track(items, total=voice.total)

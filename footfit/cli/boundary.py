@@ -1,0 +1,67 @@
+"""The one place where an error becomes a line and an exit code."""
+
+from __future__ import annotations
+
+import os
+import signal
+import sys
+from collections.abc import Callable, Sequence
+from types import FrameType
+from typing import Any
+
+from footfit.cli.console import error_line, say
+from footfit.errors import BadOption, ExitCode, FootfitError
+
+REPORT_TO = "please report it with the command that you typed (docs/exit-codes.md says how)"
+
+
+class Terminated(BaseException):
+    """SIGTERM came: unwinds the stack, so that nothing is left half written."""
+
+
+def _terminate(_number: int, _frame: FrameType | None) -> None:
+    raise Terminated
+
+
+def guarded(application: Callable[..., Any], arguments: Sequence[str]) -> int:
+    """Run the application on ``arguments``; return the exit code, having said what went wrong."""
+    as_json, verbose = "--json" in arguments, "--verbose" in arguments
+    signal.signal(signal.SIGTERM, _terminate)
+    try:
+        code = application(args=list(arguments), prog_name="footfit", standalone_mode=False)
+    except FootfitError as error:
+        say(error_line(error, as_json=as_json))
+        return int(error.exit)
+    except Terminated:
+        say("footfit: ended by SIGTERM; what was confirmed is stored")
+        return int(ExitCode.TERMINATED)
+    except KeyboardInterrupt:
+        code = int(ExitCode.INTERRUPTED)
+    except BrokenPipeError:
+        # The reader has gone (| head): keep the interpreter from complaining at its exit.
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        return int(ExitCode.OK)
+    except Exception as error:  # noqa: BLE001 - the boundary: nothing may pass it as a traceback
+        return _unexpected(error, as_json=as_json, verbose=verbose)
+    if code == int(ExitCode.INTERRUPTED):
+        say("footfit: interrupted; what was confirmed is stored")
+    return code if isinstance(code, int) else int(ExitCode.OK)
+
+
+def _unexpected(error: Exception, *, as_json: bool, verbose: bool) -> int:
+    """A usage error of the command-line library, or a bug."""
+    words = getattr(error, "format_message", None)
+    if words is not None and getattr(error, "exit_code", None) == int(ExitCode.USAGE):
+        context = getattr(error, "ctx", None)
+        command = context.command_path if context is not None else "footfit"
+        message = " ".join(str(words()).split()) or "a command is missing"
+        say(error_line(BadOption(f"{message} See {command} -h"), as_json=as_json))
+        return int(ExitCode.USAGE)
+    if verbose:
+        import traceback
+
+        traceback.print_exception(error)
+    bug = FootfitError(f"a bug: {type(error).__name__}: {error}; {REPORT_TO}")
+    bug.code = "bug"  # type: ignore[misc]
+    say(error_line(bug, as_json=as_json))
+    return int(ExitCode.BUG)

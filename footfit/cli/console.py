@@ -1,0 +1,76 @@
+"""What a person sees: answers on stdout, everything else on stderr."""
+
+from __future__ import annotations
+
+import json
+import os
+import shutil
+import sys
+from collections.abc import Iterable
+from typing import TYPE_CHECKING
+
+from footfit.errors import FootfitError
+from footfit.report.text import visible
+
+if TYPE_CHECKING:
+    from rich.console import RenderableType
+
+    from footfit.results import IngestOutcome, Notice
+
+PLAIN_WIDTH = 100
+
+
+def answer(text: str) -> None:
+    """Write to stdout as UTF-8, whatever the locale says."""
+    data = text if text.endswith("\n") else text + "\n"
+    sys.stdout.buffer.write(data.encode("utf-8", "backslashreplace"))
+    sys.stdout.flush()
+
+
+def show(renderable: RenderableType) -> None:
+    """Write a table to stdout, coloured only for a terminal that wants it."""
+    from footfit.report.tables import terminal_text
+
+    colour = sys.stdout.isatty() and not os.environ.get("NO_COLOR")
+    width = shutil.get_terminal_size().columns if sys.stdout.isatty() else PLAIN_WIDTH
+    answer(terminal_text(renderable, width=width, colour=colour))
+
+
+def say(message: str, *, quiet: bool = False) -> None:
+    """One line on stderr, unless ``quiet``."""
+    if not quiet:
+        data = visible(message) + "\n"
+        sys.stderr.buffer.write(data.encode("utf-8", "backslashreplace"))
+        sys.stderr.flush()
+
+
+def say_notices(notices: Iterable[Notice], path: str | None, *, quiet: bool) -> None:
+    """Each warning as one line that names its file."""
+    where = f"{path}: " if path else ""
+    for notice in notices:
+        say(f"{where}{notice.message}", quiet=quiet)
+
+
+def error_line(error: FootfitError, *, as_json: bool) -> str:
+    """The one line that an error is: words, or the ``footfit.error/1`` document."""
+    return _line(error.code, int(error.exit), error.message, error.path, as_json=as_json)
+
+
+def refusal_line(outcome: IngestOutcome, *, as_json: bool) -> str:
+    """The same for a file that ingest refused."""
+    message = outcome.error or "refused"
+    return _line(outcome.code or "refused", outcome.exit, message, outcome.path, as_json=as_json)
+
+
+def _line(code: str, exit_code: int, message: str, path: str | None, *, as_json: bool) -> str:
+    if not as_json:
+        where = f"{path}: " if path else ""
+        return visible(f"footfit: {where}{message}")
+    document = {
+        "schema": "footfit.error/1",
+        "code": code,
+        "exit": exit_code,
+        "message": message,
+        "path": path,
+    }
+    return json.dumps(document, ensure_ascii=True, sort_keys=True)

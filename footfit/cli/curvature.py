@@ -1,0 +1,94 @@
+"""``footfit curvature``: the concentrated curvature of a surface, per vertex."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+from footfit.cli import options
+
+if TYPE_CHECKING:
+    from footfit.results import SurfaceCurvature
+
+
+def curvature(
+    meshes: options.Meshes,
+    output: Annotated[
+        Path | None,
+        typer.Option(
+            "-o",
+            "--output",
+            metavar="FILE",
+            show_default=False,
+            rich_help_panel=options.OUTPUT,
+            help="Write k1, k2, mean, gaussian per vertex (.ply coloured by the mean, .npz).",
+        ),
+    ] = None,
+    plot: Annotated[
+        Path | None,
+        typer.Option(
+            "--plot",
+            metavar="FILE",
+            show_default=False,
+            rich_help_panel=options.OUTPUT,
+            help="Draw the mean curvature on the mesh (.svg, .png).",
+        ),
+    ] = None,
+    radius: Annotated[
+        float | None,
+        typer.Option(
+            "--radius",
+            metavar="MM",
+            min=0,
+            show_default=False,
+            help="The scale in mm; 0 is the paper's one ring. Else 6 % of the longest extent.",
+        ),
+    ] = None,
+    units: options.Units = options.UnitName.auto,
+    format: options.Format = None,
+    jobs: options.Jobs = 1,
+    force: options.Force = False,
+    json: options.Json = False,
+    quiet: options.Quiet = False,
+    verbose: options.Verbose = False,
+) -> None:
+    """Concentrated curvature of a surface at every vertex, in 1/mm.
+
+    Example: footfit curvature foot.stl -o curvature.ply --plot curvature.png
+    """
+    from functools import partial
+
+    from footfit.cli.answer_forms import CURVATURE
+    from footfit.cli.answers import Voice, only_one, sources_of, told
+    from footfit.cli.outputs import refuse_existing
+    from footfit.pipeline.batch import outcomes
+    from footfit.pipeline.reading import curvature_source
+    from footfit.pipeline.sources import ReadingOptions
+
+    sources = sources_of(meshes, format)
+    only_one(sources, output, plot)
+    refuse_existing(output, plot, force=force)
+    work = partial(curvature_source, reading=ReadingOptions(units.value), radius_mm=radius)
+    code = told(
+        outcomes(work, sources, jobs),
+        CURVATURE,
+        Voice(json, quiet, len(sources)),
+        then=lambda values: write_curvature(values, output, plot, force=force),
+    )
+    raise typer.Exit(code)
+
+
+def write_curvature(
+    values: SurfaceCurvature, output: Path | None, plot: Path | None, *, force: bool
+) -> None:
+    """Write the files that were asked for."""
+    from footfit.cli.outputs import write_output
+    from footfit.pipeline.export import PICTURE_KINDS, curvature_bytes, file_kind
+    from footfit.report.plots import curvature_plot
+
+    if output is not None:
+        write_output(output, curvature_bytes(values, output), force=force)
+    if plot is not None:
+        write_output(plot, curvature_plot(values, file_kind(plot, PICTURE_KINDS)), force=force)

@@ -1,0 +1,102 @@
+"""``footfit ingest-last``: scans of lasts into the catalogue."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any
+
+import typer
+
+from footfit.cli import options
+
+if TYPE_CHECKING:
+    from footfit.cli.answers import Voice
+    from footfit.results import IngestOutcome
+
+LABELS = "What people say of the last"
+
+
+def _label(flag: str, metavar: str, text: str) -> Any:
+    return typer.Option(
+        flag, metavar=metavar, show_default=False, rich_help_panel=LABELS, help=text
+    )
+
+
+def ingest_last(
+    paths: Annotated[
+        list[str] | None,
+        typer.Argument(
+            metavar="PATH...",
+            show_default=False,
+            help="Scans of lasts: files, folders or globs. None: the manifest's.",
+        ),
+    ] = None,
+    name: Annotated[
+        str | None, _label("--name", "N", "The last's name, else the file's stem.")
+    ] = None,
+    manifest: Annotated[
+        Path | None,
+        _label("--manifest", "CSV", "Labels per file: path, name, style, size, size_system, ..."),
+    ] = None,
+    style: Annotated[str | None, _label("--style", "S", "The style, such as derby.")] = None,
+    size: Annotated[str | None, _label("--size", "42", "The size as marked on the last.")] = None,
+    size_system: Annotated[
+        str | None, _label("--size-system", "eu", "What the size counts in.")
+    ] = None,
+    width_label: Annotated[str | None, _label("--width-label", "G", "The width as marked.")] = None,
+    heel_height: Annotated[
+        float | None, _label("--heel-height", "MM", "The heel height, mm.")
+    ] = None,
+    side: options.Side = options.SideChoice.auto,
+    units: options.Units = options.UnitName.auto,
+    known_length: options.Known = None,
+    format: options.Format = None,
+    replace: Annotated[
+        bool, typer.Option("--replace", help="Store over a last of the same name.")
+    ] = False,
+    dry_run: Annotated[
+        bool,
+        typer.Option("--dry-run", help="Do all but store; say what would become of each file."),
+    ] = False,
+    jobs: options.Jobs = 1,
+    catalogue: options.Catalogue = None,
+    json: options.Json = False,
+    quiet: options.Quiet = False,
+    verbose: options.Verbose = False,
+) -> None:
+    """Read, align, profile and store lasts; each line is printed after its commit.
+
+    Running it again stores nothing twice.
+
+    Example: footfit ingest-last lasts/ --manifest lasts.csv --jobs 2
+    """
+    from footfit.cli.answer_forms import INGEST_LAST
+    from footfit.cli.answers import Voice, counted, sources_of, tell
+    from footfit.cli.settings import catalogue_path
+    from footfit.pipeline.batch import common_code
+    from footfit.pipeline.ingest import entries, ingest
+    from footfit.pipeline.manifest import read_manifest
+    from footfit.pipeline.sources import ReadingOptions
+    from footfit.results import LastLabels
+
+    given = LastLabels(name or "", style, size, size_system, width_label, heel_height)
+    reading = ReadingOptions(units.value, known_length, side.value)
+    rows = read_manifest(manifest) if manifest else []
+    batch = entries(sources_of(paths or [], format), rows, given, reading)
+    voice = Voice(json, quiet, len(batch))
+    refused: list[int] = []
+    for outcome in counted(
+        ingest(batch, catalogue_path(catalogue), jobs=jobs, replace=replace, dry_run=dry_run), voice
+    ):
+        tell(outcome, INGEST_LAST, voice)
+        if outcome.exit:
+            refused.append(outcome.exit)
+            say_refusal(outcome, voice)
+    raise typer.Exit(common_code(refused))
+
+
+def say_refusal(outcome: IngestOutcome, voice: Voice) -> None:
+    """The refusal as an error line on stderr; the answer has its own line already."""
+    from footfit.cli.console import refusal_line, say
+
+    say(refusal_line(outcome, as_json=voice.as_json))

@@ -1,0 +1,74 @@
+"""Where the catalogue is: the option, the environment, the settings file, the data folder."""
+
+from __future__ import annotations
+
+import os
+from pathlib import Path
+
+from footfit.errors import BadOption
+
+ENVIRONMENT_NAME = "FOOTFIT_CATALOGUE"
+SETTINGS_NAME = "settings.toml"
+CATALOGUE_NAME = "lasts.footfit"
+
+
+def settings_path() -> Path:
+    """The settings file, whether it exists or not."""
+    import platformdirs
+
+    return Path(platformdirs.user_config_dir("footfit", appauthor=False)) / SETTINGS_NAME
+
+
+def settings_catalogue(path: Path) -> Path | None:
+    """The ``catalogue = "..."`` line of the settings file, relative to its folder.
+
+    Raises
+    ------
+    BadOption
+        The file is no TOML, or the value is no text.
+    """
+    import tomllib
+
+    if not path.is_file():
+        return None
+    try:
+        value = tomllib.loads(path.read_text(encoding="utf-8")).get("catalogue")
+    except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
+        raise BadOption(f"is not valid TOML ({error}); mend or remove it", str(path)) from error
+    if value is None:
+        return None
+    if not isinstance(value, str) or not value:
+        raise BadOption('needs a line like: catalogue = "lasts.footfit"', str(path))
+    return path.parent / Path(value).expanduser()
+
+
+def catalogue_path(option: Path | None) -> Path:
+    """The catalogue to use, by the order of docs/command-line.md.
+
+    Raises
+    ------
+    BadOption
+        The settings file cannot be understood.
+    """
+    if option is not None:
+        return option
+    named = os.environ.get(ENVIRONMENT_NAME)
+    if named:
+        return Path(named).expanduser()
+    settled = settings_catalogue(settings_path())
+    if settled is not None:
+        return settled
+    import platformdirs
+
+    return Path(platformdirs.user_data_dir("footfit", appauthor=False)) / CATALOGUE_NAME
+
+
+def one_blas_thread() -> None:
+    """Hold BLAS to one thread, before NumPy is imported.
+
+    The sums of a threaded BLAS depend on the number of threads; with one, the same input gives
+    the same bytes whatever ``--jobs`` and whatever the machine's cores.
+    """
+    for name in ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS"):
+        os.environ[name] = "1"
+    os.environ.setdefault("VECLIB_MAXIMUM_THREADS", "1")

@@ -1,0 +1,75 @@
+"""The demo: the paper's five steps on the sample data, in a folder of its own."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+
+from footfit.errors import BadOption, GeometryRefused, OutputExists
+from footfit.pipeline import lasts
+from footfit.pipeline.ingest import entries, ingest
+from footfit.pipeline.manifest import read_manifest
+from footfit.pipeline.match import Question, matched
+from footfit.pipeline.reading import profiled_source
+from footfit.pipeline.samples import sample_folder
+from footfit.pipeline.sources import ReadingOptions, Source, mesh_sources
+from footfit.results import IngestOutcome, LastLabels, Match, Profiled, Reference
+
+CATALOGUE_NAME = "demo.footfit"
+
+
+@dataclass(frozen=True, slots=True)
+class Demonstration:
+    """What the demo did, for the report layer to show."""
+
+    catalogue: Path
+    ingested: tuple[IngestOutcome, ...]
+    reference: Reference
+    foot: Profiled
+    match: Match
+
+
+def demonstrate(folder: Path, *, jobs: int = 1, replace: bool = False) -> Demonstration:
+    """Ingest the sample lasts into a catalogue of the demo's own, choose a reference, align,
+    profile and match the first sample foot.
+
+    Raises
+    ------
+    OutputExists
+        The folder holds a demo already and ``replace`` is not given.
+    UnreadableFile
+        The sample data is missing.
+    """
+    catalogue = _fresh_catalogue(folder, replace=replace)
+    samples = sample_folder()
+    batch = entries([], read_manifest(samples / "lasts.csv"), LastLabels(""), ReadingOptions())
+    ingested = tuple(ingest(batch, catalogue, jobs=jobs))
+    refused = [outcome for outcome in ingested if outcome.error is not None]
+    if refused:
+        raise GeometryRefused(f"a sample last was refused: {refused[0].error}", refused[0].path)
+    middle = sorted(outcome.last or "" for outcome in ingested)[len(ingested) // 2]
+    reference, _ = lasts.set_reference(catalogue, middle)
+    foot = profiled_source(sample_foot(), ReadingOptions())
+    found = matched([foot], lasts.library(catalogue), Question())
+    return Demonstration(catalogue, ingested, reference, foot, found)
+
+
+def sample_foot() -> Source:
+    """The first sample foot, by name."""
+    return mesh_sources([str(sample_folder() / "feet")])[0]
+
+
+def _fresh_catalogue(folder: Path, *, replace: bool) -> Path:
+    """The path of the demo's catalogue, with no file there."""
+    catalogue = folder / CATALOGUE_NAME
+    if folder.exists() and not folder.is_dir():
+        raise BadOption("is a file; name a folder for the demo", str(folder))
+    if catalogue.exists():
+        if not replace:
+            raise OutputExists("holds a demo already; add --force to make it anew", str(folder))
+        catalogue.unlink()
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+    except OSError as error:
+        raise BadOption(f"cannot be made: {error.strerror}", str(folder)) from error
+    return catalogue

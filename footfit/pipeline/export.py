@@ -1,0 +1,115 @@
+"""Meshes and arrays as the bytes of a file; the suffix says which kind."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from footfit.errors import BadOption
+from footfit.geometry.arrays import Floats, Ints
+from footfit.results import AlignedScan, MeshCopy, SurfaceCurvature
+
+MESH_KINDS = ("stl", "ply", "obj", "off")
+PICTURE_KINDS = ("svg", "png")
+CURVATURE_KINDS = ("ply", "npz")
+
+
+def file_kind(path: Path, kinds: tuple[str, ...]) -> str:
+    """The suffix of an output, one of ``kinds``.
+
+    Raises
+    ------
+    BadOption
+        It is another.
+
+    Examples
+    --------
+    >>> file_kind(Path("foot.PLY"), MESH_KINDS)
+    'ply'
+    """
+    kind = path.suffix.lower().removeprefix(".")
+    if kind not in kinds:
+        raise BadOption(f"end the name in {' or '.join('.' + k for k in kinds)}", str(path))
+    return kind
+
+
+def mesh_bytes(vertices_mm: Floats, faces: Ints, path: Path) -> bytes:
+    """A mesh in the format of ``path``'s suffix, mm.
+
+    Raises
+    ------
+    BadOption
+        Not a mesh format.
+    """
+    from footfit.meshes.write import encoded_mesh
+
+    return encoded_mesh(vertices_mm, faces, file_kind(path, MESH_KINDS))
+
+
+def copy_bytes(copy: MeshCopy, path: Path) -> bytes:
+    """A catalogue's mesh copy in the format of ``path``'s suffix, canonical mm.
+
+    Raises
+    ------
+    BadOption
+        Not a mesh format.
+    CatalogueDamaged
+        The copy cannot be expanded.
+    """
+    from footfit.meshes.copies import expanded
+
+    file_kind(path, MESH_KINDS)
+    return mesh_bytes(*expanded(copy.data), path)
+
+
+def method_vertices(scan: AlignedScan) -> Floats:
+    """The vertices (n, 3) where the alignment's own method puts them, mm.
+
+    `AlignedScan` holds them in the canonical frame; a paper method's transform differs from it.
+    """
+    import numpy as np
+
+    alignment = scan.alignment
+    step = alignment.transform @ np.linalg.inv(alignment.canonical_transform)
+    return np.asarray(scan.vertices_mm @ step[:3, :3].T + step[:3, 3], dtype=np.float64)
+
+
+def curvature_bytes(curvature: SurfaceCurvature, path: Path) -> bytes:
+    """Per-vertex curvature as .ply (coloured by the mean) or .npz.
+
+    Raises
+    ------
+    BadOption
+        Neither.
+    """
+    from footfit.meshes.write import encoded_mesh
+
+    values = {
+        "k1": curvature.k1,
+        "k2": curvature.k2,
+        "mean": curvature.mean,
+        "gaussian": curvature.gaussian,
+    }
+    if file_kind(path, CURVATURE_KINDS) == "ply":
+        return encoded_mesh(curvature.vertices_mm, curvature.faces, "ply", values)
+    return _npz_bytes({**values, **_npz_mesh(curvature)})
+
+
+def _npz_mesh(curvature: SurfaceCurvature) -> dict[str, Floats | Ints]:
+    return {
+        "vertices": curvature.vertices_mm,
+        "faces": curvature.faces,
+        "source_to_vertex": curvature.source_to_vertex,
+    }
+
+
+def _npz_bytes(arrays: dict[str, Floats | Ints]) -> bytes:
+    """An .npz whose bytes depend on the arrays alone: NumPy's own writer stamps no time either,
+    and its members come in the order given.
+    """
+    import io
+
+    import numpy as np
+
+    buffer = io.BytesIO()
+    np.savez_compressed(buffer, **arrays)  # type: ignore[arg-type]
+    return buffer.getvalue()

@@ -1,0 +1,317 @@
+"""Ingest: scans of lasts, read, aligned, profiled and stored, each in its own transaction."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from functools import partial
+from pathlib import Path
+from typing import Protocol
+
+from footfit.catalogue.store import open_catalogue
+from footfit.errors import (
+    BadManifest,
+    BadOption,
+    ExitCode,
+    FootfitError,
+    NameTaken,
+    NoCatalogue,
+)
+from footfit.pipeline.batch import Outcome, outcomes
+from footfit.pipeline.manifest import ManifestRow
+from footfit.pipeline.reading import content_hash, profiled_source
+from footfit.pipeline.sources import ReadingOptions, Source
+from footfit.results import IngestOutcome, LastLabels, LastRecord, MeshCopy, Notice, Profiled
+
+
+@dataclass(frozen=True, slots=True)
+class Entry:
+    """One file to ingest, with what people say of it."""
+
+    source: Source
+    labels: LastLabels
+    reading: ReadingOptions
+
+    @property
+    def path(self) -> str | None:
+        """The file's path; None for standard input."""
+        return self.source.path
+
+
+@dataclass(frozen=True, slots=True)
+class Prepared:
+    """A last ready to be stored; ``record`` is None where its content is in the catalogue."""
+
+    sha256: str
+    record: LastRecord | None
+    copy: MeshCopy | None
+
+
+class Shelf(Protocol):
+    """What ingest needs of a catalogue."""
+
+    def add(self, record: LastRecord, copy: MeshCopy) -> None:
+        """Store a last in one transaction."""
+
+    def replace(self, record: LastRecord, copy: MeshCopy) -> None:
+        """Store a last over the one of its name, in one transaction."""
+
+    def records(self) -> Sequence[LastRecord]:
+        """Every last."""
+
+
+def entries(
+    sources: Sequence[Source],
+    manifest: Sequence[ManifestRow],
+    given: LastLabels,
+    reading: ReadingOptions,
+) -> list[Entry]:
+    """Join files with their labels, in sorted path order; a manifest alone names its files.
+
+    A label in the manifest wins over one on the command line (``given``, whose ``name`` is ""
+    where none was typed).
+
+    Raises
+    ------
+    BadOption
+        One ``--name`` for several files.
+    BadManifest
+        A line of the manifest names a file that is not among the sources.
+    """
+    rows = {_resolved(row.path): row for row in manifest}
+    if manifest and not sources:
+        sources = [Source(row.path) for row in manifest]
+    if not sources:
+        raise BadOption("nothing to ingest; name files, a folder or a --manifest")
+    if given.name and len(sources) > 1:
+        raise BadOption("--name names one last, and there are several files; use --manifest")
+    known = {_resolved(source.path) for source in sources if source.path}
+    for resolved, row in rows.items():
+        if resolved not in known:
+            raise BadManifest("is in the manifest and not among the files given", row.path)
+    ordered = sorted(sources, key=lambda source: source.path or "")
+    return [_entry(one, rows.get(_resolved(one.path or "")), given, reading) for one in ordered]
+
+
+def _resolved(path: str) -> str:
+    return str(Path(path).resolve())
+
+
+def _entry(
+    source: Source, row: ManifestRow | None, given: LastLabels, reading: ReadingOptions
+) -> Entry:
+    stem = Path(source.path).stem if source.path else ""
+    said = row.labels if row else LastLabels(name=stem)
+    name = given.name or said.name
+    if not name:
+        raise BadOption("a last from standard input needs --name")
+    labels = LastLabels(
+        name=name,
+        style=said.style or given.style,
+        size=said.size or given.size,
+        size_system=said.size_system or given.size_system,
+        width_label=said.width_label or given.width_label,
+        heel_height_mm=given.heel_height_mm if said.heel_height_mm is None else said.heel_height_mm,
+        family=given.family,
+        parent=given.parent,
+    )
+    if row is None:
+        return Entry(source, labels, reading)
+    units = row.reading.units if row.reading.units != "auto" else reading.units
+    side = row.reading.side if row.reading.side != "auto" else reading.side
+    return Entry(source, labels, ReadingOptions(units, reading.known_length_mm, side))
+
+
+def prepared(entry: Entry, known: frozenset[str] = frozenset()) -> Prepared:
+    """The heavy part of one ingest, without the catalogue: runs in a worker.
+
+    ``known`` holds the content hashes that the catalogue has: they need no second alignment.
+    """
+    from footfit.meshes.copies import compact_copy
+
+    sha256 = content_hash(entry.source)
+    if sha256 in known:
+        return Prepared(sha256, None, None)
+    shape = profiled_source(entry.source, entry.reading)
+    copy = compact_copy(shape.aligned.vertices_mm, shape.aligned.faces)
+    return Prepared(sha256, last_record(shape, entry.labels), copy)
+
+
+def last_record(shape: Profiled, labels: LastLabels) -> LastRecord:
+    """A profiled shape as a last of the catalogue; the file's folder is not kept."""
+    alignment = shape.aligned.alignment
+    notices = alignment.warnings
+    if alignment.pose.kind == "foot":
+        looks = Notice("looks_like_a_foot", "its shape is nearer to a foot's than to a last's")
+        notices = (*notices, looks)
+    return LastRecord(
+        labels=labels,
+        info=alignment.info,
+        side=alignment.side,
+        pose=alignment.pose,
+        eigenframe=alignment.eigenframe,
+        canonical_transform=alignment.canonical_transform,
+        paper_transform=None,
+        length_mm=alignment.length_mm,
+        flare=shape.flare,
+        measures=shape.measures,
+        warnings=notices,
+    )
+
+
+@dataclass(slots=True)
+class _Index:
+    """What the catalogue holds, kept true while a batch goes on (also in a dry run)."""
+
+    by_name: dict[str, LastRecord]
+    by_content: dict[str, str]
+
+    @classmethod
+    def of(cls, records: Iterable[LastRecord]) -> _Index:
+        index = cls({}, {})
+        for record in records:
+            index.put(record)
+        return index
+
+    def put(self, record: LastRecord) -> None:
+        old = self.by_name.get(record.labels.name)
+        if old is not None:
+            self.by_content.pop(old.info.sha256, None)
+        self.by_name[record.labels.name] = record
+        self.by_content[record.info.sha256] = record.labels.name
+
+
+def ingest(
+    batch: Sequence[Entry],
+    path: Path,
+    *,
+    jobs: int = 1,
+    replace: bool = False,
+    dry_run: bool = False,
+) -> Iterator[IngestOutcome]:
+    """Ingest a batch into the catalogue at ``path``, which is made where there is none.
+
+    Raises
+    ------
+    CatalogueUnusable
+        The catalogue cannot be opened or written.
+    """
+    if dry_run:
+        try:
+            with open_catalogue(path) as catalogue:
+                stored = list(catalogue.records())
+        except NoCatalogue:
+            stored = []
+        yield from ingested(batch, None, stored, jobs=jobs, replace=replace)
+        return
+    with open_catalogue(path, write=True) as catalogue:
+        yield from ingested(batch, catalogue, list(catalogue.records()), jobs=jobs, replace=replace)
+
+
+def ingested(
+    batch: Sequence[Entry],
+    shelf: Shelf | None,
+    stored: Sequence[LastRecord],
+    *,
+    jobs: int = 1,
+    replace: bool = False,
+) -> Iterator[IngestOutcome]:
+    """Ingest a batch; yield each file's outcome after its commit.
+
+    ``shelf`` None is a dry run; ``stored`` are the records that are there already.
+    """
+    index = _Index.of(stored)
+    work = partial(prepared, known=frozenset() if replace else frozenset(index.by_content))
+    for outcome in outcomes(work, batch, jobs):
+        yield _stored(outcome, index, shelf, replace)
+
+
+def _stored(
+    outcome: Outcome[Entry, Prepared], index: _Index, shelf: Shelf | None, replace: bool
+) -> IngestOutcome:
+    entry, path = outcome.item, outcome.item.path or ""
+    if outcome.value is None:
+        assert outcome.error is not None
+        return _refused(path, outcome.error)
+    try:
+        status = decision(outcome.value.sha256, entry, index.by_name, index.by_content, replace)
+        if status == "unchanged":
+            return _accepted(path, status, index.by_name[entry.labels.name], first=False)
+        record, copy = outcome.value.record, outcome.value.copy
+        if record is None or copy is None:  # known content under a name freed in this batch
+            again = prepared(entry)
+            record, copy = again.record, again.copy
+        assert record is not None
+        assert copy is not None
+        first = not index.by_name
+        if shelf is not None:
+            (shelf.add if status == "added" else shelf.replace)(record, copy)
+        index.put(record)
+    except FootfitError as error:
+        if error.exit == ExitCode.CATALOGUE_UNUSABLE:
+            raise
+        return _refused(path, error.at(path))
+    return _accepted(path, status, record, first=first)
+
+
+def decision(
+    sha256: str,
+    entry: Entry,
+    by_name: Mapping[str, LastRecord],
+    by_content: Mapping[str, str],
+    replace: bool,
+) -> str:
+    """What to do with a prepared last: "added", "unchanged" or "replaced".
+
+    Raises
+    ------
+    NameTaken
+        The name is another last's, or the content is stored under another name.
+    """
+    labels = entry.labels
+    holder = by_content.get(sha256)
+    if holder is not None and holder != labels.name:
+        raise NameTaken(f"the same scan is in the catalogue as {holder!r}; nothing was stored")
+    old = by_name.get(labels.name)
+    if old is None:
+        return "added"
+    if holder == labels.name and old.labels == labels and _reads_alike(old, entry.reading):
+        return "unchanged"
+    if replace:
+        return "replaced"
+    what = "the same scan with other labels" if holder else "another scan"
+    raise NameTaken(f"{labels.name!r} is in the catalogue with {what}; add --replace or --name")
+
+
+def _reads_alike(old: LastRecord, reading: ReadingOptions) -> bool:
+    """Would the options given read the stored scan as it was read?"""
+    side = reading.side in ("auto", old.side.side)
+    return side and reading.units in ("auto", old.info.units)
+
+
+def _accepted(path: str, status: str, record: LastRecord, *, first: bool) -> IngestOutcome:
+    return IngestOutcome(
+        path=path,
+        status=status,
+        last=record.labels.name,
+        side=record.side.side,
+        flare_angle_deg=record.flare.angle_deg,
+        error=None,
+        exit=0,
+        code=None,
+        warnings=record.warnings if status != "unchanged" else (),
+        reference=first,
+    )
+
+
+def _refused(path: str, error: FootfitError) -> IngestOutcome:
+    return IngestOutcome(
+        path=path,
+        status="refused",
+        last=None,
+        side=None,
+        flare_angle_deg=None,
+        error=error.message,
+        exit=int(error.exit),
+        code=error.code,
+    )

@@ -1,0 +1,190 @@
+"""The library of lasts: list, show, rename, remove, export, set the reference."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from footfit.catalogue.store import open_catalogue
+from footfit.errors import BadOption, EmptyCatalogue, NoReference
+from footfit.geometry.wpca import canonical_centroid_mm, om_e
+from footfit.pipeline.match import Library
+from footfit.results import (
+    CatalogueFacts,
+    LastRecord,
+    MeshCopy,
+    Method,
+    Notice,
+    Reference,
+)
+
+FIRST_STEPS = "type: footfit ingest-last FOLDER, or try: footfit demo"
+
+
+def lasts(path: Path) -> tuple[list[LastRecord], str | None]:
+    """Every last by name, and the reference's name.
+
+    Raises
+    ------
+    NoCatalogue, CatalogueUnusable
+        There is no catalogue, or it cannot be read.
+    """
+    with open_catalogue(path) as catalogue:
+        reference = catalogue.reference()
+        return list(catalogue.records()), reference.last if reference else None
+
+
+def last(path: Path, name: str) -> tuple[LastRecord, str | None]:
+    """One last, and the reference's name.
+
+    Raises
+    ------
+    UnknownLast
+        There is no last of that name.
+    """
+    with open_catalogue(path) as catalogue:
+        reference = catalogue.reference()
+        return catalogue.record(name), reference.last if reference else None
+
+
+def set_reference(path: Path, name: str) -> tuple[Reference, int]:
+    """Make a last the paper's "first model": every stored ``paper_transform`` is rewritten, in
+    one transaction and without the mesh files. Returns the reference and the number of lasts.
+
+    Raises
+    ------
+    NoCatalogue, UnknownLast, CatalogueUnusable
+        There is no such last, or the catalogue cannot be written; nothing is changed.
+    """
+    require(path)
+    with open_catalogue(path, write=True) as catalogue:
+        return catalogue.set_reference(name), len(catalogue.names())
+
+
+def rename(path: Path, name: str, new_name: str) -> None:
+    """Give a last another name.
+
+    Raises
+    ------
+    UnknownLast, NameTaken
+        The one is not there, or the other is.
+    """
+    require(path)
+    with open_catalogue(path, write=True) as catalogue:
+        catalogue.rename(name, new_name)
+
+
+def remove(path: Path, name: str) -> None:
+    """Remove a last; the reference is refused.
+
+    Raises
+    ------
+    UnknownLast, BadOption
+        There is no such last, or it is the reference.
+    """
+    require(path)
+    with open_catalogue(path, write=True) as catalogue:
+        catalogue.remove(name)
+
+
+def mesh_copy(path: Path, name: str) -> MeshCopy:
+    """The catalogue's copy of a last's mesh, canonical mm.
+
+    Raises
+    ------
+    UnknownLast
+        There is no last of that name.
+    """
+    with open_catalogue(path) as catalogue:
+        return catalogue.mesh_copy(name)
+
+
+def facts(path: Path) -> CatalogueFacts:
+    """What the catalogue is and holds."""
+    with open_catalogue(path) as catalogue:
+        return catalogue.facts()
+
+
+def require(path: Path) -> None:
+    """Open for reading once, so that a command that only changes lasts creates no catalogue.
+
+    Raises
+    ------
+    NoCatalogue
+        There is none.
+    """
+    with open_catalogue(path):
+        pass
+
+
+def library(path: Path, style: str | None = None, size_system: str | None = None) -> Library:
+    """The lasts to match against; a damaged one is left out and said.
+
+    Raises
+    ------
+    NoCatalogue, EmptyCatalogue
+        There is nothing to match against; the message says what to type.
+    """
+    with open_catalogue(path) as catalogue:
+        total = len(catalogue.names())
+        if not total:
+            raise EmptyCatalogue(f"the catalogue holds no last; {FIRST_STEPS}", str(path))
+        rows = catalogue.rows_for_search(style=style, size_system=size_system)
+        reference = catalogue.reference()
+    return Library(
+        lasts=rows.records,
+        total=total,
+        reference=reference.last if reference else None,
+        rejected=rows.rejected,
+        warnings=(
+            *(
+                _left_out("damaged_last", name, "is damaged; ingest it again")
+                for name in rows.damaged
+            ),
+            *(
+                _left_out("outdated_last", name, "has an older profile; footfit upgrade-catalogue")
+                for name in rows.outdated
+            ),
+        ),
+    )
+
+
+def _left_out(code: str, name: str, words: str) -> Notice:
+    return Notice(code, f"{name} was left out: it {words}")
+
+
+def alignment_reference(path: Path, method: Method, to: str | None) -> Reference | None:
+    """The reference that an alignment needs: of ``to``, of the catalogue, or none.
+
+    Raises
+    ------
+    NoCatalogue, NoReference
+        A paper method needs a reference last and there is none.
+    BadOption
+        ``to`` for a method that uses no reference.
+    """
+    if method == "footfit":
+        if to is not None:
+            raise BadOption("--to goes with --method paper or paper-literal")
+        return None
+    with open_catalogue(path) as catalogue:
+        if to is not None:
+            return reference_of(catalogue.record(to))
+        reference = catalogue.reference()
+    if reference is None:
+        raise NoReference(f"the paper's methods need a reference last; {FIRST_STEPS}", str(path))
+    return reference
+
+
+def reference_of(record: LastRecord) -> Reference:
+    """What a last would be as the reference: its OM_E (Eq. 6) and centroid, as a right shape."""
+    frame, mirrored = record.eigenframe, record.side.side == "left"
+    return Reference(
+        record.labels.name,
+        om_e(frame.eigenvectors, record.canonical_transform, mirrored=mirrored),
+        canonical_centroid_mm(
+            frame.centroid_mm,
+            record.canonical_transform,
+            record.info.unit_scale,
+            mirrored=mirrored,
+        ),
+    )

@@ -1,0 +1,64 @@
+"""From a source to a scan, an aligned scan, a profiled scan."""
+
+from __future__ import annotations
+
+import hashlib
+from typing import Literal, cast
+
+from footfit.meshes.limits import LIMITS
+from footfit.meshes.read import scan_from_bytes
+from footfit.meshes.source import file_bytes
+from footfit.pipeline.align import aligned
+from footfit.pipeline.curvature import surface_curvature
+from footfit.pipeline.flare import profiled
+from footfit.pipeline.sources import ReadingOptions, Source
+from footfit.results import AlignedScan, Method, Profiled, Reference, Scan, SurfaceCurvature
+
+
+def source_bytes(source: Source) -> bytes:
+    """The bytes of a source, behind the guards of ``meshes.read``."""
+    return source.data if source.data is not None else file_bytes(source.path or "", LIMITS)
+
+
+def content_hash(source: Source) -> str:
+    """SHA-256 of the source's bytes: what a last is known by."""
+    return hashlib.sha256(source_bytes(source)).hexdigest()
+
+
+def read(source: Source, reading: ReadingOptions) -> Scan:
+    """Read one mesh, whichever way it came."""
+    return scan_from_bytes(
+        source_bytes(source),
+        path=source.path,
+        format=source.format,
+        units=reading.units,
+        known_length_mm=reading.known_length_mm,
+    )
+
+
+def aligned_source(
+    source: Source,
+    reading: ReadingOptions,
+    method: Method = "footfit",
+    reference: Reference | None = None,
+) -> AlignedScan:
+    """Read and align one mesh."""
+    return aligned(
+        read(source, reading),
+        method=method,
+        side=cast(Literal["auto", "left", "right"], reading.side),
+        reference=reference,
+        known_length_mm=reading.known_length_mm,
+    )
+
+
+def profiled_source(source: Source, reading: ReadingOptions) -> Profiled:
+    """Read, align, measure and profile one mesh."""
+    return profiled(aligned_source(source, reading))
+
+
+def curvature_source(
+    source: Source, reading: ReadingOptions, radius_mm: float | None
+) -> SurfaceCurvature:
+    """Read one mesh and estimate its curvature at a scale; None is the default scale."""
+    return surface_curvature(read(source, reading), radius_mm)

@@ -1,0 +1,56 @@
+"""Output files: whole or not at all, never over an existing one unasked."""
+
+from __future__ import annotations
+
+import os
+from pathlib import Path
+
+import pytest
+
+from footfit.cli.outputs import refuse_existing, write_output
+from footfit.errors import BadOption, OutputExists
+
+
+def test_a_file_is_written_whole_with_the_usual_permissions(tmp_path: Path) -> None:
+    path = tmp_path / "report.html"
+    write_output(path, "größe", force=False)
+    assert path.read_text(encoding="utf-8") == "größe"
+    mask = os.umask(0)
+    os.umask(mask)
+    assert path.stat().st_mode & 0o777 == 0o666 & ~mask
+    assert list(tmp_path.iterdir()) == [path]
+
+
+def test_an_existing_file_needs_force(tmp_path: Path) -> None:
+    path = tmp_path / "x.csv"
+    path.write_text("mine")
+    with pytest.raises(OutputExists, match="--force"):
+        write_output(path, "yours", force=False)
+    assert path.read_text() == "mine"
+    write_output(path, "yours", force=True)
+    assert path.read_text() == "yours"
+    assert list(tmp_path.iterdir()) == [path]
+
+
+def test_what_cannot_be_written_is_refused_before_any_work(tmp_path: Path) -> None:
+    with pytest.raises(BadOption, match="does not exist"):
+        refuse_existing(tmp_path / "none" / "x.csv", force=True)
+    with pytest.raises(BadOption, match="is a folder"):
+        refuse_existing(tmp_path, force=True)
+    refuse_existing(None, Path("-"), force=False)
+
+
+def test_a_failed_write_leaves_the_old_file_and_no_remains(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    path = tmp_path / "x.csv"
+    path.write_text("mine")
+
+    def full(_descriptor: int) -> None:
+        raise OSError(28, "No space left on device")
+
+    monkeypatch.setattr(os, "fsync", full)
+    with pytest.raises(BadOption, match="No space left"):
+        write_output(path, "yours", force=True)
+    assert path.read_text() == "mine"
+    assert list(tmp_path.iterdir()) == [path]

@@ -1,0 +1,81 @@
+"""Ingest without meshes: which labels a file gets, and what becomes of names and contents."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from pathlib import Path
+
+import pytest
+
+from footfit.errors import BadManifest, BadOption, NameTaken
+from footfit.pipeline.ingest import Entry, decision, entries
+from footfit.pipeline.manifest import manifest_rows
+from footfit.pipeline.sources import ReadingOptions, Source
+from footfit.results import LastLabels
+from tests.records import last
+
+NOTHING = LastLabels("")
+PLAIN = ReadingOptions()
+
+
+def entry(name: str = "oxford-42", **labels: object) -> Entry:
+    record = last(name)
+    given = replace(record.labels, **labels)  # type: ignore[arg-type]
+    return Entry(Source(f"{name}.stl"), given, PLAIN)
+
+
+STORED = last("oxford-42", seed=1)
+BY_NAME = {"oxford-42": STORED}
+BY_CONTENT = {STORED.info.sha256: "oxford-42"}
+
+
+def decided(sha256: str, name: str, replace_it: bool = False, **labels: object) -> str:
+    one = Entry(Source("x.stl"), replace(STORED.labels, name=name, **labels), PLAIN)  # type: ignore[arg-type]
+    return decision(sha256, one, BY_NAME, BY_CONTENT, replace_it)
+
+
+def test_decisions() -> None:
+    same, other = STORED.info.sha256, "0" * 64
+    assert decided(other, "new") == "added"
+    assert decided(same, "oxford-42") == "unchanged"
+    assert decided(same, "oxford-42", True) == "unchanged"
+    assert decided(other, "oxford-42", True) == "replaced"
+    assert decided(same, "oxford-42", True, style="boot") == "replaced"
+    for wrong in ((other, "oxford-42", {}), (same, "oxford-42", {"style": "boot"})):
+        with pytest.raises(NameTaken, match="--replace"):
+            decided(wrong[0], wrong[1], **wrong[2])
+    for replace_it in (False, True):
+        with pytest.raises(NameTaken, match="oxford-42"):
+            decided(same, "new", replace_it)
+
+
+def test_a_side_or_unit_that_contradicts_the_stored_one_is_another_reading() -> None:
+    one = Entry(Source("x.stl"), STORED.labels, ReadingOptions(side="left"))
+    with pytest.raises(NameTaken):
+        decision(STORED.info.sha256, one, BY_NAME, BY_CONTENT, False)
+
+
+def test_labels_come_from_the_manifest_then_the_command_line_then_the_stem() -> None:
+    rows = manifest_rows("path,name,style,side\na.stl,one,,left\n", Path(), "m.csv")
+    given = LastLabels("", style="derby", size="42")
+    first, second = entries([Source("b.stl"), Source("a.stl")], rows, given, PLAIN)
+    assert (first.labels.name, first.labels.style, first.reading.side) == ("one", "derby", "left")
+    assert (second.labels.name, second.labels.size, second.reading.side) == ("b", "42", "auto")
+
+
+def test_a_manifest_alone_names_its_files_in_sorted_order() -> None:
+    rows = manifest_rows("path\nb.stl\na.stl\n", Path("shop"), "m.csv")
+    batch = entries([], rows, NOTHING, PLAIN)
+    assert [one.source.path for one in batch] == [str(Path("shop") / n) for n in ("a.stl", "b.stl")]
+
+
+def test_what_cannot_be_meant_is_refused() -> None:
+    two = [Source("a.stl"), Source("b.stl")]
+    with pytest.raises(BadOption, match="--name"):
+        entries(two, [], LastLabels("one"), PLAIN)
+    with pytest.raises(BadManifest, match="not among"):
+        entries(two, manifest_rows("path\nc.stl\n", Path(), "m.csv"), NOTHING, PLAIN)
+    with pytest.raises(BadOption, match="--name"):
+        entries([Source(None, b"x", "stl")], [], NOTHING, PLAIN)
+    with pytest.raises(BadOption, match="nothing to ingest"):
+        entries([], [], NOTHING, PLAIN)
