@@ -120,6 +120,15 @@ def test_a_floor_plate_beside_the_foot_is_taken_off_in_any_pose(seed):
     assert len(mesh.faces) == len(FOOT[1])
 
 
+def test_a_flat_noisy_sole_does_not_hide_the_floor():
+    vertices, faces = FOOT
+    flat = np.maximum(vertices, [-np.inf, -np.inf, -20.0]) + np.array([0.0, 0.0, 20.0])
+    noisy = distortions.white_noise(flat, rng(), 0.5)
+    mesh = cleaned(*posed(*distortions.joined((noisy, faces), _floor(z=0.0))))
+    assert "plate_removed" in codes(mesh)
+    assert len(mesh.faces) == len(faces)
+
+
 def _floor(z, size=(400.0, 300.0), cells=20):
     vertices, faces = shapes.flat_sheet(*size, cells)
     return vertices - vertices.mean(axis=0) + np.array([0.0, 0.0, z]), faces

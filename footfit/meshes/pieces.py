@@ -31,8 +31,9 @@ class PieceSettings:
     plate_cover : float
         A plate reaches this far along both its directions, relative to the foot on it (the lid of
         a leg does not).
-    plate_side : float
-        The share of the foot's vertices that lie on one side of the plate.
+    plate_side, plate_sinking : float
+        The share of the foot's vertices that lie on one side of the plate, those not counted that
+        have sunk in by less than ``plate_sinking`` of the plate's extent: a sole is noisy.
     """
 
     kept_share: float = 0.10
@@ -43,6 +44,7 @@ class PieceSettings:
     foot_thickness: float = 0.12
     plate_cover: float = 0.80
     plate_side: float = 0.95
+    plate_sinking: float = 0.01
 
 
 PIECE_SETTINGS = PieceSettings()
@@ -144,5 +146,6 @@ def _carries(plate: Floats, axes: Floats, foot: Floats, settings: PieceSettings)
     centre = plate.mean(axis=0)
     on_plate, above = (plate - centre) @ axes.T, (foot - centre) @ axes.T
     covered = np.ptp(on_plate[:, :2], axis=0) >= settings.plate_cover * np.ptp(above[:, :2], axis=0)
-    side = np.count_nonzero(above[:, 2] > 0.0) / len(above)
-    return bool(covered.all() and max(side, 1.0 - side) >= settings.plate_side)
+    sunk = settings.plate_sinking * np.ptp(on_plate[:, 0])
+    side = max(np.mean(above[:, 2] > -sunk), np.mean(above[:, 2] < sunk))
+    return bool(covered.all() and side >= settings.plate_side)
