@@ -50,6 +50,17 @@ def test_reading_makes_nothing(tmp_path: Path, name: str) -> None:
     assert (tmp_path / "empty").stat().st_size == 0
 
 
+@pytest.mark.parametrize("name", ["none", "no/folder/none", "empty"])
+def test_an_edit_of_nothing_makes_nothing(tmp_path: Path, name: str) -> None:
+    (tmp_path / "empty").touch()
+    with (
+        pytest.raises(NoCatalogue, match="ingest-last"),
+        open_catalogue(tmp_path / name, write=True, create=False),
+    ):
+        pass
+    assert [file.name for file in tmp_path.iterdir()] == ["empty"]
+
+
 def test_writing_makes_the_file_and_its_folder(tmp_path: Path) -> None:
     place = tmp_path / "a %41 folder?" / "lästs#1.footfit"
     with open_catalogue(place, write=True) as catalogue:

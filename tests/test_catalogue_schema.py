@@ -11,7 +11,7 @@ import pytest
 from footfit.catalogue import schema as models
 from footfit.catalogue.engine import connected, engine_on
 from footfit.catalogue.marks import MARKS
-from footfit.catalogue.migrate import Schema, copy_path, create, migrations_folder
+from footfit.catalogue.migrate import Revisions, Schema, copy_path, create, migrations_folder
 from footfit.catalogue.store import open_catalogue
 from footfit.errors import CatalogueDamaged, CatalogueUnusable, NewerCatalogue
 from tests import records
@@ -130,6 +130,7 @@ def test_an_older_schema_is_upgraded_with_a_copy_beside(path: Path, tmp_path: Pa
         pass
     assert path.read_bytes() == before
     with open_catalogue(path, write=True, schema=newer) as catalogue:
+        assert catalogue.revisions == Revisions("0001", "0002", str(copy_path(path, "0001")))
         assert catalogue.facts().schema_revision == "0002"
         assert catalogue.findings() == [], "a column more leaves every hash as it was"
         assert [str(record) for record in catalogue.records()] == old

@@ -42,6 +42,15 @@ class Schema:
         return self.revisions[-1]
 
 
+@dataclass(frozen=True, slots=True)
+class Revisions:
+    """What an opening did to the schema: the same revision twice and no backup if nothing."""
+
+    before: str
+    after: str
+    backup: str | None = None
+
+
 def stored_revision(connection: sqlite3.Connection, schema: Schema, path: Path) -> str:
     """The revision of an open catalogue, one of ``schema.revisions``.
 
@@ -106,7 +115,7 @@ def create(connection: sqlite3.Connection, schema: Schema) -> None:
         _run_migrations(opened, schema)
 
 
-def upgrade(path: Path, schema: Schema, busy_timeout_s: float) -> None:
+def upgrade(path: Path, schema: Schema, busy_timeout_s: float) -> Revisions:
     """Bring a catalogue to the newest schema, after a whole copy was laid beside it.
 
     The lock is held from before the copy until the commit, so that the copy is what was
@@ -124,14 +133,15 @@ def upgrade(path: Path, schema: Schema, busy_timeout_s: float) -> None:
         connection.execute("PRAGMA foreign_keys = OFF")
         with _migrating(connection) as opened:
             revision = stored_revision(connection, schema, path)
-            if revision == schema.head:
-                return
-            _copy_beside(path, revision, busy_timeout_s)
+            if revision == schema.head:  # another process upgraded it meanwhile
+                return Revisions(revision, revision)
+            backup = _copy_beside(path, revision, busy_timeout_s)
             _run_migrations(opened, schema)
             if connection.execute("PRAGMA foreign_key_check").fetchone():
                 raise CatalogueDamaged(
                     "has rows that point to no last; it was not upgraded", str(path)
                 )
+    return Revisions(revision, schema.head, str(backup))
 
 
 def copy_path(path: Path, revision: str) -> Path:
@@ -156,7 +166,7 @@ def _run_migrations(opened: Connection, schema: Schema) -> None:
     opened.exec_driver_sql(f"PRAGMA user_version = {int(schema.head)}")
 
 
-def _copy_beside(path: Path, revision: str, busy_timeout_s: float) -> None:
+def _copy_beside(path: Path, revision: str, busy_timeout_s: float) -> Path:
     """A whole, defragmented copy under its final name only once it is complete."""
     final = copy_path(path, revision)
     partial = final.with_name(final.name + ".partial")
@@ -169,6 +179,7 @@ def _copy_beside(path: Path, revision: str, busy_timeout_s: float) -> None:
         raise CatalogueNotWritable(
             f"could not be copied before its upgrade ({error.strerror})", str(path)
         ) from error
+    return final
 
 
 def _application_id(connection: sqlite3.Connection) -> int:

@@ -7,13 +7,22 @@ from pathlib import Path
 
 from footfit.catalogue.engine import CatalogueFile, connected, connected_for_reading, worded
 from footfit.catalogue.marks import kind_of_file
-from footfit.catalogue.migrate import Schema, create, require_current, stored_revision, upgrade
+from footfit.catalogue.migrate import (
+    Revisions,
+    Schema,
+    create,
+    require_current,
+    stored_revision,
+    upgrade,
+)
 from footfit.errors import CatalogueNotWritable, NoCatalogue
 
 NOTHING_THERE = "there is no catalogue; type: footfit ingest-last FOLDER, or try: footfit demo"
 
 
-def opened_for_reading(path: Path, schema: Schema, busy_timeout_s: float) -> CatalogueFile:
+def opened_for_reading(
+    path: Path, schema: Schema, busy_timeout_s: float
+) -> tuple[CatalogueFile, Revisions]:
     """An existing catalogue, read-only; nothing is created, also not beside it.
 
     Raises
@@ -34,14 +43,18 @@ def opened_for_reading(path: Path, schema: Schema, busy_timeout_s: float) -> Cat
         except BaseException:
             connection.close()
             raise
-    return CatalogueFile(path, connection, writable=False)
+    return CatalogueFile(path, connection, writable=False), Revisions(schema.head, schema.head)
 
 
-def opened_for_writing(path: Path, schema: Schema, busy_timeout_s: float) -> CatalogueFile:
+def opened_for_writing(
+    path: Path, schema: Schema, busy_timeout_s: float, *, may_create: bool = True
+) -> tuple[CatalogueFile, Revisions]:
     """A catalogue to write: made where there is none, upgraded where its schema is older.
 
     Raises
     ------
+    NoCatalogue
+        There is none, and it may not be made.
     CatalogueNotWritable, CatalogueLocked
         The file, its folder or another program does not let us.
     NotACatalogue, NewerCatalogue, CatalogueDamaged
@@ -49,25 +62,17 @@ def opened_for_writing(path: Path, schema: Schema, busy_timeout_s: float) -> Cat
     """
     with worded(path):
         if kind_of_file(path) == "catalogue":
-            connection = _writable(path, schema, busy_timeout_s)
+            revisions = _brought_up_to_date(path, schema, busy_timeout_s)
+            connection = connected(path, "rw", busy_timeout_s)
+        elif may_create:
+            revisions = Revisions(schema.head, schema.head)
+            connection = _made(path, schema, busy_timeout_s)
         else:
-            _make_folder(path)
-            connection = connected(path, "rwc", busy_timeout_s)
-            try:
-                create(connection, schema)
-                require_current(connection, schema, path)
-            except BaseException:
-                connection.close()
-                raise
-    return CatalogueFile(path, connection, writable=True)
+            raise NoCatalogue(NOTHING_THERE, str(path))
+    return CatalogueFile(path, connection, writable=True), revisions
 
 
-def _writable(path: Path, schema: Schema, busy_timeout_s: float) -> sqlite3.Connection:
-    _require_writable(path, schema, busy_timeout_s)
-    return connected(path, "rw", busy_timeout_s)
-
-
-def _require_writable(path: Path, schema: Schema, busy_timeout_s: float) -> None:
+def _brought_up_to_date(path: Path, schema: Schema, busy_timeout_s: float) -> Revisions:
     """Upgrade where needed, and find a read-only file or folder before the work, not after it.
 
     SQLite opens a file it may not write without a word. Setting a mark to what it is, and
@@ -75,15 +80,27 @@ def _require_writable(path: Path, schema: Schema, busy_timeout_s: float) -> None
     """
     connection = connected(path, "rw", busy_timeout_s)
     try:
-        older = stored_revision(connection, schema, path) != schema.head
-        if not older:
+        revision = stored_revision(connection, schema, path)
+        if revision == schema.head:
             connection.execute("BEGIN IMMEDIATE")
             connection.execute(f"PRAGMA user_version = {int(schema.head)}")
             connection.execute("ROLLBACK")
+            return Revisions(revision, revision)
     finally:
         connection.close()
-    if older:
-        upgrade(path, schema, busy_timeout_s)
+    return upgrade(path, schema, busy_timeout_s)
+
+
+def _made(path: Path, schema: Schema, busy_timeout_s: float) -> sqlite3.Connection:
+    _make_folder(path)
+    connection = connected(path, "rwc", busy_timeout_s)
+    try:
+        create(connection, schema)
+        require_current(connection, schema, path)
+    except BaseException:
+        connection.close()
+        raise
+    return connection
 
 
 def _make_folder(path: Path) -> None:

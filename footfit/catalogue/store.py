@@ -9,7 +9,7 @@ from pathlib import Path
 from footfit.catalogue.damage import Finding, findings
 from footfit.catalogue.engine import SETTINGS, CatalogueFile
 from footfit.catalogue.facts import facts
-from footfit.catalogue.migrate import Schema
+from footfit.catalogue.migrate import Revisions, Schema
 from footfit.catalogue.opening import opened_for_reading, opened_for_writing
 from footfit.catalogue.reading import (
     hashed_row,
@@ -32,26 +32,30 @@ def open_catalogue(
     path: str | Path,
     *,
     write: bool = False,
+    create: bool = True,
     busy_timeout_s: float = SETTINGS.busy_timeout_s,
     schema: Schema | None = None,
 ) -> Iterator[Catalogue]:
     """A catalogue for the length of a ``with`` block.
 
     For reading nothing is ever made or changed. For writing a missing catalogue is made, with
-    its folder, and an older one is upgraded after a copy was laid beside it.
+    its folder, unless ``create`` is False; an older one is upgraded after a copy was laid
+    beside it (``Catalogue.revisions``).
 
     Raises
     ------
     NoCatalogue
-        For reading: there is none.
+        There is none, and none is to be made.
     NotACatalogue, NewerCatalogue, CatalogueDamaged, CatalogueLocked, CatalogueNotWritable
         The file is something else, of a later footfit, broken, held or read-only.
     """
     place, schema = Path(path), schema or Schema()
-    opened = opened_for_writing if write else opened_for_reading
-    file = opened(place, schema, busy_timeout_s)
+    if write:
+        file, revisions = opened_for_writing(place, schema, busy_timeout_s, may_create=create)
+    else:
+        file, revisions = opened_for_reading(place, schema, busy_timeout_s)
     try:
-        yield Catalogue(file)
+        yield Catalogue(file, revisions)
     finally:
         file.close()
 
@@ -62,8 +66,9 @@ class Catalogue:
     Every verb may raise ``CatalogueUnusable``'s leaves (locked, not writable, damaged).
     """
 
-    def __init__(self, file: CatalogueFile) -> None:
+    def __init__(self, file: CatalogueFile, revisions: Revisions) -> None:
         self.file = file
+        self.revisions = revisions
 
     # ------------------------------------------------------------ reading
 
