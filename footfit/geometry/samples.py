@@ -13,6 +13,8 @@ from footfit.geometry.surface import area_vectors, unit, vertex_sums
 _R2 = np.array([0.7548776662466927, 0.5698402909980532])
 # A triangle turned farther than this against its surroundings lies at a crease, not in noise.
 CREASE_COSINE = 0.85
+# Of the edge that quadrature allows: larger triangles are hardly tilted by noise.
+CALMED_EDGE = 0.4
 
 
 @dataclass(frozen=True, slots=True)
@@ -69,16 +71,19 @@ def quadrature(vertices: Floats, faces: Ints, edge: float, rounds: int = 5) -> S
     So that an integral over a coarse mesh or over a big flat facet is as good as over a fine one;
     ``rounds`` bounds the splitting.
     """
-    vectors = calmed(area_vectors(vertices, faces), faces, len(vertices))
     corners = vertices[faces]
+    longest = _longest_sides(corners)
+    plain = area_vectors(vertices, faces)
+    small = longest < CALMED_EDGE * edge
+    vectors = np.where(small[:, None], calmed(plain, faces, len(vertices)), plain)
     finished: list[tuple[Floats, Floats]] = []
     for _ in range(rounds):
-        sides = corners - corners[:, [1, 2, 0]]
-        large = (np.einsum("kci,kci->kc", sides, sides) > edge * edge).any(axis=1)
+        large = longest > edge
         if not large.any():
             break
         finished.append((corners[~large].mean(axis=1), vectors[~large]))
         corners, vectors = _quartered(corners[large]), np.tile(vectors[large] / 4, (4, 1))
+        longest = np.tile(longest[large] / 2, 4)
     finished.append((corners.mean(axis=1), vectors))
     vectors = np.concatenate([part for _, part in finished])
     areas = np.sqrt(np.einsum("ij,ij->i", vectors, vectors))
@@ -102,6 +107,11 @@ def calmed(vectors: Floats, faces: Ints, n_vertices: int) -> Floats:
     lengths = np.sqrt(np.einsum("ij,ij->i", vectors, vectors))
     smooth = along > CREASE_COSINE * lengths
     return np.where(smooth[:, None], normals * along[:, None], vectors)
+
+
+def _longest_sides(corners: Floats) -> Floats:
+    sides = corners - corners[:, [1, 2, 0]]
+    return np.asarray(np.sqrt(np.einsum("kci,kci->kc", sides, sides).max(axis=1)))
 
 
 def _quartered(corners: Floats) -> Floats:
