@@ -1,0 +1,341 @@
+"""The whole alignment: units, sides, refusals, warnings, the paper's methods."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from footfit.errors import (
+    FootfitError,
+    GeometryRefused,
+    HalfScan,
+    ImplausibleSize,
+    NoReference,
+    NotAFoot,
+    SeveralFeet,
+    UnknownUnits,
+)
+from footfit.geometry import wpca
+from footfit.geometry.rotations import angle_deg, applied
+from footfit.meshes.read import read_scan
+from footfit.pipeline.align import MM_PER_UNIT, aligned
+from footfit.results import MeshInfo, Reference, Scan
+from tests import distortions, shapes
+from tools.lasts import LastSpec, last_mesh
+
+SCANS = Path(__file__).resolve().parents[2] / "shared" / "scans"
+SEEDS = st.integers(0, 2**32 - 1)
+LENGTH_MM = 268.0
+
+
+@pytest.fixture(scope="module")
+def last():
+    return last_mesh(LastSpec(length_mm=LENGTH_MM, rings=60, segments=40))
+
+
+@pytest.fixture(scope="module")
+def home(last):
+    """The alignment of the last as it was drawn."""
+    return aligned(scan_of(*last)).alignment
+
+
+def scan_of(vertices_mm, faces, *, units="mm", source="detected", scale=None):
+    """A scan as the reader hands it over: the file's unit is ``units``, or provisional."""
+    scale = MM_PER_UNIT[units] if scale is None else scale
+    info = MeshInfo(None, "0" * 64, "stl", len(vertices_mm), len(faces), True, units, source, scale)
+    return Scan(info, vertices_mm, faces, (), np.arange(len(vertices_mm)))
+
+
+def reference_of(alignment):
+    """The reference that a right last makes."""
+    frame, unit = alignment.eigenframe, alignment.info.unit_scale
+    return Reference(
+        "first",
+        wpca.om_e(frame.eigenvectors, alignment.canonical_transform),
+        wpca.canonical_centroid_mm(frame.centroid_mm, alignment.canonical_transform, unit),
+    )
+
+
+def codes(alignment):
+    return [notice.code for notice in alignment.warnings]
+
+
+# ---------------------------------------------------------------- laws
+
+
+@settings(max_examples=12, deadline=None)
+@given(seed=SEEDS, left=st.booleans(), units=st.sampled_from(sorted(MM_PER_UNIT)))
+def test_any_pose_side_and_unit_give_the_same_canonical_last(last, home, seed, left, units):
+    rng = np.random.default_rng(seed)
+    vertices, faces = distortions.mirrored(*last) if left else last
+    vertices, faces = distortions.shuffled(vertices, faces, rng)
+    posed = distortions.moved(vertices, distortions.random_pose(rng))
+    found = aligned(scan_of(posed, faces, units=units))
+    flip = [1.0, -1.0, 1.0] if left else [1.0, 1.0, 1.0]
+    expected = applied(home.canonical_transform, vertices * flip) * flip
+    assert np.abs(found.vertices_mm - expected).max() < 0.3
+    assert found.alignment.side.side == ("left" if left else "right")
+    assert found.alignment.info.units == units
+    assert found.alignment.length_mm == pytest.approx(home.length_mm, abs=0.1)
+    in_file = posed / MM_PER_UNIT[units]
+    by_transform = applied(found.alignment.transform, in_file)
+    assert np.abs(by_transform - found.vertices_mm).max() < 1e-6
+    linear = found.alignment.transform[:3, :3] / found.alignment.info.unit_scale
+    np.testing.assert_allclose(linear @ linear.T, np.eye(3), atol=1e-9)
+    assert np.linalg.det(linear) == pytest.approx(1.0)
+
+
+def test_the_same_scan_gives_the_same_bytes(last):
+    first, second = (aligned(scan_of(*last)) for _ in range(2))
+    assert first.vertices_mm.tobytes() == second.vertices_mm.tobytes()
+    assert first.alignment.transform.tobytes() == second.alignment.transform.tobytes()
+
+
+def test_distortions_hardly_move_the_frame(last, home):
+    vertices, faces = last
+    rng = np.random.default_rng(5)
+    for mesh in (
+        (distortions.white_noise(vertices, rng, 0.3), faces),
+        distortions.decimated(vertices, faces, 2),
+        distortions.half_subdivided(vertices, faces),
+        distortions.inside_out(vertices, faces),
+    ):
+        found = aligned(scan_of(*mesh)).alignment
+        assert angle_deg(found.transform[:3, :3], home.transform[:3, :3]) < 0.5
+        assert np.linalg.norm(found.transform[:3, 3] - home.transform[:3, 3]) < 0.8
+
+
+def test_lengths_are_exact_along_x(last):
+    found = aligned(scan_of(*last))
+    low = found.vertices_mm[found.vertices_mm[:, 2] < 0.3 * LENGTH_MM]
+    assert found.alignment.length_mm == pytest.approx(np.ptp(low[:, 0]))
+
+
+# ---------------------------------------------------------------- units
+
+
+@pytest.mark.parametrize(("taken_for", "truly"), [("cm", "in"), ("m", "mm"), ("mm", "cm")])
+def test_a_provisional_unit_is_corrected_by_the_length(last, taken_for, truly):
+    """The reader saw a long leg, say, and took the file's numbers in another unit."""
+    vertices, faces = last
+    wrong = vertices / MM_PER_UNIT[truly] * MM_PER_UNIT[taken_for]
+    found = aligned(scan_of(wrong, faces, units=taken_for)).alignment
+    assert found.info.units == truly
+    assert found.length_mm == pytest.approx(LENGTH_MM, abs=1.0)
+
+
+def test_no_unit_fits(last):
+    vertices, faces = last
+    with pytest.raises(UnknownUnits, match="--units"):
+        aligned(scan_of(vertices * 0.5, faces))
+
+
+@pytest.mark.parametrize("factor", [0.1, 0.4, 1.5, 25.4, 1000.0])
+def test_a_declared_unit_with_an_implausible_length_is_refused(last, factor):
+    vertices, faces = last
+    with pytest.raises(ImplausibleSize, match="--units"):
+        aligned(scan_of(vertices * factor, faces, source="declared"))
+
+
+def test_a_declared_unit_with_an_unusual_length_is_said(last):
+    vertices, faces = last
+    found = aligned(scan_of(vertices * 0.5, faces, source="declared")).alignment
+    assert "length_unusual" in codes(found)
+
+
+@pytest.mark.parametrize("factor", [0.004, 1.0, 30.0])
+def test_a_known_length_settles_the_scale(last, factor):
+    vertices, faces = last
+    scan = scan_of(vertices * factor, faces, units="scaled", source="known-length", scale=1.0)
+    found = aligned(scan, known_length_mm=251.5)
+    assert found.alignment.length_mm == pytest.approx(251.5)
+    assert found.alignment.info.units == "scaled"
+    by_transform = applied(found.alignment.transform, scan.vertices_mm)
+    assert np.abs(by_transform - found.vertices_mm).max() < 1e-6
+
+
+# ---------------------------------------------------------------- sides
+
+
+def test_a_given_side_wins_and_a_contradiction_is_said(last):
+    agreed = aligned(scan_of(*last), side="right").alignment
+    against = aligned(scan_of(*last), side="left").alignment
+    assert (agreed.side.side, agreed.side.source, agreed.side.confidence) == (
+        "right",
+        "given",
+        "sure",
+    )
+    assert "side_contradicted" not in codes(agreed)
+    assert (against.side.side, against.side.confidence) == ("left", "low")
+    assert "side_contradicted" in codes(against)
+    np.testing.assert_array_equal(agreed.transform, against.transform)
+
+
+def test_a_last_without_a_side_is_undecided():
+    spec = LastSpec(
+        flare_deg=0.0,
+        toe_turn_deg=0.0,
+        waist_cut_mm=0.0,
+        joint_bulge_mm=0.0,
+        arch_mm=0.0,
+        arch_cut_mm=0.0,
+        ridge_mm=0.0,
+        rings=60,
+        segments=40,
+    )
+    found = aligned(scan_of(*last_mesh(spec))).alignment
+    assert abs(found.side.score) < 0.5
+    assert found.side.side is None
+    assert found.side.confidence == "undecided"
+    assert "low_side_confidence" in codes(found)
+
+
+# ---------------------------------------------------------------- refusals and warnings
+
+
+@pytest.mark.parametrize(
+    "make", [shapes.cylinder, shapes.sphere, shapes.hand, shapes.shin, shapes.flat_sheet]
+)
+def test_what_is_no_foot_is_refused(make):
+    with pytest.raises(GeometryRefused):
+        aligned(scan_of(*make()))
+    with pytest.raises(GeometryRefused):
+        aligned(scan_of(*make(), source="declared"))
+
+
+def test_a_cube_is_no_foot():
+    with pytest.raises(NotAFoot, match="one whole foot or last"):
+        aligned(scan_of(*shapes.cube(250.0, 8)))
+
+
+@pytest.mark.parametrize("gap_mm", [5.0, 40.0])
+def test_two_lasts_in_one_file_are_refused(last, gap_mm):
+    with pytest.raises(SeveralFeet):
+        aligned(scan_of(*shapes.two_feet(*last, gap_mm=gap_mm)))
+
+
+def test_a_forefoot_alone_is_half_a_scan(last):
+    ahead = np.array([-1.0, 0.0, 0.0])
+    with pytest.raises(HalfScan):
+        aligned(scan_of(*distortions.plane_cut(*last, np.array([70.0, 0, 0]), ahead)))
+
+
+def test_a_sole_alone_is_half_a_scan(last):
+    up = np.array([0.0, 0.0, 1.0])
+    with pytest.raises(GeometryRefused):
+        aligned(scan_of(*distortions.plane_cut(*last, np.array([0.0, 0, 14.0]), up)))
+
+
+def test_things_beside_the_last_are_left_out(last, home):
+    cube = shapes.cube(60.0, 4)
+    both = distortions.joined(last, (cube[0] + [100.0, 160.0, 30.0], cube[1]))
+    found = aligned(scan_of(*both))
+    assert "pieces_removed" in codes(found.alignment)
+    assert len(found.faces) == len(last[1])
+    assert angle_deg(found.alignment.transform[:3, :3], home.transform[:3, :3]) < 1e-6
+
+
+def test_a_plate_is_taken_off(last, home):
+    pose = distortions.random_pose(np.random.default_rng(0))
+    vertices, faces = distortions.floor_plate(*last)
+    found = aligned(scan_of(distortions.moved(vertices, pose), faces)).alignment
+    assert "plate_removed" in codes(found)
+    turn = found.transform[:3, :3] @ pose[:3, :3]
+    assert angle_deg(turn, home.transform[:3, :3]) < 0.3
+
+
+def test_a_last_without_a_sole_is_said(last):
+    down = np.array([0.0, 0.0, -1.0])
+    cut = distortions.plane_cut(*last, np.array([0.0, 0.0, 12.0]), down)
+    found = aligned(scan_of(*cut)).alignment
+    assert not found.pose.sole
+    assert "no_sole" in codes(found)
+
+
+# ---------------------------------------------------------------- the paper's methods
+
+
+def test_the_paper_methods_need_a_reference(last):
+    with pytest.raises(NoReference, match="set-reference"):
+        aligned(scan_of(*last), method="paper")
+
+
+@pytest.mark.parametrize("left", [False, True])
+def test_the_paper_method_puts_a_last_on_itself(last, left):
+    """With its own OM_E the consistent reading gives the canonical frame back."""
+    home = aligned(scan_of(*last), method="paper", reference=NOWHERE).alignment
+    vertices, faces = distortions.mirrored(*last) if left else last
+    pose = distortions.random_pose(np.random.default_rng(9))
+    posed = distortions.moved(vertices, pose)
+    found = aligned(scan_of(posed, faces), method="paper", reference=reference_of(home)).alignment
+    assert np.linalg.det(found.transform[:3, :3]) > 0
+    off = applied(found.transform, posed) - applied(found.canonical_transform, posed)
+    assert np.abs(off).max() < 0.3
+
+
+NOWHERE = Reference("nowhere", np.eye(3), np.zeros(3))
+
+
+def test_the_literal_method_is_om_e_v_prime(last):
+    OM_E = distortions.random_rotation(np.random.default_rng(3))
+    reference = replace(NOWHERE, om_e=OM_E)
+    pose = distortions.random_pose(np.random.default_rng(4))
+    posed = distortions.moved(last[0], pose)
+    found = aligned(scan_of(posed, last[1]), method="paper-literal", reference=reference)
+    expected = (posed - posed.mean(axis=0)) @ OM_E.T
+    assert np.abs(applied(found.alignment.transform, posed) - expected).max() < 1e-9
+
+
+def test_the_eigenframe_is_a_rotation_near_the_canonical_axes(home):
+    frame = home.eigenframe
+    np.testing.assert_allclose(frame.eigenvectors @ frame.eigenvectors.T, np.eye(3), atol=1e-12)
+    assert np.linalg.det(frame.eigenvectors) == pytest.approx(1.0)
+    assert frame.eigenvalues_mm2.tolist() == sorted(frame.eigenvalues_mm2.tolist(), reverse=True)
+    rotation = home.canonical_transform[:3, :3]
+    assert np.diag(frame.eigenvectors @ rotation.T).min() > np.cos(np.radians(45))
+
+
+# ---------------------------------------------------------------- real scans
+
+
+@pytest.mark.parametrize(
+    ("name", "toes", "up"),
+    [
+        ("FIND_template", (1, 0, 0), (0, 0, 1)),
+        ("MHR_template_L", (1, 0, 0), (0, 0, 1)),
+        ("MHR_template_R", (1, 0, 0), (0, 0, 1)),
+        ("dupontgu_L", (0, -1, 0), (0, 0, 1)),
+        ("dupontgu_R", (-0.28, -0.96, 0), (0, 0, 1)),
+        ("makehuman/mh003_L", (1, 0, 0), (0, 0, 1)),
+        ("makehuman/mh007_R", (1, 0, 0), (0, 0, 1)),
+    ],
+)
+def test_real_scans_stand_upright_in_any_pose(name, toes, up):
+    path = SCANS / f"{name}.stl"
+    if not path.exists():
+        pytest.skip("../shared/scans is not here")
+    scan = read_scan(path)
+    pose = distortions.random_pose(np.random.default_rng(len(name)))
+    posed = replace(scan, vertices_mm=distortions.moved(scan.vertices_mm, pose))
+    found = aligned(posed).alignment
+    turn = found.transform[:3, :3] / found.info.unit_scale @ pose[:3, :3]
+    assert turn[0] @ np.array(toes) > np.cos(np.radians(12))
+    assert turn[2] @ np.array(up) > np.cos(np.radians(14))
+    if name[-2:] in ("_L", "_R"):
+        assert found.side.side == ("left" if name.endswith("L") else "right")
+        assert found.side.confidence == "sure"
+
+
+def test_a_plantar_sheet_is_refused_in_one_line():
+    path = SCANS / "insoleTilter_scan.stl"
+    if not path.exists():
+        pytest.skip("../shared/scans is not here")
+    with pytest.raises(FootfitError) as refused:
+        aligned(read_scan(path))
+    assert isinstance(refused.value, HalfScan)
+    assert "\n" not in refused.value.message
