@@ -22,6 +22,7 @@ from footfit.geometry.smoothing import cubic_splines
 
 _GRID = np.linspace(-0.1, 1.1, 1201)  # where lines are tabulated between passes
 _NEIGHBOURHOOD = 0.10  # a normal section reaches less than this forward and backward along x
+_FULL_STEPS = 4  # then half steps: a foot's toes can make whole ones swing for ever
 _WIDTH_STIFFNESS = 1e-7  # of the widths' curve, of which only the slope is used
 _PROJECTIONS = 2  # Newton steps onto the line: a third moves nothing by more than 1e-6
 _TURN_LEAST = 0.2  # keeps a point beyond the line's centre of curvature on its own side
@@ -155,8 +156,8 @@ def centre_line(shape: BottomShape, definition: FlareDefinition) -> CentreLine:
     """
     axis = _settled_axis(shape, definition)
     count = len(axis.offset)
-    stiff = _stiffness(definition.splines, 2, definition.axis_stiffness * count)
-    lighter = _stiffness(definition.splines, 3, definition.line_stiffness * count)
+    stiff = _stiffness(2, definition.axis_stiffness, definition)
+    lighter = _stiffness(3, definition.line_stiffness, definition)
     first, last = _solution(axis.design, stiff), _solution(axis.design, lighter)
     step = _step(axis, stiff)
     step = step + last @ (axis.offset - axis.design @ step)
@@ -187,18 +188,22 @@ def _settled_axis(shape: BottomShape, definition: FlareDefinition) -> _Axis:
     x = _section_places(definition)
     basis = cubic_splines(x, definition.splines)
     table = cubic_splines(_GRID, definition.splines)
-    stiff = _stiffness(definition.splines, 2, definition.axis_stiffness * len(x))
+    stiff = _stiffness(2, definition.axis_stiffness, definition)
+    smooth_width = _stiffness(2, _WIDTH_STIFFNESS, definition)
     coefficients = np.zeros(definition.splines)
-    for _ in range(definition.passes):
+    beyond = np.maximum(x - definition.trusted_to, 0.0) / definition.trust_bandwidth
+    trust = np.exp(-0.5 * beyond**2)
+    for turn in range(definition.passes):
         graph = tuple(t @ coefficients for t in table)
         bands = _normal_bands(shape, graph, x, definition)
         seen = _seen(bands, definition)
-        design = _design(bands, seen, basis, coefficients)
-        axis = _Axis(coefficients, bands, seen, np.where(seen, bands.offset, 0.0), design)
+        design = trust[:, None] * _design(bands, seen, basis, coefficients, smooth_width)
+        offset = trust * np.where(seen, bands.offset, 0.0)
+        axis = _Axis(coefficients, bands, seen, offset, design)
         step = _step(axis, stiff)
         if np.abs(basis[0] @ step).max() < definition.settled:
             break
-        coefficients = coefficients + step
+        coefficients = coefficients + (step if turn < _FULL_STEPS else 0.5 * step)
     return axis
 
 
@@ -233,10 +238,18 @@ def _highest_near(floor: Floats, x: Floats) -> Floats:
     return np.where(np.isfinite(highest), highest, 1.0)
 
 
-def _stiffness(count: int, order: int, strength: float) -> Floats:
-    """Rows that penalise the mean square of a spline's derivative of this order."""
-    rows = np.diff(np.eye(count), order, axis=0) * float(count - 3) ** order
-    return np.asarray(rows * np.sqrt(strength / len(rows)), dtype=np.float64)
+def _stiffness(order: int, strength: float, definition: FlareDefinition) -> Floats:
+    """Rows that penalise the mean square of a spline's derivative of this order.
+
+    Beyond ``toe_from`` they weigh ``toe_stiffness`` times as much: a section that steps from one
+    toe to the next would turn the line, and a turned line steps over more toes.
+    """
+    pieces = definition.splines - 3
+    rows = np.diff(np.eye(definition.splines), order, axis=0) * float(pieces) ** order
+    place = (np.arange(len(rows)) + 0.5 * order - 1.0) / pieces
+    weight = np.where(place > definition.toe_from, definition.toe_stiffness, 1.0)
+    weight = weight * strength * definition.sections / len(rows)
+    return np.asarray(rows * np.sqrt(weight)[:, None], dtype=np.float64)
 
 
 def _normal_bands(
@@ -276,7 +289,11 @@ def projected(points: Floats, graph: tuple[Floats, ...]) -> Floats:
 
 
 def _design(
-    bands: Bands, seen: Bools, basis: tuple[Floats, Floats, Floats], coefficients: Floats
+    bands: Bands,
+    seen: Bools,
+    basis: tuple[Floats, Floats, Floats],
+    coefficients: Floats,
+    stiff: Floats,
 ) -> Floats:
     """How the mid-points follow the line's coefficients, (k, splines); zero rows where unseen.
 
@@ -284,7 +301,6 @@ def _design(
     w the half width: a turned section meets the outline further forward on one side.
     """
     value, slope, _ = basis
-    stiff = _stiffness(value.shape[1], 2, _WIDTH_STIFFNESS * len(value))
     half = _solution(value * seen[:, None], stiff) @ np.where(seen, bands.half_width, 0.0)
     turn = (value @ half) * (slope @ half)
     length = np.hypot(1.0, slope @ coefficients)

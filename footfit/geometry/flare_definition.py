@@ -32,13 +32,17 @@ class FlareDefinition:
 
     # The centre line: cubic splines, the mid-points of the bands normal to it.
     sections: int = 120
-    sections_from: float = 0.04
+    sections_from: float = 0.03
     sections_to: float = 0.96
+    trusted_to: float = 0.88  # beyond, a section's weight falls: toes end one by one
+    trust_bandwidth: float = 0.04
     splines: int = 20
-    axis_stiffness: float = 1e-6  # of the axis that the sections are cut across (2nd differences)
+    axis_stiffness: float = 3e-6  # of the axis that the sections are cut across (2nd differences)
     line_stiffness: float = 1e-7  # of the last correction, which may bend more (3rd differences)
+    toe_from: float = 0.74  # beyond, both are stiffer
+    toe_stiffness: float = 30.0
     settled: float = 2e-4  # the axis is settled when nothing moves more
-    passes: int = 12
+    passes: int = 10
     found_least: float = 0.6  # share of sections that must exist for a channel to be measured
 
     # What is read from it.
