@@ -66,7 +66,7 @@ def tube(length_mm=260.0, turn_deg=10.0, left=False, rings=80, sides=48):
     toe = np.stack([np.full(sides, end), last + (k + 1) % sides, last + k], 1)
     tips = np.stack([vertices[:sides].mean(0), vertices[last : last + sides].mean(0)])
     faces = np.concatenate([walls, heel, toe])
-    return np.concatenate([vertices, tips]), faces[:, ::-1] if left else faces
+    return np.concatenate([vertices, tips]), faces if left else faces[:, ::-1]
 
 
 def profile(turn_deg=10.0, spoilt=()):

@@ -12,6 +12,7 @@ import numpy as np
 
 from footfit.geometry.arrays import Bools, Floats, Ints
 from footfit.geometry.surface import vertex_normals
+from footfit.geometry.topology import is_closed
 
 VIEWS = {
     "from_above": np.array([[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]]),
@@ -196,6 +197,7 @@ def shaded_image(
     projected : (n, 3)
         Vertices in view coordinates: right, up, towards the eye, mm.
     faces : (m, 3)
+        A closed mesh is wound outward.
     frame : Frame
         What is drawn.
     columns : int
@@ -206,15 +208,26 @@ def shaded_image(
     fine = columns * LIGHTING.oversampling
     tall = round(columns * (frame.top - frame.bottom) / (frame.right - frame.left))
     rows = max(tall, 1) * LIGHTING.oversampling
+    normals = vertex_normals(projected, faces)
+    faces = _towards_eye(projected, faces)
     seen = fragments(projected, faces, frame, (rows, fine))
     covered: Bools = seen.face >= 0
     shaded = np.zeros((*covered.shape, 3))
     corners, weights = faces[seen.face[covered]], seen.weights[covered]
-    normals = blended(vertex_normals(projected, faces), corners, weights)
+    normals = blended(normals, corners, weights)
     normals /= np.maximum(np.linalg.norm(normals, axis=-1, keepdims=True), 1e-12)
     base = colours if colours.ndim == 1 else blended(colours, corners, weights)
     shaded[covered] = lit(np.broadcast_to(base, normals.shape), normals)
     return _downsampled(shaded, covered)[::-1]
+
+
+def _towards_eye(projected: Floats, faces: Ints) -> Ints:
+    """The faces that can be seen: of a closed mesh wound outward those that face the eye."""
+    if not is_closed(faces):
+        return faces
+    a, b, c = (projected[faces[:, corner], :2] for corner in range(3))
+    one, two = b - a, c - a
+    return faces[one[:, 0] * two[:, 1] > one[:, 1] * two[:, 0]]
 
 
 def _downsampled(shaded: Floats, covered: Bools) -> Floats:
