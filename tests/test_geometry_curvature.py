@@ -127,7 +127,7 @@ def _slow_normal_curvature(vertices, p, v, link, normal, density):
 
 
 @given(surfaces())
-@settings(max_examples=20, deadline=None)
+@settings(max_examples=8, deadline=None)
 def test_one_ring_is_the_papers_construction(mesh):
     vertices, faces = mesh
     for density, fast in ((False, concentrated_curvature_one_ring), (True, one_ring_curvature)):

@@ -14,6 +14,7 @@ import numpy as np
 from footfit.geometry.angles import turning_angle
 from footfit.geometry.arrays import Bools, Floats, Ints
 from footfit.geometry.diffusion import Diffusion, diffused, diffusion
+from footfit.geometry.refinement import with_flat_facets_split
 from footfit.geometry.surface import (
     area_vectors,
     corner_angles,
@@ -32,6 +33,9 @@ class PoolingSettings:
     radius_over_deviation
         The radius in standard deviations of the pooling weights; 95 % of the weight lies inside
         the radius at 2.45, 97 % at 2.7.
+    side_over_radius
+        Sides longer than this share of the radius are split where they lie in a flat facet: it
+        has no vertices of its own to pool.
     rounds, arc_most
         How often normals are corrected for the arcs over the facets' sides, and the largest angle
         such an arc may turn: a crease is no arc.
@@ -41,6 +45,7 @@ class PoolingSettings:
     """
 
     radius_over_deviation: float = 2.7
+    side_over_radius: float = 0.5
     rounds: int = 2
     arc_most: float = 1.0
     flattest: float = 1e-6
@@ -200,7 +205,8 @@ def pooled_curvature(
         See the module. n_q is the area-weighted normal of the faces around q, with their sides
         bent into arcs, and stands for their centroid, not for q.
     radius : float
-        > 0. Smaller than the edges: the nearest ring counts. More than some 25 edges: cut to that.
+        > 0. Smaller than the edges: the nearest ring counts. Big flat facets are split first
+        (:mod:`footfit.geometry.refinement`). More than some 25 edges: cut to that.
     subset : (n,) bool, optional
         Where the curvature is wanted, NaN elsewhere; only what it needs is worked on, and the
         values are those of the whole mesh to about 1e-5 / radius.
@@ -224,13 +230,11 @@ def pooled_curvature(
     >>> np.ptp(pooled_curvature(corners, octahedron, 1.0).k2) < 1e-12
     np.True_
     """
-    centres, normals = _stars(vertices, faces)
     chosen = np.ones(len(vertices), dtype=bool) if subset is None else subset
-    operator = _pooling(vertices, faces, radius, subset)
-    pooled = diffused(operator, _moment_fields(centres, normals))[:, chosen]
-    k1, k2 = _principal(*_covariances(pooled))
+    centres, normals, operator = _pooling(vertices, faces, radius, subset)
+    pooled = diffused(operator, _moment_fields(centres, normals))
     whole = np.full((2, len(vertices)), np.nan)
-    whole[:, chosen] = np.stack([k1, k2])
+    whole[:, chosen] = _principal(*_covariances(pooled[:, : len(chosen)][:, chosen]))
     k1, k2 = whole
     return PrincipalCurvatures(k1, k2, 0.5 * (k1 + k2), k1 * k2)
 
@@ -245,20 +249,28 @@ def pooled_mean_curvature(
     it is half the sum of k1 and k2 as far as the neighbourhood is round. Arguments, NaN and Raises
     as there.
     """
-    centres, normals = _stars(vertices, faces)
+    centres, normals, operator = _pooling(vertices, faces, radius, subset)
     x, n = centres.T - centres.mean(axis=0)[:, None], normals.T
     fields = np.concatenate([x, n, [np.sum(n * x, axis=0), np.sum(x * x, axis=0)]])
-    pooled = diffused(_pooling(vertices, faces, radius, subset), fields)
+    pooled = diffused(operator, fields)[:, : len(vertices)]
     turning = pooled[6] - np.sum(pooled[:3] * pooled[3:6], axis=0)
     way = pooled[7] - np.sum(pooled[:3] ** 2, axis=0)
     mean: Floats = turning / np.where(way > _least_variance(x), way, np.nan)
     return mean if subset is None else np.where(subset, mean, np.nan)
 
 
-def _pooling(vertices: Floats, faces: Ints, radius: float, subset: Bools | None) -> Diffusion:
+def _pooling(
+    vertices: Floats, faces: Ints, radius: float, subset: Bools | None
+) -> tuple[Floats, Floats, Diffusion]:
+    """Centroids, normals and the pooling operator; vertices put into flat facets come last."""
     if not radius > 0.0:
         raise ValueError("the pooling radius must be positive; the one ring has its own function")
-    return diffusion(vertices, faces, radius / POOLING.radius_over_deviation, subset)
+    given = len(vertices)
+    vertices, faces = with_flat_facets_split(vertices, faces, POOLING.side_over_radius * radius)
+    if subset is not None:
+        subset = np.append(subset, np.zeros(len(vertices) - given, dtype=bool))
+    deviation = radius / POOLING.radius_over_deviation
+    return *_stars(vertices, faces), diffusion(vertices, faces, deviation, subset)
 
 
 def _stars(vertices: Floats, faces: Ints) -> tuple[Floats, Floats]:
@@ -267,37 +279,39 @@ def _stars(vertices: Floats, faces: Ints) -> tuple[Floats, Floats]:
     A vertex without faces stands for itself, with normal zero.
     """
     flat = area_vectors(vertices, faces)
-    areas = np.linalg.norm(flat, axis=1)
+    areas = np.sqrt(np.einsum("ij,ij->i", flat, flat))
     weighted = areas[:, None] * vertices[faces].sum(axis=1) / 3.0
     sums = vertex_sums(np.column_stack([weighted, areas]), faces, len(vertices))
     area = sums[:, 3:]
     centres: Floats = np.where(area > 0.0, sums[:, :3] / np.where(area > 0.0, area, 1.0), vertices)
-    normals = unit(vertex_sums(flat, faces, len(vertices)))
-    for _ in range(POOLING.rounds):
-        bent = flat - _bulges(vertices, faces, centres, normals)
-        normals = unit(vertex_sums(bent, faces, len(vertices)))
-    return centres, normals
+    return centres, _arched_normals(vertices, faces, centres, flat)
 
 
-def _bulges(vertices: Floats, faces: Ints, centres: Floats, normals: Floats) -> Floats:
-    """What the area vectors (m, 3) lose when each side is bent from a chord into its arc.
+def _arched_normals(vertices: Floats, faces: Ints, centres: Floats, flat: Floats) -> Floats:
+    """The area-weighted normals (n, 3) of the faces with each side bent from a chord into its arc.
 
     Between chord and arc of a side of length e and curvature k lies the area k e^3 / 12. Facets
-    leave it out, and an uneven mesh unevenly: without it the error stays at (edge / radius)^2.
-    k is the side's own turning over its length, from the centroids at its ends.
+    (``flat``, their area vectors) leave it out, and an uneven mesh unevenly: without it the error
+    stays at (edge / radius)^2. k is the side's own turning over its length, between the centroids
+    at its ends, and is known better with each round.
     """
-    up = unit(area_vectors(vertices, faces))
-    bulges = np.zeros_like(up)
-    for corner in range(3):
-        start, end = faces[:, corner], faces[:, (corner + 1) % 3]
-        side, way = vertices[end] - vertices[start], centres[end] - centres[start]
-        turn = np.einsum("ij,ij->i", normals[end] - normals[start], way)
-        square = np.einsum("ij,ij->i", way, way)
-        length = np.sqrt(np.einsum("ij,ij->i", side, side))
-        angle = turn * length / np.where(square > 0.0, square, np.inf)
-        angle = np.clip(angle, -POOLING.arc_most, POOLING.arc_most)
-        bulges += cross(side, up) * (angle * length / 12.0)[:, None]
-    return bulges
+    sides, ways = _sides(vertices[faces]), _sides(centres[faces])
+    square = np.einsum("mcx,mcx->mc", ways, ways)
+    length = np.sqrt(np.einsum("mcx,mcx->mc", sides, sides))
+    per_turn = length / np.where(square > 0.0, square, np.inf)
+    up = unit(flat)
+    normals = unit(vertex_sums(flat, faces, len(vertices)))
+    for _ in range(POOLING.rounds):
+        angle = np.einsum("mcx,mcx->mc", _sides(normals[faces]), ways) * per_turn
+        bulge = np.clip(angle, -POOLING.arc_most, POOLING.arc_most) * length / 12.0
+        missing = cross(np.einsum("mcx,mc->mx", sides, bulge), up)
+        normals = unit(vertex_sums(flat - missing, faces, len(vertices)))
+    return normals
+
+
+def _sides(corners: Floats) -> Floats:
+    """The three differences along the sides of triangles, (m, 3, 3) in and out."""
+    return np.stack([corners[:, (k + 1) % 3] - corners[:, k] for k in range(3)], axis=1)
 
 
 _UPPER = (np.array([0, 0, 0, 1, 1, 2]), np.array([0, 1, 2, 1, 2, 2]))  # xx xy xz yy yz zz

@@ -213,12 +213,12 @@ def face_components(faces: Ints, n_vertices: int) -> Ints:
     """
     if len(faces) == 0:
         return np.empty(0, dtype=np.int64)
-    lowest = _lowest_connected(faces, n_vertices)[faces[:, 0]]
+    lowest = lowest_connected(faces, n_vertices)[faces[:, 0]]
     labels: Ints = np.unique(lowest, return_inverse=True)[1].astype(np.int64).reshape(-1)
     return labels
 
 
-def _lowest_connected(groups: Ints, n: int) -> Ints:
+def lowest_connected(groups: Ints, n: int) -> Ints:
     """The lowest index connected with each of ``n``, where each row of ``groups`` is connected.
 
     Hooking and pointer jumping: every row hangs its members' parents under the lowest one, then
@@ -282,7 +282,7 @@ def consistently_wound(faces: Ints) -> Ints:
             np.stack([2 * pairs[:, 0] + 1, 2 * pairs[:, 1] + 1 - twisted], axis=1),
         ]
     )
-    winding = _lowest_connected(links, 2 * len(faces)).reshape(-1, 2)
+    winding = lowest_connected(links, 2 * len(faces)).reshape(-1, 2)
     turned = winding[:, 1] < winding[:, 0]
     piece = winding.min(axis=1)
     members = np.bincount(piece, minlength=2 * len(faces))
@@ -321,7 +321,7 @@ def closed_fan_vertices(faces: Ints, n_vertices: int) -> Bools:
     # A half-edge's number is that of the corner it starts from; a fan is corners joined over edges.
     one, other = one[regular], other[regular]
     joined = np.stack([np.append(one, other), _next_corner(np.append(other, one))], axis=1)
-    roots = np.unique(_lowest_connected(joined, faces.size))
+    roots = np.unique(lowest_connected(joined, faces.size))
     fans = np.bincount(faces.ravel()[roots], minlength=n_vertices)
     single: Bools = closed & (fans == 1)
     return single
