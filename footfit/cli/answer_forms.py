@@ -10,6 +10,7 @@ from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, Generic, TypeVar
 
+from footfit.pipeline.match import Library
 from footfit.report import documents, last_documents, last_tables, tables
 from footfit.results import (
     AlignedScan,
@@ -75,9 +76,10 @@ SET_REFERENCE: Answer[tuple[Reference, int]] = Answer(
     lambda changed: last_documents.set_reference_document(*changed),
     lambda changed: last_tables.set_reference_line(*changed),
 )
-LIST_LASTS: Answer[tuple[list[LastRecord], str | None]] = Answer(
-    lambda found: last_documents.list_lasts_document(*found),
-    lambda found: last_tables.list_lasts_table(*found),
+LIST_LASTS: Answer[Library] = Answer(
+    lambda found: last_documents.list_lasts_document(found.lasts, found.reference),
+    lambda found: last_tables.list_lasts_table(found.lasts, found.reference),
+    lambda found: (None, found.warnings),
 )
 SHOW_LAST: Answer[tuple[LastRecord, str | None]] = Answer(
     lambda found: last_documents.show_last_document(*found),

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 import os
 import shutil
 import sys
@@ -10,12 +9,13 @@ from collections.abc import Iterable
 from typing import TYPE_CHECKING
 
 from footfit.errors import FootfitError
+from footfit.report.lines import failure_document, json_line
 from footfit.report.text import visible
 
 if TYPE_CHECKING:
     from rich.console import RenderableType
 
-    from footfit.results import IngestOutcome, Notice
+    from footfit.results import Notice
 
 PLAIN_WIDTH = 100
 
@@ -53,24 +53,14 @@ def say_notices(notices: Iterable[Notice], path: str | None, *, quiet: bool) -> 
 
 def error_line(error: FootfitError, *, as_json: bool) -> str:
     """The one line that an error is: words, or the ``footfit.error/1`` document."""
-    return _line(error.code, int(error.exit), error.message, error.path, as_json=as_json)
+    return failure_line(error.code, int(error.exit), error.message, error.path, as_json=as_json)
 
 
-def refusal_line(outcome: IngestOutcome, *, as_json: bool) -> str:
-    """The same for a file that ingest refused."""
-    message = outcome.error or "refused"
-    return _line(outcome.code or "refused", outcome.exit, message, outcome.path, as_json=as_json)
-
-
-def _line(code: str, exit_code: int, message: str, path: str | None, *, as_json: bool) -> str:
-    if not as_json:
-        where = f"{path}: " if path else ""
-        return visible(f"footfit: {where}{message}")
-    document = {
-        "schema": "footfit.error/1",
-        "code": code,
-        "exit": exit_code,
-        "message": message,
-        "path": path,
-    }
-    return json.dumps(document, ensure_ascii=True, sort_keys=True)
+def failure_line(
+    code: str, exit_code: int, message: str, path: str | None, *, as_json: bool
+) -> str:
+    """The same from its parts."""
+    if as_json:
+        return json_line(failure_document(code, exit_code, message, path))
+    where = f"{path}: " if path else ""
+    return visible(f"footfit: {where}{message}")

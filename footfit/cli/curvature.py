@@ -86,9 +86,11 @@ def write_curvature(
     """Write the files that were asked for."""
     from footfit.cli.outputs import write_output
     from footfit.pipeline.export import PICTURE_KINDS, curvature_bytes, file_kind
+    from footfit.pipeline.shapes import canonical_view
     from footfit.report.plots import curvature_plot
 
     if output is not None:
         write_output(output, curvature_bytes(values, output), force=force)
     if plot is not None:
-        write_output(plot, curvature_plot(values, file_kind(plot, PICTURE_KINDS)), force=force)
+        data = curvature_plot(values, file_kind(plot, PICTURE_KINDS), canonical_view(values))
+        write_output(plot, data, force=force)

@@ -97,6 +97,7 @@ def ingest_last(
 
 def say_refusal(outcome: IngestOutcome, voice: Voice) -> None:
     """The refusal as an error line on stderr; the answer has its own line already."""
-    from footfit.cli.console import refusal_line, say
+    from footfit.cli.console import failure_line, say
 
-    say(refusal_line(outcome, as_json=voice.as_json))
+    code, message = outcome.code or "refused", outcome.error or ""
+    say(failure_line(code, outcome.exit, message, outcome.path, as_json=voice.as_json))

@@ -25,7 +25,7 @@ def list_lasts(
     from footfit.report.csv import lasts_csv
 
     refuse_existing(csv, force=force)
-    found = lasts.lasts(catalogue_path(catalogue))
+    found = lasts.listed(catalogue_path(catalogue))
     if csv is not None:
-        write_or_answer(csv, lasts_csv(*found), force=force)
+        write_or_answer(csv, lasts_csv(found.lasts, found.reference), force=force)
     tell(found, LIST_LASTS, Voice(json, quiet, answers=csv != options.STDOUT))

@@ -79,6 +79,7 @@ def match(
     from footfit.cli.settings import catalogue_path
     from footfit.pipeline.lasts import library
     from footfit.pipeline.match import Question, customers
+    from footfit.pipeline.shapes import candidate_shapes
     from footfit.pipeline.sources import ReadingOptions
     from footfit.report.csv import match_csv
     from footfit.report.html import match_report
@@ -86,7 +87,8 @@ def match(
     sources = sources_of(feet, format)
     only_one(sources[:1] if pair else sources, html)
     refuse_existing(html, csv, force=force)
-    found = library(catalogue_path(catalogue), style, size_system)
+    path = catalogue_path(catalogue)
+    found = library(path, style, size_system)
     reading = ReadingOptions(units.value, known_length, side.value)
     question = Question(by.value, top)
     answers = customers(sources, reading, found, question, pair=pair, jobs=jobs)
@@ -96,5 +98,6 @@ def match(
     if csv is not None:
         write_or_answer(csv, match_csv(matches), force=force)
     if html is not None and matches:
-        write_output(html, match_report(matches[0]), force=force)
+        shapes = candidate_shapes(path, matches[0])
+        write_output(html, match_report(matches[0], shapes), force=force)
     raise typer.Exit(code)

@@ -234,24 +234,39 @@ def _stored(
         assert outcome.error is not None
         return _refused(path, outcome.error)
     try:
-        status = decision(outcome.value.sha256, entry, index.by_name, index.by_content, replace)
+        status = _decided(outcome.value, entry, index, replace)
         if status == "unchanged":
             return _accepted(path, status, index.by_name[entry.labels.name], first=False)
-        record, copy = outcome.value.record, outcome.value.copy
-        if record is None or copy is None:  # known content under a name freed in this batch
-            again = prepared(entry)
-            record, copy = again.record, again.copy
-        assert record is not None
-        assert copy is not None
+        record, copy = _whole(outcome.value, entry)
         first = not index.by_name
         if shelf is not None:
-            (shelf.add if status == "added" else shelf.replace)(record, copy)
+            try:
+                (shelf.replace if replace else shelf.add)(record, copy)
+            except NameTaken:  # another process stored it meanwhile: look again, and say so
+                index = _Index.of(shelf.records())
+                status = _decided(outcome.value, entry, index, replace)
+                return _accepted(path, status, index.by_name[entry.labels.name], first=False)
         index.put(record)
     except FootfitError as error:
         if error.exit == ExitCode.CATALOGUE_UNUSABLE:
             raise
         return _refused(path, error.at(path))
     return _accepted(path, status, record, first=first)
+
+
+def _decided(one: Prepared, entry: Entry, index: _Index, replace: bool) -> str:
+    return decision(one.sha256, entry, index.by_name, index.by_content, replace)
+
+
+def _whole(one: Prepared, entry: Entry) -> tuple[LastRecord, MeshCopy]:
+    """The record and the mesh; made now where the content was known when the batch began, and
+    its last has been replaced since.
+    """
+    if one.record is None or one.copy is None:
+        one = prepared(entry)
+    assert one.record is not None
+    assert one.copy is not None
+    return one.record, one.copy
 
 
 def decision(

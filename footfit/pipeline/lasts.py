@@ -20,8 +20,8 @@ from footfit.results import (
 FIRST_STEPS = "type: footfit ingest-last FOLDER, or try: footfit demo"
 
 
-def lasts(path: Path) -> tuple[list[LastRecord], str | None]:
-    """Every last by name, and the reference's name.
+def listed(path: Path) -> Library:
+    """Every intact last by name, whatever its definition; damaged ones are said.
 
     Raises
     ------
@@ -29,8 +29,14 @@ def lasts(path: Path) -> tuple[list[LastRecord], str | None]:
         There is no catalogue, or it cannot be read.
     """
     with open_catalogue(path) as catalogue:
-        reference = catalogue.reference()
-        return list(catalogue.records()), reference.last if reference else None
+        records, names, reference = catalogue.records(), catalogue.names(), catalogue.reference()
+    intact = {record.labels.name for record in records}
+    return Library(
+        lasts=records,
+        total=len(names),
+        reference=reference.last if reference else None,
+        warnings=tuple(_damaged(name) for name in names if name not in intact),
+    )
 
 
 def last(path: Path, name: str) -> tuple[LastRecord, str | None]:
@@ -55,8 +61,7 @@ def set_reference(path: Path, name: str) -> tuple[Reference, int]:
     NoCatalogue, UnknownLast, CatalogueUnusable
         There is no such last, or the catalogue cannot be written; nothing is changed.
     """
-    require(path)
-    with open_catalogue(path, write=True) as catalogue:
+    with open_catalogue(path, write=True, create=False) as catalogue:
         return catalogue.set_reference(name), len(catalogue.names())
 
 
@@ -68,8 +73,7 @@ def rename(path: Path, name: str, new_name: str) -> None:
     UnknownLast, NameTaken
         The one is not there, or the other is.
     """
-    require(path)
-    with open_catalogue(path, write=True) as catalogue:
+    with open_catalogue(path, write=True, create=False) as catalogue:
         catalogue.rename(name, new_name)
 
 
@@ -81,8 +85,7 @@ def remove(path: Path, name: str) -> None:
     UnknownLast, BadOption
         There is no such last, or it is the reference.
     """
-    require(path)
-    with open_catalogue(path, write=True) as catalogue:
+    with open_catalogue(path, write=True, create=False) as catalogue:
         catalogue.remove(name)
 
 
@@ -102,18 +105,6 @@ def facts(path: Path) -> CatalogueFacts:
     """What the catalogue is and holds."""
     with open_catalogue(path) as catalogue:
         return catalogue.facts()
-
-
-def require(path: Path) -> None:
-    """Open for reading once, so that a command that only changes lasts creates no catalogue.
-
-    Raises
-    ------
-    NoCatalogue
-        There is none.
-    """
-    with open_catalogue(path):
-        pass
 
 
 def library(path: Path, style: str | None = None, size_system: str | None = None) -> Library:
@@ -136,20 +127,20 @@ def library(path: Path, style: str | None = None, size_system: str | None = None
         reference=reference.last if reference else None,
         rejected=rows.rejected,
         warnings=(
-            *(
-                _left_out("damaged_last", name, "is damaged; ingest it again")
-                for name in rows.damaged
-            ),
-            *(
-                _left_out("outdated_last", name, "has an older profile; footfit upgrade-catalogue")
-                for name in rows.outdated
-            ),
+            *(_damaged(name) for name in rows.damaged),
+            *(_outdated(name) for name in rows.outdated),
         ),
     )
 
 
-def _left_out(code: str, name: str, words: str) -> Notice:
-    return Notice(code, f"{name} was left out: it {words}")
+def _damaged(name: str) -> Notice:
+    words = f"{name} was left out: it is damaged; ingest it again with --replace"
+    return Notice("damaged_last", words)
+
+
+def _outdated(name: str) -> Notice:
+    words = f"{name} was left out: its profile is older; type: footfit upgrade-catalogue"
+    return Notice("outdated_last", words)
 
 
 def alignment_reference(path: Path, method: Method, to: str | None) -> Reference | None:

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from footfit.catalogue.revision import revision_of, upgrade_copy
 from footfit.catalogue.store import Catalogue, open_catalogue
 from footfit.geometry.flare import FlareDefinition, FlareProfile, flare_profile
 from footfit.meshes.copies import expanded
@@ -21,8 +20,8 @@ def upgrade(path: Path) -> UpgradeOutcome:
     NoCatalogue, CatalogueUnusable
         There is none, or it cannot be written; it is then as it was.
     """
-    before, definition = revision_of(path), FlareDefinition()
-    with open_catalogue(path, write=True) as catalogue:
+    definition = FlareDefinition()
+    with open_catalogue(path, write=True, create=False) as catalogue:
         older = [r for r in catalogue.records() if r.flare.definition != definition]
         for record in older:
             catalogue.update_profile(
@@ -30,15 +29,14 @@ def upgrade(path: Path) -> UpgradeOutcome:
                 _recomputed(catalogue, record, definition),
                 upgraded_from=record.flare.definition.version,
             )
-    after = revision_of(path)
-    backup = upgrade_copy(path, before) if before != after else None
+        revisions = catalogue.revisions
     return UpgradeOutcome(
         path=str(path),
-        revision_before=before,
-        revision_after=after,
+        revision_before=revisions.before,
+        revision_after=revisions.after,
         definition=definition.version,
         recomputed=tuple(record.labels.name for record in older),
-        backup=None if backup is None else str(backup),
+        backup=None if revisions.backup is None else str(revisions.backup),
     )
 
 
