@@ -17,11 +17,21 @@ from footfit.errors import HalfScan
 from footfit.geometry.arrays import Bools, Floats, Ints
 from footfit.geometry.bands import band_edges
 from footfit.geometry.flare_definition import FlareDefinition
-from footfit.geometry.sections import Planes, Segments, lowest, plane_sections, sections_across
+from footfit.geometry.sections import (
+    Planes,
+    Segments,
+    depth_at,
+    extremes_below,
+    lowest,
+    plane_sections,
+    sections_across,
+)
 from footfit.geometry.smoothing import cubic_splines
+from footfit.geometry.surface import area_vectors
 
 _GRID = np.linspace(-0.1, 1.1, 1201)  # where lines are tabulated between passes
 _NEIGHBOURHOOD = 0.10  # a normal section reaches less than this forward and backward along x
+_ROLL_LIFT = 0.02
 _FULL_STEPS = 4  # then half steps: a foot's toes can make whole ones swing for ever
 _WIDTH_STIFFNESS = 1e-7  # of the widths' curve, of which only the slope is used
 _PROJECTIONS = 2  # Newton steps onto the line: a third moves nothing by more than 1e-6
@@ -121,9 +131,10 @@ def bottom_shape(vertices_mm: Floats, faces: Ints, definition: FlareDefinition) 
     vertices = (vertices_mm - np.array([origin, 0.0, 0.0])) / length
     x = _section_places(definition)
     across = sections_across(vertices, faces, x)
-    floor = lowest(across.points[:, :, 2], across)
-    ceiling = _highest_near(floor, x) + definition.band_height
-    low = vertices[:, 2] <= np.interp(vertices[:, 0], x, ceiling)
+    vertices = vertices @ _levelling(vertices, faces, across, x, definition)
+    ceiling = _highest_near(lowest(across.points[:, :, 2], across), x) + definition.band_height
+    # A small roll lifts an edge by less than the reach of the neighbourhood's floors.
+    low = vertices[:, 2] <= np.interp(vertices[:, 0], x, ceiling) + _ROLL_LIFT
     a, b, c = faces.T
     keep = low[a] | low[b] | low[c]
     for start, end in ((a, b), (b, c), (c, a)):
@@ -135,6 +146,36 @@ def bottom_shape(vertices_mm: Floats, faces: Ints, definition: FlareDefinition) 
     tip = np.abs(vertices[:, 0] - 0.5) > 0.5 - _NEIGHBOURHOOD
     tips = vertices[tip & (vertices[:, 2] < definition.length_height)]
     return BottomShape(vertices[used], numbers[faces], tips, origin, length)
+
+
+def _levelling(
+    vertices: Floats, faces: Ints, across: Segments, x: Floats, definition: FlareDefinition
+) -> Floats:
+    """The rotation about X, (3, 3) to multiply rows with, that levels seat and tread across.
+
+    The plane of a whole sole rolls with the arch, by a degree or two on a heeled last; where a shape
+    stands, under the seat and the tread, it is level.
+    """
+    height = across.points[:, :, 2]
+    limit = lowest(height, across) + definition.band_height
+    least, most = extremes_below(across.points[:, :, 1], height, limit, across)
+    down = (area_vectors(vertices, faces)[:, 2] < 0.0)[across.face]
+    first, _, last = definition.bottom_places
+    sides = [
+        depth_at(most - place * (most - least), across.points[:, :, 1], height, across, down)[0]
+        for place in (first, last)
+    ]
+    slope = (sides[0] - sides[1]) / ((last - first) * (most - least))
+    rolls = []
+    for low, high in (definition.seat, definition.tread):
+        inside = slope[(x >= low) & (x <= high)]
+        found = inside[np.isfinite(inside)]
+        if len(found) < definition.found_least * len(inside):
+            return np.eye(3)  # no sole to stand on: the frame's own level
+        rolls.append(float(np.median(found)))
+    roll = np.arctan(np.mean(rolls))
+    cosine, sine = np.cos(roll), np.sin(roll)
+    return np.array([[1.0, 0.0, 0.0], [0.0, cosine, -sine], [0.0, sine, cosine]])
 
 
 def centre_line(shape: BottomShape, definition: FlareDefinition) -> CentreLine:

@@ -26,7 +26,7 @@ from footfit.geometry.profile_distance import (
     profile_distance,
     profile_distances,
 )
-from footfit.geometry.smoothing import cubic_splines
+from footfit.geometry.smoothing import cubic_splines, local_quadratic
 
 __all__ = [
     "CHANNELS",
@@ -42,7 +42,6 @@ __all__ = [
 ]
 
 _WINDOW_POINTS = 50  # where a window's mean heading is read: the midpoint rule, exact to 1e-4 deg
-_LAGS = 6  # neighbouring sections share vertices: their scatter is correlated so far
 
 
 def flare_profile(
@@ -123,15 +122,20 @@ def _flare_angle(line: CentreLine, definition: FlareDefinition) -> tuple[float, 
 
 
 def _angle_sd(line: CentreLine, gradient_deg: Floats, definition: FlareDefinition) -> float:
-    """The angle's standard deviation, carried from what the line leaves of the mid-points.
+    """The angle's standard deviation, carried from how the mid-points scatter around the line.
 
-    The angle is linear in the mid-points near the solution; their scatter is correlated between
-    neighbours, so that its products up to ``_LAGS`` sections apart count too, with falling
-    weights (which keep the variance positive).
+    The angle is linear in the mid-points near the solution. Of what the line leaves of them only
+    the part shorter than ``scatter_bandwidth`` is scatter: a toe is longer, and comes again in
+    the next scan. Neighbours share vertices, so that their products count too up to
+    ``scatter_lags`` sections apart, with falling weights (which keep the variance positive).
     """
-    felt = (gradient_deg @ line.response) * line.scatter
+    smooth, _ = local_quadratic(line.bands.x, line.bands.x, definition.scatter_bandwidth)
+    rough = line.scatter - smooth @ line.scatter
+    felt = (gradient_deg @ line.response) * rough
     variance = float(felt @ felt)
-    for lag in range(1, _LAGS + 1):
-        variance += 2.0 * (1.0 - lag / (_LAGS + 1)) * float(felt[lag:] @ felt[:-lag])
-    variance *= len(felt) / max(line.freedom, 1.0)
+    for lag in range(1, definition.scatter_lags + 1):
+        falling = 1.0 - lag / (definition.scatter_lags + 1)
+        variance += 2.0 * falling * float(felt[lag:] @ felt[:-lag])
+    freedom = line.freedom - float(np.trace(smooth))
+    variance *= len(felt) / max(freedom, 1.0)
     return float(np.hypot(np.sqrt(variance), definition.frame_sd_deg))

@@ -30,6 +30,10 @@ class FlareDefinition:
     band_height: float = 0.10  # over each section's own lowest point: a raised heel has one too
     edge_depth: float = 0.01  # an edge is the mean of what is not further inside than this
 
+    # Where a shape stands: it is turned about x until these are level across.
+    seat: tuple[float, float] = (0.08, 0.18)
+    tread: tuple[float, float] = (0.64, 0.76)
+
     # The centre line: cubic splines, the mid-points of the bands normal to it.
     sections: int = 120
     sections_from: float = 0.03
@@ -65,7 +69,9 @@ class FlareDefinition:
     last_straight_deg: tuple[float, float] = (4.0, 12.0)
     foot_straight_deg: tuple[float, float] = (11.5, 18.5)
 
-    # The part of the angle's uncertainty that a scan's own scatter does not show.
+    # The angle's uncertainty: the scatter of the mid-points, and what scatter does not show.
+    scatter_bandwidth: float = 0.02
+    scatter_lags: int = 1
     frame_sd_deg: float = 0.05  # of an unsure frame: benchmarks/flare.py
 
 
