@@ -2,10 +2,17 @@
 
 from __future__ import annotations
 
+import multiprocessing
+import os
+import resource
+import signal
+import time
+
 import pytest
 
-from footfit.errors import DamagedMesh, NotAFoot
+from footfit.errors import DamagedMesh, NotAFoot, TooLarge, UnreadableFile
 from footfit.pipeline.batch import outcomes
+from footfit.pipeline.limits import WorkLimits
 from footfit.pipeline.sources import Source
 
 
@@ -39,3 +46,59 @@ def test_an_error_names_its_file_unless_it_named_one() -> None:
 def test_a_bug_is_raised_and_not_hidden_among_the_failures() -> None:
     with pytest.raises(ValueError, match="bug"):
         list(outcomes(length_of_name, [Source("a"), Source("bug")]))
+
+
+def fate_of(source: Source) -> str:
+    """Do to the worker what the name says."""
+    fate = source.path or ""
+    if fate == "hangs":
+        signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGALRM})  # one long call hears nothing
+    if fate in ("hangs", "slow"):
+        for _ in range(600):
+            time.sleep(0.1)
+    if fate == "killed":
+        os.kill(os.getpid(), signal.SIGKILL)
+    if fate == "crashes":
+        os.kill(os.getpid(), signal.SIGSEGV)
+    if fate == "greedy":
+        bytes(2_000_000_000)
+    return fate
+
+
+FATES = ["a", "slow", "b", "killed", "greedy", "c", "crashes", "hangs", "d"]
+TIGHT = WorkLimits(seconds=1.0, grace_seconds=1.0, address_bytes=1_000_000_000)
+
+
+def test_a_worker_that_dies_or_hangs_costs_its_own_file_only() -> None:
+    found = list(outcomes(fate_of, [Source(fate) for fate in FATES], 2, TIGHT))
+    assert [outcome.value for outcome in found if outcome.value] == ["a", "b", "c", "d"]
+    errors = {outcome.item.path: outcome.error for outcome in found if outcome.error}
+    assert {path: type(error) for path, error in errors.items()} == {
+        "slow": TooLarge,
+        "killed": TooLarge,
+        "greedy": TooLarge,
+        "crashes": UnreadableFile,
+        "hangs": TooLarge,
+    }
+    assert all(error.path == path for path, error in errors.items())
+    assert not multiprocessing.active_children()
+
+
+def test_one_process_holds_to_time_and_memory_too() -> None:
+    before = resource.getrlimit(resource.RLIMIT_AS), signal.getsignal(signal.SIGALRM)
+    fates = [Source(fate) for fate in ("a", "slow", "greedy", "b")]
+    found = list(outcomes(fate_of, fates, 1, TIGHT))
+    assert [type(outcome.error) for outcome in found] == [
+        type(None),
+        TooLarge,
+        TooLarge,
+        type(None),
+    ]
+    assert (resource.getrlimit(resource.RLIMIT_AS), signal.getsignal(signal.SIGALRM)) == before
+    assert signal.getitimer(signal.ITIMER_REAL) == (0.0, 0.0)
+
+
+def test_a_bug_in_a_worker_is_raised_and_leaves_no_process() -> None:
+    with pytest.raises(ValueError, match="bug"):
+        list(outcomes(length_of_name, [Source("a"), Source("bug"), Source("c")], 2))
+    assert not multiprocessing.active_children()

@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-from collections import deque
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass
+from functools import partial
 from typing import Generic, Protocol, TypeVar
 
 from footfit.errors import ExitCode, FootfitError
+from footfit.pipeline.limits import WORK_LIMITS, WorkLimits, limited
 
 
 class Item(Protocol):
@@ -20,8 +21,6 @@ class Item(Protocol):
 
 S = TypeVar("S", bound=Item)
 T = TypeVar("T")
-AHEAD_PER_JOB = 2
-"""Tasks handed to the pool before the first answer is taken: bounds what waits in memory."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -33,51 +32,35 @@ class Outcome(Generic[S, T]):
     error: FootfitError | None
 
 
-def outcomes(work: Callable[[S], T], items: Sequence[S], jobs: int = 1) -> Iterator[Outcome[S, T]]:
+def outcomes(
+    work: Callable[[S], T],
+    items: Sequence[S],
+    jobs: int = 1,
+    limits: WorkLimits = WORK_LIMITS,
+) -> Iterator[Outcome[S, T]]:
     """Do ``work`` on each item; yield in the items' order, whatever ``jobs``.
 
     ``work`` must be picklable (a module's function, or a ``functools.partial`` of one). Its
-    FootfitErrors become outcomes; any other exception is a bug and is raised.
+    FootfitErrors become outcomes, and so do time and memory past ``limits`` and a worker's death;
+    any other exception is a bug and is raised.
     """
+    held = partial(_outcome, work, limits)
     if jobs == 1 or len(items) < 2:
-        for item in items:
-            yield _outcome(work, item)
+        yield from map(held, items)
         return
-    yield from _pooled(work, items, min(jobs, len(items)))
+    from footfit.pipeline.workers import worked
+
+    answers = worked(held, items, min(jobs, len(items)), limits)
+    for item, answer in zip(items, answers, strict=True):
+        yield answer if isinstance(answer, Outcome) else Outcome(item, None, answer.at(item.path))
 
 
-def _outcome(work: Callable[[S], T], item: S) -> Outcome[S, T]:
+def _outcome(work: Callable[[S], T], limits: WorkLimits, item: S) -> Outcome[S, T]:
     try:
-        return Outcome(item, work(item), None)
+        with limited(limits):
+            return Outcome(item, work(item), None)
     except FootfitError as error:
         return Outcome(item, None, error.at(item.path))
-
-
-def _pooled(work: Callable[[S], T], items: Sequence[S], jobs: int) -> Iterator[Outcome[S, T]]:
-    """As `outcomes`, on a pool. Spawned, not forked: a catalogue that is open in this process
-    must not be carried into a child (SQLite forbids it).
-    """
-    from concurrent.futures import Future, ProcessPoolExecutor
-    from multiprocessing import get_context
-
-    waiting: deque[Future[Outcome[S, T]]] = deque()
-    pool = ProcessPoolExecutor(jobs, mp_context=get_context("spawn"), initializer=_deaf)
-    try:
-        for item in items:
-            waiting.append(pool.submit(_outcome, work, item))
-            if len(waiting) >= AHEAD_PER_JOB * jobs:
-                yield waiting.popleft().result()
-        while waiting:
-            yield waiting.popleft().result()
-    finally:
-        pool.shutdown(wait=True, cancel_futures=True)
-
-
-def _deaf() -> None:
-    """Let the parent alone answer Ctrl-C; it ends the workers."""
-    import signal
-
-    signal.signal(signal.SIGINT, signal.SIG_IGN)
 
 
 def common_code(codes: Iterable[int]) -> int:

@@ -1,0 +1,121 @@
+"""How long, and with how much memory, one file may be worked on."""
+
+from __future__ import annotations
+
+import signal
+from collections.abc import Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass
+from pathlib import Path
+from types import FrameType
+
+from footfit.errors import TooLarge
+
+SLIM = "decimate the mesh first (100,000 faces are plenty)"
+
+
+@dataclass(frozen=True, slots=True)
+class WorkLimits:
+    """What one file of a batch may take.
+
+    Attributes
+    ----------
+    seconds : float
+        Then it has failed: the work is stopped from within.
+    grace_seconds : float
+        So much later a worker that did not stop by itself (it sits in one long call) is killed.
+    address_bytes : int
+        How much the process may grow beyond what it has when the work begins.
+    """
+
+    seconds: float = 60.0
+    grace_seconds: float = 5.0
+    address_bytes: int = 3_500_000_000
+
+
+WORK_LIMITS = WorkLimits()
+
+
+class _OutOfTime(BaseException):
+    """The alarm went off. No reader's ``except Exception`` may take it for a damaged file."""
+
+
+@contextmanager
+def limited(limits: WorkLimits = WORK_LIMITS) -> Iterator[None]:
+    """Hold what is done inside to the limits, where the system has a way to (POSIX).
+
+    Time is held in the main thread only, since only that one hears the alarm.
+
+    Raises
+    ------
+    TooLarge
+        The time or the memory is used up.
+    """
+    try:
+        with _alarm(limits.seconds), _address_space(limits.address_bytes):
+            yield
+    except _OutOfTime:
+        raise TooLarge(out_of_time(limits)) from None
+    except MemoryError as error:
+        most = limits.address_bytes / 1e9
+        raise TooLarge(f"took more than {most:.2g} GB of memory: {SLIM}") from error
+
+
+def out_of_time(limits: WorkLimits) -> str:
+    """What to say of a file that took too long."""
+    return f"took longer than {limits.seconds:.2g} s, the most that one file may: {SLIM}"
+
+
+def _ring(_number: int, _frame: FrameType | None) -> None:
+    raise _OutOfTime
+
+
+@contextmanager
+def _alarm(seconds: float) -> Iterator[None]:
+    """Raise `_OutOfTime` inside after so long; another's alarm is put back afterwards."""
+    import threading
+
+    heard = threading.current_thread() is threading.main_thread()
+    if not heard or not hasattr(signal, "setitimer"):
+        yield
+        return
+    before = signal.signal(signal.SIGALRM, _ring)
+    signal.setitimer(signal.ITIMER_REAL, seconds)
+    try:
+        yield
+    finally:
+        signal.setitimer(signal.ITIMER_REAL, 0.0)
+        signal.signal(signal.SIGALRM, before)
+
+
+@contextmanager
+def _address_space(growth_bytes: int) -> Iterator[None]:
+    """Let the process grow by so much; a stricter limit of the user's own stands."""
+    try:
+        import resource
+    except ImportError:  # not POSIX
+        yield
+        return
+    used = _address_bytes()
+    soft, hard = resource.getrlimit(resource.RLIMIT_AS)
+    wanted = used + growth_bytes if used is not None else resource.RLIM_INFINITY
+    allowed = [limit for limit in (soft, wanted) if limit != resource.RLIM_INFINITY]
+    if not allowed:
+        yield
+        return
+    resource.setrlimit(resource.RLIMIT_AS, (min(allowed), hard))
+    try:
+        yield
+    finally:
+        resource.setrlimit(resource.RLIMIT_AS, (soft, hard))
+
+
+def _address_bytes() -> int | None:
+    """How much address space this process has, where /proc tells."""
+    import resource
+
+    try:
+        pages = int(Path("/proc/self/statm").read_bytes().split()[0])
+    except (OSError, ValueError, IndexError):
+        return None
+    return pages * resource.getpagesize()
