@@ -118,7 +118,8 @@ def test_what_is_no_foot_is_not_accepted(make, known_size):
 def test_a_doubtful_fit_needs_a_clearer_margin():
     assert is_accepted(0.30, 0.05)
     assert not is_accepted(0.60, 0.05)
-    assert is_accepted(0.60, 0.20)
+    assert is_accepted(0.50, 0.20)
+    assert not is_accepted(0.60, 0.20)
     assert not is_accepted(0.70, 0.50)
 
 

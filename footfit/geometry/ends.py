@@ -16,9 +16,10 @@ from footfit.geometry.topology import boundary_edges
 class EndSettings:
     """Everything numeric of the cut ends; lengths over L, areas over L squared."""
 
-    reach: float = 0.02
-    facing: float = 0.95
-    flat_area: float = 0.03  # a rounded heel has .001, a square toe .012, a cut across .05-.09
+    height: float = 0.30
+    reach: float = 0.10
+    facing: float = 0.94
+    flat_area: float = 0.03  # a heel or a square toe has .005-.02, a cut across .05-.09
     rim_width: float = 0.18
     rim_height: float = 0.08
 
@@ -39,9 +40,12 @@ def missing_end(
         The mesh's boundary vertices, canonical; none for a closed mesh.
     length : float
     """
-    low, high = sample.points[:, 0].min(), sample.points[:, 0].max()
+    below = settings.height * length  # a leg's own cut is no end of the foot
+    rim = rim[rim[:, 2] < below]
+    low_points = sample.points[sample.points[:, 2] < below, 0]
+    low, high = low_points.min(), low_points.max()
     reach = settings.reach * length
-    flat = np.abs(sample.normals[:, 0]) > settings.facing
+    flat = (np.abs(sample.normals[:, 0]) > settings.facing) & (sample.points[:, 2] < below)
     for name, near, near_rim in (
         ("heel", sample.points[:, 0] < low + reach, rim[:, 0] < low + reach),
         ("toes", sample.points[:, 0] > high - reach, rim[:, 0] > high - reach),

@@ -53,9 +53,11 @@ class OrientationSettings:
     retry_margin: float = 0.07
     cost_maximum: float = 0.62
     margin_minimum: float = 0.04
-    doubtful_cost: float = 0.45
-    margin_per_cost: float = 0.5
+    doubtful_cost: float = 0.42
+    margin_per_cost: float = 1.5
     margin_without_rival: float = 1.0
+    long_leg: float = 0.70  # over L: a scan that reaches higher is searched again
+    crop: float = 0.60  # without what lies higher than this
 
 
 ORIENTATION = OrientationSettings()
@@ -105,6 +107,9 @@ def orientation(
 ) -> Orientation:
     """The pose of a mesh, by the fit to the reference shapes.
 
+    Where the pose found has a long leg, the search is made again without it: a leg takes points
+    from the foot and adds cost.
+
     Parameters
     ----------
     vertices, faces : (n, 3) float64, (m, 3) int64
@@ -114,13 +119,33 @@ def orientation(
         Lengths, in the mesh's unit, that are plausible; poses with another length are taken last.
         Empty: any length.
     """
-    clouds = _clouds(vertices, faces, settings)
+    found = _found(vertices, faces, references, windows, settings)
+    height = (vertices @ found.rotation[2] + found.shift[2]) / found.length
+    if height.max() < settings.long_leg:
+        return found
+    low = height[faces].max(axis=1) < settings.crop
+    if not low.any():
+        return found
+    again = _found(vertices, faces[low], references, windows, settings)
+    return min(found, again, key=lambda one: (not one.accepted, one.cost))
+
+
+def _found(
+    vertices: Floats,
+    faces: Ints,
+    references: ReferenceShapes,
+    windows: tuple[tuple[float, float], ...],
+    settings: OrientationSettings,
+) -> Orientation:
+    """The pose of a mesh as it is, searched more finely where the first search leaves a doubt."""
+    centre = _centre(vertices[faces].reshape(-1, 3))
+    clouds = _clouds(vertices - centre, faces, settings)
     first = _candidates(clouds, references, windows, settings.rotations, settings)
     found = _chosen(first, settings)
     if found.cost > settings.retry_cost or found.margin < settings.retry_margin:
         more = _candidates(clouds, references, windows, settings.more_rotations, settings)
         found = _chosen(more, settings)
-    return replace(found, shift=found.shift - found.rotation @ _centre(vertices))
+    return replace(found, shift=found.shift - found.rotation @ centre)
 
 
 def _centre(vertices: Floats) -> Floats:
@@ -129,8 +154,8 @@ def _centre(vertices: Floats) -> Floats:
 
 
 def _clouds(vertices: Floats, faces: Ints, settings: OrientationSettings) -> tuple[_Cloud, _Cloud]:
-    """The mesh as it is, and mirrored, about ``_centre``."""
-    sample = even_sample(vertices - _centre(vertices), faces, settings.sample_points)
+    """The mesh, about its middle, as it is and mirrored."""
+    sample = even_sample(vertices, faces, settings.sample_points)
     few = farthest_points(sample.points, settings.few_points)
     points = sample.points.astype(np.float32)
     normals = sample.normals.astype(np.float32)

@@ -22,7 +22,7 @@ class FitSettings:
     far: float = 0.10  # a distance past this costs no more
     normal_weight: float = 0.25
     leg_height: float = 0.42  # above it a point costs at most leg_cost: any leg is harmless
-    leg_cost: float = 0.45
+    leg_cost: float = 0.35
     leg_share: float = 0.70  # a pose that calls more of the points leg is implausible
     low_height: float = 0.35  # the part that gives length and shift in the coarse search
     least_length: float = 0.25  # of the mesh's size: else a pose would call nearly all of it leg
