@@ -31,6 +31,7 @@ from footfit.geometry.surface import area_vectors
 
 _GRID = np.linspace(-0.1, 1.1, 1201)  # where lines are tabulated between passes
 _NEIGHBOURHOOD = 0.10  # a normal section reaches less than this forward and backward along x
+_HEEL, _TOE = 0.05, 0.95  # from where the line goes straight on to its ends
 _ROLL_LIFT = 0.02
 _FULL_STEPS = 4  # then half steps: a foot's toes can make whole ones swing for ever
 _WIDTH_STIFFNESS = 1e-7  # of the widths' curve, of which only the slope is used
@@ -42,8 +43,8 @@ _TURN_LEAST = 0.2  # keeps a point beyond the line's centre of curvature on its 
 class BottomShape:
     """The faces that a band may touch, over the length, the rearmost point at x = 0.
 
-    ``tips`` (t, 3) are the points that may be the ends of the line; ``origin_mm`` and
-    ``length_mm`` lead back to millimetres.
+    ``tips`` (t, 3, 3) are the triangles where the line may leave the shape, low enough to be no
+    leg; ``origin_mm`` and ``length_mm`` lead back to millimetres.
     """
 
     vertices: Floats
@@ -139,12 +140,13 @@ def bottom_shape(vertices_mm: Floats, faces: Ints, definition: FlareDefinition) 
     keep = low[a] | low[b] | low[c]
     for start, end in ((a, b), (b, c), (c, a)):
         keep |= np.abs(vertices[end, 0] - vertices[start, 0]) > _NEIGHBOURHOOD
-    faces = faces[keep]
+    all_faces, faces = faces, faces[keep]
     used = np.zeros(len(vertices), dtype=np.bool_)
     used[faces] = True
     numbers = np.cumsum(used) - 1
     tip = np.abs(vertices[:, 0] - 0.5) > 0.5 - _NEIGHBOURHOOD
-    tips = vertices[tip & (vertices[:, 2] < definition.length_height)]
+    tip &= vertices[:, 2] < definition.length_height
+    tips = vertices[all_faces[tip[all_faces].any(axis=1)]]
     return BottomShape(vertices[used], numbers[faces], tips, origin, length)
 
 
@@ -153,8 +155,8 @@ def _levelling(
 ) -> Floats:
     """The rotation about X, (3, 3) to multiply rows with, that levels seat and tread across.
 
-    The plane of a whole sole rolls with the arch, by a degree or two on a heeled last; where a shape
-    stands, under the seat and the tread, it is level.
+    The plane of a whole sole rolls with the arch, by a degree or two on a heeled last; where a
+    shape stands, under the seat and the tread, it is level.
     """
     height = across.points[:, :, 2]
     limit = lowest(height, across) + definition.band_height
@@ -363,7 +365,25 @@ def _tabulated(
     y, slope, _ = graph
     mean_slope = 0.5 * (slope[1:] + slope[:-1])
     arc = np.concatenate([[0.0], np.cumsum(np.hypot(1.0, mean_slope) * np.diff(_GRID))])
-    ends = projected(shape.tips, graph)
-    start, end = np.interp([ends.min(), ends.max()], _GRID, arc)
+    start, end = np.interp([_exit(shape, graph, at) for at in (_HEEL, _TOE)], _GRID, arc)
     length = float(end - start)
     return coefficients, _GRID, y, slope, (arc - start) / length, length
+
+
+def _exit(shape: BottomShape, graph: tuple[Floats, ...], at: float) -> float:
+    """The x at which the line, straight on from x = ``at``, leaves the shape.
+
+    It is cut exactly along the line: the outermost point of a square toe lies elsewhere, as
+    soon as the line points a degree or two aside.
+    """
+    y, slope = (float(np.interp(at, _GRID, values)) for values in graph[:2])
+    ahead = np.array([1.0, slope, 0.0]) / np.hypot(1.0, slope)
+    origin = np.array([at, y, 0.0])
+    aside = np.array([-ahead[1], ahead[0], 0.0])
+    corners = shape.tips.reshape(-1, 3)
+    plane = Planes(np.zeros(1), origin[None], aside[None])
+    numbers = np.arange(len(corners)).reshape(-1, 3)
+    cut = plane_sections(corners, numbers, (corners - origin) @ aside, plane).points.reshape(-1, 3)
+    reach = (cut - origin) @ ahead if len(cut) else (corners - origin) @ ahead
+    furthest = reach.max() if at > 0.5 else reach.min()
+    return at + float(furthest) * float(ahead[0])
