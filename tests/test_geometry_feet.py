@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from footfit.geometry.ends import boundary_points, missing_end
+from footfit.geometry.ends import missing_end, rims_of
 from footfit.geometry.feet import comparable, facing, gap, part_of, pieces, stand_apart
 from footfit.geometry.samples import quadrature
 from tests import distortions, shapes
@@ -56,17 +56,18 @@ def test_facing_of_a_sheet_and_of_a_half_sphere():
 def test_a_cut_end_is_missed(last, x, towards, missing):
     cut = distortions.plane_cut(*last, np.array([x, 0.0, 0.0]), np.array([towards, 0.0, 0.0]))
     sample = quadrature(*cut, 8.0)
-    assert missing_end(sample, boundary_points(*cut), 270.0) == missing
+    assert missing_end(sample, rims_of(*cut), 270.0) == missing
 
 
 def test_a_closed_cut_end_is_missed_too():
     vertices, faces = shapes.cube(1.0, 8)
     box = vertices * [200.0, 90.0, 60.0]
-    assert missing_end(quadrature(box, faces, 8.0), np.zeros((0, 3)), 270.0) == "heel"
+    assert missing_end(quadrature(box, faces, 8.0), [], 270.0) == "heel"
 
 
 @pytest.mark.parametrize("toe", ["round", "square", "pointed", "almond"])
 def test_whole_lasts_and_cut_legs_miss_nothing(toe):
     last = last_mesh(LastSpec(toe_shape=toe, rings=60, segments=48))
-    for mesh in (last, distortions.leg_cut(*last, 60.0)):
-        assert missing_end(quadrature(*mesh, 8.0), boundary_points(*mesh), 270.0) is None
+    holed = distortions.with_holes(*last, np.random.default_rng(0), 40, 7.0)
+    for mesh in (last, distortions.leg_cut(*last, 60.0), holed):
+        assert missing_end(quadrature(*mesh, 8.0), rims_of(*mesh), 270.0) is None

@@ -9,7 +9,7 @@ import numpy as np
 
 from footfit.geometry.arrays import Floats, Ints
 from footfit.geometry.samples import SurfaceSample
-from footfit.geometry.topology import boundary_edges
+from footfit.geometry.topology import boundary_loops
 
 
 @dataclass(frozen=True, slots=True)
@@ -28,7 +28,7 @@ ENDS = EndSettings()
 
 
 def missing_end(
-    sample: SurfaceSample, rim: Floats, length: float, settings: EndSettings = ENDS
+    sample: SurfaceSample, rims: list[Floats], length: float, settings: EndSettings = ENDS
 ) -> Literal["heel", "toes"] | None:
     """The end of a canonical shape that was cut off: closed by a flat face, or left open.
 
@@ -36,32 +36,34 @@ def missing_end(
     ----------
     sample : SurfaceSample
         The whole surface, canonical.
-    rim : (n, 3) float64
-        The mesh's boundary vertices, canonical; none for a closed mesh.
+    rims : list of (n, 3) float64
+        The mesh's boundary loops, canonical; none for a closed mesh.
     length : float
     """
     below = settings.height * length  # a leg's own cut is no end of the foot
-    rim = rim[rim[:, 2] < below]
-    low_points = sample.points[sample.points[:, 2] < below, 0]
-    low, high = low_points.min(), low_points.max()
+    low = sample.points[:, 2] < below
+    x = sample.points[:, 0]
+    back, front = float(x[low].min()), float(x[low].max())
+    flat = low & (np.abs(sample.normals[:, 0]) > settings.facing)
     reach = settings.reach * length
-    flat = (np.abs(sample.normals[:, 0]) > settings.facing) & (sample.points[:, 2] < below)
-    for name, near, near_rim in (
-        ("heel", sample.points[:, 0] < low + reach, rim[:, 0] < low + reach),
-        ("toes", sample.points[:, 0] > high - reach, rim[:, 0] > high - reach),
-    ):
-        closed = sample.areas[flat & near].sum() > settings.flat_area * length**2
-        if closed or _is_open(rim[near_rim], length, settings):
-            return "heel" if name == "heel" else "toes"
+    ends: tuple[tuple[Literal["heel", "toes"], float], ...] = (("heel", back), ("toes", front))
+    for name, end in ends:
+        closed = sample.areas[flat & (np.abs(x - end) < reach)].sum()
+        if closed > settings.flat_area * length**2:
+            return name
+        near = [rim[(np.abs(rim[:, 0] - end) < reach) & (rim[:, 2] < below)] for rim in rims]
+        if any(_is_open(part, length, settings) for part in near):
+            return name
     return None
 
 
-def boundary_points(vertices: Floats, faces: Ints) -> Floats:
-    """The vertices (k, 3) on the boundary."""
-    return np.asarray(vertices[np.unique(boundary_edges(faces))])
+def rims_of(vertices: Floats, faces: Ints) -> list[Floats]:
+    """The points (k, 3) of each boundary loop."""
+    return [vertices[loop] for loop in boundary_loops(faces)]
 
 
 def _is_open(rim: Floats, length: float, settings: EndSettings) -> bool:
+    """Whether a loop's part near an end is as large as the end: a hole in the heel is not."""
     if len(rim) == 0:
         return False
     _, width, height = np.ptp(rim, axis=0)

@@ -23,7 +23,7 @@ class PlateSettings:
     parallel: float = 0.95
     area_share: float = 0.10
     cut: float = 0.02
-    flat: float = 0.02
+    flat: float = 0.04  # thickness over length of a piece that is a plate by itself
 
 
 PLATE = PlateSettings()

@@ -8,7 +8,7 @@ from typing import Literal
 from footfit.errors import HalfScan, ImplausibleSize, NoReference, UnknownUnits
 from footfit.geometry import wpca
 from footfit.geometry.arrays import Floats, Ints
-from footfit.geometry.ends import boundary_points, missing_end
+from footfit.geometry.ends import missing_end, rims_of
 from footfit.geometry.frame import canonical_frame, length_of, turned_sample
 from footfit.geometry.moments import (
     principal_axes,
@@ -205,8 +205,8 @@ class _Framed:
 
 def _refuse_half(shape: Posed, frame: _Framed) -> None:
     """Raise HalfScan where an end was cut off, since length and flare would be another's."""
-    rim = boundary_points(frame.points, shape.faces)
-    missing = missing_end(frame.surface, rim, frame.length)
+    rims = rims_of(frame.points, shape.faces)
+    missing = missing_end(frame.surface, rims, frame.length)
     if missing is not None:
         raise HalfScan(f"no {missing}: the surface ends there in a cut; scan the whole foot")
 
