@@ -1,0 +1,285 @@
+"""Shoe sizes from a foot's length, and a last's label against its geometry.
+
+Sources: [iso9407] for Mondopoint, [iso19407] for the conversions; ``docs/fit.md`` has the table.
+A size is ``(foot length + base) / step``. Lasts are longer than the feet they are for: the
+allowance is part of the system, since labels grew with the lasts.
+"""
+
+from __future__ import annotations
+
+import math
+import re
+from dataclasses import dataclass
+
+PARIS_POINT_MM = 20.0 / 3.0
+BARLEYCORN_MM = 25.4 / 3.0
+LABEL_TOLERANCE_SIZES = 1.0
+"""A label further from its length than this is said to be off."""
+
+
+@dataclass(frozen=True, slots=True)
+class SizeSystem:
+    """One system: ``exact = (foot length - zero_mm) / step_mm``.
+
+    ``grid`` is the step in which sizes are sold, ``child_below`` the size under which it is a
+    child's; ``child_add`` is what a child's own numbering is ahead by, None where there is one
+    scale for all. ``least`` and ``largest`` bound what is made. ``allowance_mm`` is how much longer
+    a last of the size is than the foot, from and to. ``numbers_per_size`` is how far apart the
+    labels of two whole sizes are.
+    """
+
+    name: str
+    title: str
+    step_mm: float
+    zero_mm: float
+    grid: float
+    child_below: float
+    child_add: float | None
+    least: float
+    largest: float
+    allowance_mm: tuple[float, float]
+    numbers_per_size: float = 1.0
+
+
+def _barleycorns(name: str, title: str, zero: float, adult: float, add: float) -> SizeSystem:
+    """A system of thirds of an inch: size = 3 FL_in - ``zero``; last = foot + 2 sizes."""
+    return SizeSystem(
+        name=name,
+        title=title,
+        step_mm=BARLEYCORN_MM,
+        zero_mm=zero * BARLEYCORN_MM,
+        grid=0.5,
+        child_below=adult,
+        child_add=add,
+        least=adult - 13.0,
+        largest=adult + 15.0,
+        allowance_mm=(2.0 * BARLEYCORN_MM, 2.0 * BARLEYCORN_MM),  # 16.9 mm
+    )
+
+
+_EU_ALLOWANCE_MM = 2.0 * PARIS_POINT_MM  # 13.3: size = 1.5 FL_cm + 2 = 1.5 (last length in cm)
+SYSTEMS: dict[str, SizeSystem] = {
+    system.name: system
+    for system in (
+        SizeSystem(
+            name="eu",
+            title="EU",
+            step_mm=PARIS_POINT_MM,
+            zero_mm=-_EU_ALLOWANCE_MM,
+            grid=1.0,
+            child_below=35.0,
+            child_add=None,
+            least=16.0,
+            largest=52.0,
+            allowance_mm=(_EU_ALLOWANCE_MM, _EU_ALLOWANCE_MM),
+        ),
+        _barleycorns("uk", "UK", zero=23.0, adult=1.0, add=13.0),
+        _barleycorns("us-men", "US men", zero=22.0, adult=1.0, add=13.0),
+        _barleycorns("us-women", "US women", zero=20.5, adult=2.5, add=11.5),
+        _barleycorns("us-women-fia", "US women (FIA)", zero=21.0, adult=2.0, add=12.0),
+        SizeSystem(
+            name="mondopoint",
+            title="Mondopoint",
+            step_mm=1.0,
+            zero_mm=0.0,
+            grid=5.0,
+            child_below=220.0,
+            child_add=None,
+            least=95.0,
+            largest=345.0,
+            allowance_mm=(10.0, 17.0),  # the label is the foot's length; the last's is the maker's
+            numbers_per_size=5.0,
+        ),
+    )
+}
+ALIASES = {"us": "us-men", "fr": "eu", "paris": "eu", "mondo": "mondopoint", "gb": "uk"}
+
+
+@dataclass(frozen=True, slots=True)
+class Size:
+    """A foot's size in one system.
+
+    ``exact`` is the formula's number, ``nearest`` the size as sold, in ``words``; ``beside`` are
+    the next smaller and larger, in words. ``within`` False: the system has no such size.
+    """
+
+    system: str
+    exact: float
+    nearest: float
+    words: str
+    beside: tuple[str, str]
+    child: bool
+    within: bool
+
+
+@dataclass(frozen=True, slots=True)
+class LabelCheck:
+    """A last's label against its length: ``by_length`` is the size that its length has, ``off``
+    the label minus that in whole sizes; + is labelled larger than it is.
+    """
+
+    system: str
+    by_length: float
+    off: float
+
+    @property
+    def flagged(self) -> bool:
+        """Is the label more than a size from the geometry?"""
+        return abs(self.off) > LABEL_TOLERANCE_SIZES
+
+
+def system_named(name: str | None) -> SizeSystem | None:
+    """The system of that name or alias, in any case; None for one that is not known.
+
+    Examples
+    --------
+    >>> system_named("EU").title, system_named("US_Men").title, system_named("shop's own")
+    ('EU', 'US men', None)
+    """
+    if name is None:
+        return None
+    plain = "-".join(name.casefold().replace("_", " ").replace("-", " ").split())
+    return SYSTEMS.get(ALIASES.get(plain, plain))
+
+
+def exact_size(foot_length_mm: float, system: SizeSystem) -> float:
+    """The formula's number, unrounded, on the adults' scale.
+
+    Examples
+    --------
+    >>> round(exact_size(260.0, SYSTEMS["eu"]), 3)  # 1.5 x 26 + 2
+    41.0
+    >>> round(exact_size(254.0, SYSTEMS["uk"]), 3)  # 3 x 10 - 23
+    7.0
+    """
+    return (foot_length_mm - system.zero_mm) / system.step_mm
+
+
+def foot_size(foot_length_mm: float, system: SizeSystem) -> Size:
+    """The nearest size of a foot, with the two beside it.
+
+    Examples
+    --------
+    >>> size = foot_size(261.0, SYSTEMS["eu"])
+    >>> size.words, size.beside
+    ('EU 41', ('EU 40', 'EU 42'))
+    >>> foot_size(180.0, SYSTEMS["uk"]).words
+    "UK child's 11.5"
+    >>> foot_size(365.0, SYSTEMS["eu"]).words
+    'over EU 52, the largest made'
+    """
+    exact = exact_size(foot_length_mm, system)
+    steps = _nearest_step(exact, system.grid)
+    nearest = steps * system.grid
+    return Size(
+        system=system.name,
+        exact=exact,
+        nearest=nearest,
+        words=size_words(nearest, system),
+        beside=(
+            size_words(nearest - system.grid, system),
+            size_words(nearest + system.grid, system),
+        ),
+        child=nearest < system.child_below,
+        within=system.least <= nearest <= system.largest,
+    )
+
+
+def _nearest_step(exact: float, grid: float) -> int:
+    """The nearest whole number of steps; half-way goes up, since a shoe is better long."""
+    return math.floor(exact / grid + 0.5 + 1e-9)
+
+
+def foot_sizes(foot_length_mm: float) -> tuple[Size, ...]:
+    """A foot's size in every system."""
+    return tuple(foot_size(foot_length_mm, system) for system in SYSTEMS.values())
+
+
+def size_words(size: float, system: SizeSystem) -> str:
+    """A size on the adults' scale in words, children's in their own numbers.
+
+    Examples
+    --------
+    >>> size_words(41.0, SYSTEMS["eu"]), size_words(33.0, SYSTEMS["eu"])
+    ('EU 41', "EU child's 33")
+    >>> size_words(7.5, SYSTEMS["us-men"]), size_words(0.5, SYSTEMS["uk"])
+    ('US men 7.5', "UK child's 13.5")
+    """
+    if size < system.least:
+        return f"under {system.title} child's {_number(_own(system.least, system))}, the least made"
+    if size > system.largest:
+        return f"over {system.title} {_number(system.largest)}, the largest made"
+    if size >= system.child_below:
+        return f"{system.title} {_number(size)}"
+    return f"{system.title} child's {_number(_own(size, system))}"
+
+
+def _own(size: float, system: SizeSystem) -> float:
+    """A child's size in the children's own numbers."""
+    return size + (system.child_add or 0.0)
+
+
+def _number(size: float) -> str:
+    return f"{size:g}"
+
+
+_LABEL = re.compile(r"\s*(\d+(?:[.,]\d+)?)\s*(1/2|½)?\s*([cky])?\s*", re.IGNORECASE)
+
+
+def label_check(
+    label: str | None, system_name: str | None, last_length_mm: float
+) -> LabelCheck | None:
+    """A last's label against its length; None where the label or its system says no number.
+
+    A label that can be an adult's or a child's counts as the one that is nearer to the length.
+
+    Examples
+    --------
+    >>> check = label_check("42", "eu", 280.0)
+    >>> round(check.by_length, 2), round(check.off, 2), check.flagged
+    (42.0, 0.0, False)
+    >>> label_check("38", "eu", 280.0).flagged, label_check("large", "eu", 280.0)
+    (True, None)
+    """
+    system, size = system_named(system_name), _labelled(label)
+    if system is None or size is None:
+        return None
+    value, child = size
+    meant = [] if child else [value]
+    if system.child_add is not None:
+        meant.append(value - system.child_add)
+    elif child:
+        meant.append(value)
+    least, most = (
+        exact_size(last_length_mm - room, system) for room in reversed(system.allowance_mm)
+    )
+    by_length = {one: min(max(one, least), most) for one in meant}
+    nearest = min(meant, key=lambda one: (abs(one - by_length[one]), one))
+    off = (nearest - by_length[nearest]) / system.numbers_per_size
+    return LabelCheck(system.name, by_length[nearest], off)
+
+
+def _labelled(label: str | None) -> tuple[float, bool] | None:
+    """The number of a label, and whether it says that it is a child's (12C, 12K)."""
+    found = _LABEL.fullmatch(label or "")
+    if found is None:
+        return None
+    number = float(found[1].replace(",", ".")) + (0.5 if found[2] else 0.0)
+    return number, (found[3] or "").lower() in ("c", "k")
+
+
+def label_words(check: LabelCheck) -> str:
+    """What a label that is off should say.
+
+    Examples
+    --------
+    >>> label_words(LabelCheck("eu", 42.04, -4.04))
+    'labelled 4.0 sizes smaller than its length: it is EU 42 by its length'
+    """
+    system = SYSTEMS[check.system]
+    nearest = _nearest_step(check.by_length, system.grid) * system.grid
+    word = "larger" if check.off > 0 else "smaller"
+    return (
+        f"labelled {abs(check.off):.1f} sizes {word} than its length: "
+        f"it is {size_words(nearest, system)} by its length"
+    )
