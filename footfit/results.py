@@ -17,6 +17,7 @@ SideName = Literal["left", "right"]
 Confidence = Literal["sure", "low", "undecided"]
 Method = Literal["footfit", "paper", "paper-literal"]
 SearchBy = Literal["fit", "flare", "shape"]
+Verdict = Literal["good", "acceptable", "poor", "reject"]
 
 
 @dataclass(frozen=True, slots=True)
@@ -296,6 +297,73 @@ class CatalogueFacts:
     worst_copy_error_mm: float | None
 
 
+# ---------------------------------------------------------------- fit
+
+
+@dataclass(frozen=True, slots=True)
+class ZoneRule:
+    """What a fit profile asks of one zone, in the zone's unit; a clearance is last minus foot.
+
+    ``good`` holds ``target``, ``acceptable`` holds ``good``, ``poor`` holds ``acceptable``; what is
+    outside of ``poor`` is a reject, None never is one. ``weight`` counts in the distance; 0 shows
+    the zone and judges nothing by it. Without a ``required`` zone no last is good. ``cavity`` is
+    what lining, insole and counter take from the last, and is taken off first.
+    """
+
+    zone: str
+    target: float
+    good: tuple[float, float]
+    acceptable: tuple[float, float]
+    poor: tuple[float, float] | None
+    weight: float
+    required: bool
+    cavity: float
+
+
+@dataclass(frozen=True, slots=True)
+class FitProfile:
+    """What kind of shoe is fitted: a rule for each zone, in the order in which they are judged.
+
+    ``sha256`` is of the values, not of the file: a comment changes nothing. Two distances that
+    differ by at most ``tie_sds`` standard deviations of their difference are a tie.
+    """
+
+    name: str
+    version: int
+    summary: str
+    tie_sds: float
+    zones: tuple[ZoneRule, ...]
+    sha256: str
+
+
+@dataclass(frozen=True, slots=True)
+class ZoneFit:
+    """One foot in one zone of a last.
+
+    ``clearance`` is in ``unit``, ``target`` what the profile asks, ``score`` 0 at the target and
+    1 at the edge of good, - tight and + loose. ``verdict`` and ``score`` are None where the
+    clearance is not measured. ``counts`` False: another foot of the pair governs this zone, or
+    its weight is 0.
+    """
+
+    zone: str
+    unit: str
+    clearance: Measured
+    target: float
+    score: float | None
+    verdict: Verdict | None
+    counts: bool
+
+
+@dataclass(frozen=True, slots=True)
+class FootFit:
+    """One foot of the customer in one last; ``verdict`` is the worst of the zones that count."""
+
+    side: SideName | None
+    verdict: Verdict
+    zones: tuple[ZoneFit, ...]
+
+
 # ---------------------------------------------------------------- match
 
 
@@ -327,11 +395,18 @@ class Candidate:
     why: str
     tied_with: tuple[str, ...]
     record: LastRecord
+    distance_sd: float | None = None
+    fits: tuple[FootFit, ...] = ()
+    not_judged: tuple[str, ...] = ()
 
 
 @dataclass(frozen=True, slots=True)
 class Match:
-    """One customer's answer: one foot, or two with ``--pair``."""
+    """One customer's answer: one foot, or two with ``--pair``.
+
+    ``nearest`` are the lasts that come nearest where none fits. ``size_system`` is the one that
+    was asked for.
+    """
 
     feet: tuple[Profiled, ...]
     by: SearchBy
@@ -341,6 +416,9 @@ class Match:
     candidates: tuple[Candidate, ...]
     rejected: tuple[tuple[str, int], ...]
     warnings: tuple[Notice, ...]
+    fit_profile: FitProfile | None = None
+    nearest: tuple[Candidate, ...] = ()
+    size_system: str | None = None
 
 
 # ---------------------------------------------------------------- library
@@ -366,3 +444,50 @@ class DemoOutcome:
     lasts: int
     best: str | None
     outputs: tuple[str, ...]
+
+
+# ---------------------------------------------------------------- upkeep
+
+
+@dataclass(frozen=True, slots=True)
+class Finding:
+    """One thing in a catalogue that is not as it must be.
+
+    ``last`` names the last it is about, if any. ``damage`` False: nothing is lost and a command
+    mends it (an older profile); the message names the command.
+    """
+
+    code: str
+    message: str
+    last: str | None = None
+    damage: bool = True
+
+
+@dataclass(frozen=True, slots=True)
+class CheckOutcome:
+    """What ``check-catalogue`` looked at, and what it found; nothing in a sound catalogue."""
+
+    path: str
+    lasts: int
+    mesh_copies: int
+    findings: tuple[Finding, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class BackupOutcome:
+    """A verified copy: where it lies, its size and how many lasts it holds."""
+
+    path: str
+    backup: str
+    bytes: int
+    lasts: int
+
+
+@dataclass(frozen=True, slots=True)
+class RestoreOutcome:
+    """A catalogue as its backup had it; ``kept`` is where the one before lies, if there was one."""
+
+    path: str
+    backup: str
+    lasts: int
+    kept: str | None

@@ -17,14 +17,26 @@ from hypothesis import strategies as st
 
 from footfit import __version__
 from footfit.errors import SeveralFeet
-from footfit.report import documents, last_documents
+from footfit.report import documents, last_documents, upkeep
 from footfit.report.lines import failure_document
 from footfit.report.numbers import nested, rounded
 from footfit.report.parts import finite, paper_frame_angle_deg
-from footfit.results import Measured, MeshCopy, Notice, UpgradeOutcome
+from footfit.results import (
+    BackupOutcome,
+    CheckOutcome,
+    Finding,
+    Measured,
+    MeshCopy,
+    Notice,
+    RestoreOutcome,
+    UpgradeOutcome,
+)
 from tests import answers
 
 PAGE = Path(__file__).resolve().parents[1] / "docs" / "json.md"
+
+
+FINDING = Finding("last", "its rows are not what was stored", "derby-42")
 
 
 def every_document():
@@ -47,6 +59,9 @@ def every_document():
         last_documents.export_last_document("a", "a.stl", MeshCopy(b"", 10, 0.1)),
         last_documents.catalogue_info_document(answers.facts()),
         last_documents.upgrade_catalogue_document(upgrade),
+        upkeep.check_catalogue_document(CheckOutcome("a.footfit", 12, 12, (FINDING,))),
+        upkeep.backup_catalogue_document(BackupOutcome("a.footfit", "b.footfit", 9, 12)),
+        upkeep.restore_catalogue_document(RestoreOutcome("a.footfit", "b.footfit", 12, None)),
         last_documents.demo_document("demo", 12, "derby-42", ["report.html"]),
     ]
 
@@ -90,6 +105,8 @@ def test_the_page_lists_the_keys_of_every_part() -> None:
     assert set(candidate["clearance_mm"]["length"]) == listed["measured value"]
     lasts = last_documents.list_lasts_document([answers.record()], None)["lasts"]
     assert set(lasts[0]) == listed["last"]
+    checked = upkeep.check_catalogue_document(CheckOutcome("a.footfit", 1, 1, (FINDING,)))
+    assert set(checked["findings"][0]) == listed["finding"]
 
 
 def test_an_error_says_the_same_by_its_class_and_by_its_words() -> None:

@@ -4,11 +4,13 @@ from __future__ import annotations
 
 import sqlite3
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass
 
 import numpy as np
 
-from footfit.catalogue.blobs import array_of
+from footfit.catalogue.blobs import array_of, definition_text
+from footfit.catalogue.migrate import Schema
+from footfit.catalogue.objects import expected_objects, stored_objects
+from footfit.catalogue.ranges import implausible
 from footfit.catalogue.reading import (
     StoredLast,
     hashed_row,
@@ -18,30 +20,23 @@ from footfit.catalogue.reading import (
 )
 from footfit.catalogue.references import expressed, stored_reference
 from footfit.errors import CatalogueDamaged
+from footfit.geometry.flare import FlareDefinition
+from footfit.results import Finding
 
 TRANSFORM_TOLERANCE = 1e-9
 """Relative; a paper transform computed on another machine may differ in its last bits."""
 
 
-@dataclass(frozen=True, slots=True)
-class Finding:
-    """One thing that is not as it was stored; ``last`` names the last it is about, if any."""
-
-    code: str
-    message: str
-    last: str | None = None
-
-
 Check = Callable[[sqlite3.Connection], Iterator[Finding]]
 
 
-def findings(connection: sqlite3.Connection) -> list[Finding]:
-    """What all checks find; empty for a sound catalogue.
+def findings(connection: sqlite3.Connection, schema: Schema) -> list[Finding]:
+    """What all checks find; empty for a sound catalogue whose tables are those of ``schema``.
 
     A check that SQLite cannot carry out, because a page is unreadable, is a finding itself.
     """
     found: list[Finding] = []
-    for check in CHECKS:
+    for check in (_objects(schema), *CHECKS):
         try:
             found.extend(check(connection))
         except (sqlite3.DatabaseError, UnicodeDecodeError) as error:
@@ -58,7 +53,10 @@ def _marks(connection: sqlite3.Connection) -> Iterator[Finding]:
         yield Finding("schema_mirror", f"user_version is {mirror} and the schema is {revision!r}")
     (mode,) = connection.execute("PRAGMA journal_mode").fetchone()
     if mode != "delete":
-        yield Finding("journal_mode", f"the journal is {mode!r}: a copy of the file may lack data")
+        words = (
+            f"the journal is {mode!r}: a copy of the file may lack data; the next write mends it"
+        )
+        yield Finding("journal_mode", words, damage=False)
 
 
 def _pages(connection: sqlite3.Connection) -> Iterator[Finding]:
@@ -67,14 +65,21 @@ def _pages(connection: sqlite3.Connection) -> Iterator[Finding]:
             yield Finding("integrity", " ".join(str(line).split()))
 
 
-def _columns(connection: sqlite3.Connection) -> Iterator[Finding]:
-    """The text of the schema is bytes of the file too."""
-    from footfit.catalogue.schema import Base
+def _objects(schema: Schema) -> Check:
+    """The text of the schema is bytes of the file too, and what it says is obeyed."""
 
-    for name, table in Base.metadata.tables.items():
-        stored = {row[1] for row in connection.execute(f"PRAGMA table_info({name})")}
-        for column in sorted(set(table.columns.keys()) - stored):
-            yield Finding("column", f"the table {name} lacks the column {column}")
+    def check(connection: sqlite3.Connection) -> Iterator[Finding]:
+        stored, expected = stored_objects(connection), expected_objects(schema)
+        for key in sorted(stored.keys() | expected.keys()):
+            kind, name = key
+            if key not in stored:
+                yield Finding("schema", f"the {kind} {name} is missing")
+            elif key not in expected:
+                yield Finding("schema", f"the {kind} {name} is not footfit's")
+            elif stored[key] != expected[key]:
+                yield Finding("schema", f"the {kind} {name} is not as footfit makes it")
+
+    return check
 
 
 def _keys(connection: sqlite3.Connection) -> Iterator[Finding]:
@@ -86,6 +91,19 @@ def _lasts(connection: sqlite3.Connection) -> Iterator[Finding]:
     for stored in stored_lasts(connection):
         if not stored.intact:
             yield Finding("last", "its rows are not what was stored", stored.name)
+            continue
+        for words in implausible(stored):
+            yield Finding("range", words, stored.name)
+
+
+def _definitions(connection: sqlite3.Connection) -> Iterator[Finding]:
+    """A profile of another definition is whole, and cannot be ranked."""
+    current = definition_text(FlareDefinition())
+    for stored in stored_lasts(connection):
+        if stored.flare is not None and stored.flare.get("definition") != current:
+            version = stored.flare.get("definition_version")
+            words = f"its profile follows {version!r}; type: footfit upgrade-catalogue"
+            yield Finding("definition", words, stored.name, damage=False)
 
 
 def _mesh_copies(connection: sqlite3.Connection) -> Iterator[Finding]:
@@ -117,5 +135,15 @@ def _agrees(stored: StoredLast, transform: np.ndarray) -> bool:
     )
 
 
-CHECKS: tuple[Check, ...] = (_marks, _columns, _pages, _keys, _lasts, _mesh_copies, _reference)
-"""All checks, in the order of their findings; a new one is one more function here."""
+CHECKS: tuple[Check, ...] = (
+    _marks,
+    _pages,
+    _keys,
+    _lasts,
+    _definitions,
+    _mesh_copies,
+    _reference,
+)
+"""All checks but that of the schema, in the order of their findings; a new one is one more
+function here.
+"""

@@ -9,6 +9,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from footfit.catalogue.copying import copy_into, settled
 from footfit.catalogue.engine import connected, engine_on
 from footfit.catalogue.marks import MARKS
 from footfit.errors import (
@@ -40,6 +41,10 @@ class Schema:
     def head(self) -> str:
         """The newest revision."""
         return self.revisions[-1]
+
+    def up_to(self, revision: str) -> Schema:
+        """The schema as it was when ``revision`` was its head."""
+        return Schema(self.revisions[: self.revisions.index(revision) + 1], self.folder)
 
 
 @dataclass(frozen=True, slots=True)
@@ -172,9 +177,8 @@ def _copy_beside(path: Path, revision: str, busy_timeout_s: float) -> Path:
     partial = final.with_name(final.name + ".partial")
     try:
         partial.unlink(missing_ok=True)
-        with closing(connected(path, "ro", busy_timeout_s)) as reader:
-            reader.execute("VACUUM INTO ?", (str(partial),))
-        partial.replace(final)
+        copy_into(path, partial, busy_timeout_s)
+        settled(partial, final, replace=True)
     except OSError as error:
         raise CatalogueNotWritable(
             f"could not be copied before its upgrade ({error.strerror})", str(path)

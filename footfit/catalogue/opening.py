@@ -21,9 +21,11 @@ NOTHING_THERE = "there is no catalogue; type: footfit ingest-last FOLDER, or try
 
 
 def opened_for_reading(
-    path: Path, schema: Schema, busy_timeout_s: float
+    path: Path, schema: Schema, busy_timeout_s: float, *, older: bool = False
 ) -> tuple[CatalogueFile, Revisions]:
     """An existing catalogue, read-only; nothing is created, also not beside it.
+
+    ``older`` accepts one of an older schema, to be checked or copied as it is.
 
     Raises
     ------
@@ -39,11 +41,13 @@ def opened_for_reading(
             raise NoCatalogue(NOTHING_THERE, str(path))
         connection = connected_for_reading(path, busy_timeout_s)
         try:
-            require_current(connection, schema, path)
+            if not older:
+                require_current(connection, schema, path)
+            revision = stored_revision(connection, schema, path)
         except BaseException:
             connection.close()
             raise
-    return CatalogueFile(path, connection, writable=False), Revisions(schema.head, schema.head)
+    return CatalogueFile(path, connection, writable=False), Revisions(revision, revision)
 
 
 def opened_for_writing(

@@ -6,8 +6,9 @@ from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from pathlib import Path
 
-from footfit.catalogue.damage import Finding, findings
-from footfit.catalogue.engine import SETTINGS, CatalogueFile
+from footfit.catalogue.copying import copy_into
+from footfit.catalogue.damage import findings
+from footfit.catalogue.engine import SETTINGS, CatalogueFile, worded
 from footfit.catalogue.facts import facts
 from footfit.catalogue.migrate import Revisions, Schema
 from footfit.catalogue.opening import opened_for_reading, opened_for_writing
@@ -24,7 +25,7 @@ from footfit.catalogue.references import make_reference, stored_reference
 from footfit.catalogue.search import Filters, Range, SearchRows, all_records, search_rows
 from footfit.errors import CatalogueDamaged, UnknownLast
 from footfit.geometry.flare import FlareProfile
-from footfit.results import CatalogueFacts, LastRecord, Measure, MeshCopy, Reference
+from footfit.results import CatalogueFacts, Finding, LastRecord, Measure, MeshCopy, Reference
 
 
 @contextmanager
@@ -33,14 +34,16 @@ def open_catalogue(
     *,
     write: bool = False,
     create: bool = True,
+    older: bool = False,
     busy_timeout_s: float = SETTINGS.busy_timeout_s,
     schema: Schema | None = None,
 ) -> Iterator[Catalogue]:
     """A catalogue for the length of a ``with`` block.
 
-    For reading nothing is ever made or changed. For writing a missing catalogue is made, with
-    its folder, unless ``create`` is False; an older one is upgraded after a copy was laid
-    beside it (``Catalogue.revisions``).
+    For reading nothing is ever made or changed; ``older`` also takes one of an older schema, as
+    far as :meth:`Catalogue.findings` and :meth:`Catalogue.copy_to` go. For writing a missing
+    catalogue is made, with its folder, unless ``create`` is False; an older one is upgraded
+    after a copy was laid beside it (``Catalogue.revisions``).
 
     Raises
     ------
@@ -53,9 +56,9 @@ def open_catalogue(
     if write:
         file, revisions = opened_for_writing(place, schema, busy_timeout_s, may_create=create)
     else:
-        file, revisions = opened_for_reading(place, schema, busy_timeout_s)
+        file, revisions = opened_for_reading(place, schema, busy_timeout_s, older=older)
     try:
-        yield Catalogue(file, revisions)
+        yield Catalogue(file, revisions, schema.up_to(revisions.after), busy_timeout_s)
     finally:
         file.close()
 
@@ -66,9 +69,13 @@ class Catalogue:
     Every verb may raise ``CatalogueUnusable``'s leaves (locked, not writable, damaged).
     """
 
-    def __init__(self, file: CatalogueFile, revisions: Revisions) -> None:
+    def __init__(
+        self, file: CatalogueFile, revisions: Revisions, schema: Schema, busy_timeout_s: float
+    ) -> None:
         self.file = file
         self.revisions = revisions
+        self._schema = schema
+        self._busy_timeout_s = busy_timeout_s
 
     # ------------------------------------------------------------ reading
 
@@ -143,6 +150,13 @@ class Catalogue:
             )
         return mesh_copy_of(found[0])
 
+    def mesh_copy_names(self) -> tuple[str, ...]:
+        """The names of the lasts that have a mesh copy, damaged or not, sorted."""
+        with self.file.reading() as connection:
+            names = last_names(connection)
+            owners = connection.execute("SELECT last_id FROM mesh_copy").fetchall()
+            return tuple(sorted(str(names.get(owner, "?")) for (owner,) in owners))
+
     def facts(self) -> CatalogueFacts:
         """What the catalogue is and holds."""
         with self.file.reading() as connection:
@@ -151,7 +165,18 @@ class Catalogue:
     def findings(self) -> list[Finding]:
         """Everything that is not as it was stored."""
         with self.file.reading() as connection:
-            return findings(connection)
+            return findings(connection, self._schema)
+
+    def copy_to(self, target: Path) -> None:
+        """Write a whole copy of this moment to ``target``, a missing or empty file.
+
+        Raises
+        ------
+        CatalogueDamaged, CatalogueNotWritable, CatalogueLocked
+            The catalogue cannot be read, or the copy not be written.
+        """
+        with worded(self.file.path):
+            copy_into(self.file.path, target, self._busy_timeout_s)
 
     # ------------------------------------------------------------ writing
 

@@ -11,10 +11,12 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, Generic, TypeVar
 
 from footfit.pipeline.match import Library
-from footfit.report import documents, last_documents, last_tables, tables
+from footfit.report import documents, last_documents, last_tables, tables, upkeep
 from footfit.results import (
     AlignedScan,
+    BackupOutcome,
     CatalogueFacts,
+    CheckOutcome,
     DemoOutcome,
     IngestOutcome,
     LastRecord,
@@ -23,6 +25,7 @@ from footfit.results import (
     Notice,
     Profiled,
     Reference,
+    RestoreOutcome,
     SurfaceCurvature,
     UpgradeOutcome,
 )
@@ -104,6 +107,18 @@ CATALOGUE_INFO: Answer[CatalogueFacts] = Answer(
 UPGRADE_CATALOGUE: Answer[UpgradeOutcome] = Answer(
     last_documents.upgrade_catalogue_document,
     last_tables.upgrade_catalogue_line,
+)
+CHECK_CATALOGUE: Answer[CheckOutcome] = Answer(
+    upkeep.check_catalogue_document,
+    upkeep.check_catalogue_table,
+)
+BACKUP_CATALOGUE: Answer[BackupOutcome] = Answer(
+    upkeep.backup_catalogue_document,
+    upkeep.backup_catalogue_line,
+)
+RESTORE_CATALOGUE: Answer[RestoreOutcome] = Answer(
+    upkeep.restore_catalogue_document,
+    upkeep.restore_catalogue_table,
 )
 DEMO: Answer[DemoOutcome] = Answer(
     lambda demo: last_documents.demo_document(demo.folder, demo.lasts, demo.best, demo.outputs),

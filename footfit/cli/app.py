@@ -9,8 +9,10 @@ import typer
 
 from footfit import __version__
 from footfit.cli.align import align
+from footfit.cli.backup_catalogue import backup_catalogue
 from footfit.cli.boundary import guarded
 from footfit.cli.catalogue_info import catalogue_info
+from footfit.cli.check_catalogue import check_catalogue
 from footfit.cli.curvature import curvature
 from footfit.cli.demo import demo
 from footfit.cli.export_last import export_last
@@ -20,6 +22,7 @@ from footfit.cli.list_lasts import list_lasts
 from footfit.cli.match import match
 from footfit.cli.remove_last import remove_last
 from footfit.cli.rename_last import rename_last
+from footfit.cli.restore_catalogue import restore_catalogue
 from footfit.cli.set_reference import set_reference
 from footfit.cli.settings import one_blas_thread
 from footfit.cli.show_last import show_last
@@ -41,6 +44,9 @@ COMMANDS = (
     ("remove-last", remove_last, LIBRARY),
     ("export-last", export_last, LIBRARY),
     ("catalogue-info", catalogue_info, LIBRARY),
+    ("check-catalogue", check_catalogue, LIBRARY),
+    ("backup-catalogue", backup_catalogue, LIBRARY),
+    ("restore-catalogue", restore_catalogue, LIBRARY),
     ("upgrade-catalogue", upgrade_catalogue, LIBRARY),
 )
 """Every command: its name, its function, its panel in the help."""
