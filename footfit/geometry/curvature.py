@@ -32,7 +32,7 @@ class PoolingSettings:
 
     radius_over_deviation
         The radius in standard deviations of the pooling weights; 95 % of the weight lies inside
-        the radius at 2.45, 97 % at 2.6.
+        the radius at 2.45, 97 % at 2.7.
     side_over_radius
         Sides longer than this share of the radius are split where they lie in a flat facet: it
         has no vertices of its own to pool.
@@ -44,10 +44,10 @@ class PoolingSettings:
         than this, one curvature cannot be told: NaN.
     """
 
-    radius_over_deviation: float = 2.6
+    radius_over_deviation: float = 2.7
     side_over_radius: float = 0.5
     rounds: int = 2
-    arc_most: float = 1.0
+    arc_most: float = 0.2
     flattest: float = 1e-6
 
 
@@ -195,7 +195,7 @@ def pooled_curvature(
     1/R on a circle: a concentrated curvature over its length. One ring of them drowns in a scan's
     noise. Here n_q - n = S (q - c) is fitted over the neighbourhood by least squares in the tangent
     plane, S symmetric; k1 and k2 are its eigenvalues. The weights are those of heat
-    (:mod:`footfit.geometry.diffusion`) with standard deviation radius / 2.6; n, c and the tangent
+    (:mod:`footfit.geometry.diffusion`) with standard deviation radius / 2.7; n, c and the tangent
     plane are the pooled ones, so that p's own noise counts no more than its neighbours'. Spheres
     and cylinders come out exactly for any radius, up to the mesh.
 
@@ -209,7 +209,7 @@ def pooled_curvature(
         (:mod:`footfit.geometry.refinement`). More than some 25 edges: cut to that.
     subset : (n,) bool, optional
         Where the curvature is wanted, NaN elsewhere; only what it needs is worked on, and the
-        values are those of the whole mesh to about 1e-5 / radius.
+        values are those of the whole mesh.
 
     Returns
     -------

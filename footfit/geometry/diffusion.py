@@ -32,20 +32,16 @@ class DiffusionSettings:
         slivers) are slowed to it.
     reach_least
         t times the rate of every vertex is at least this: the nearest ring is always seen.
-    rings_over_degree
-        A polynomial reaches as many rings as its degree; next to nothing comes from beyond this
-        share of them.
     cotangent_least
         Obtuse corners would give negative weights: cotangents are at least this.
     """
 
-    tolerance: float = 1e-2
+    tolerance: float = 3e-3
     degree_most: int = 64
     nodes: int = 160
     crowding_quantile: float = 0.9
-    crowding: float = 2.0
+    crowding: float = 1.2
     reach_least: float = 0.25
-    rings_over_degree: float = 0.6
     cotangent_least: float = 0.05
 
 
@@ -82,7 +78,8 @@ def diffusion(
     deviation : float
         In the coordinates' unit, > 0.
     subset : (n,) bool, optional
-        Where pooled values are wanted: the operator works there and on the rings that matter.
+        Where pooled values are wanted. A polynomial of degree k reaches k rings: the operator
+        works on so many around the subset, where its values are those of the whole mesh.
 
     Notes
     -----
@@ -100,8 +97,7 @@ def diffusion(
     coefficients = _heat_coefficients(time * bound)
     kept = np.ones(n, dtype=bool)
     if subset is not None:
-        rings = int(np.ceil(SETTINGS.rings_over_degree * (len(coefficients) - 1)))
-        kept = dilated(subset, faces, rings)
+        kept = dilated(subset, faces, len(coefficients) - 1)
         inside = kept[row] & kept[column]
         row, column, weight = row[inside], column[inside], weight[inside]
     order, slots = _slots(row, kept)
