@@ -310,7 +310,8 @@ def _normal_bands(
     across = across - run[:, :, 0] * normals[segments.plane, 1, None]
     height = segments.points[:, :, 2]
     floor = lowest(height, segments)
-    limit = floor + definition.band_height
+    # Over a gap in the sole the lowest thing is a leg: no band.
+    limit = np.where(floor <= definition.length_height, floor + definition.band_height, np.nan)
     least, most = band_edges(across, height, limit, segments, definition.edge_depth)
     return Bands(
         segments, across, height, x, floor, offset=(least + most) / 2, half_width=(most - least) / 2

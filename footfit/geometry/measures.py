@@ -91,7 +91,10 @@ def _width_edges(
 ) -> tuple[Floats, Floats]:
     segments = sections_across(vertices_mm, faces, x_mm)
     across, height = segments.points[:, :, 1], segments.points[:, :, 2]
-    limit = lowest(height, segments) + SETTINGS.width_height * length_mm
+    floor = lowest(height, segments)
+    band = SETTINGS.width_height * length_mm
+    # Over a gap in the sole the lowest thing is a leg: no width.
+    limit = np.where(floor <= band, floor + band, np.nan)
     return extremes_below(across, height, limit, segments)
 
 

@@ -1,0 +1,304 @@
+"""Flare: the planted turn, and the laws that a property of the shape must obey."""
+
+from __future__ import annotations
+
+import json
+from dataclasses import asdict, replace
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from footfit.errors import HalfScan
+from footfit.geometry.flare import (
+    CHANNELS,
+    FlareDefinition,
+    flare_class,
+    flare_profile,
+    profile_distance,
+    profile_distances,
+)
+from tests import distortions, shapes
+from tests.strategies import seeds
+from tools.lasts import LastSpec, graded, last_mesh, plain, true_flare_deg, true_heading_deg, varied
+
+SMALL = {"rings": 90, "segments": 64}
+INSIDE = slice(2, 39)  # stations .08-.80
+
+
+def last(flare_deg=8.0, **fields):
+    spec = LastSpec(flare_deg=flare_deg, **{**SMALL, **fields})
+    return spec, *last_mesh(spec)
+
+
+@pytest.fixture(scope="module")
+def usual():
+    _, vertices, faces = last()
+    return vertices, faces, flare_profile(vertices, faces, kind="last")
+
+
+def channels(profile):
+    return np.array([profile.curvature[name] for name in CHANNELS])
+
+
+def same(one, other, tolerance):
+    assert other.angle_deg == pytest.approx(one.angle_deg, abs=tolerance)
+    assert np.allclose(other.heading_deg, one.heading_deg, atol=tolerance, rtol=0)
+    assert np.allclose(channels(other), channels(one), atol=tolerance, rtol=0)
+
+
+@pytest.mark.parametrize("toe_shape", ["round", "almond", "square", "pointed"])
+@pytest.mark.parametrize("flare_deg", [-6.0, 4.0, 16.0])
+def test_a_smoothly_bent_last_reads_its_planted_turn(flare_deg, toe_shape):
+    spec = plain(LastSpec(flare_deg=flare_deg, toe_shape=toe_shape, heel_height_mm=20.0, **SMALL))
+    profile = flare_profile(*last_mesh(spec), kind="last")
+    assert profile.angle_deg == pytest.approx(true_flare_deg(spec), abs=0.15)
+    truth = true_heading_deg(spec, profile.stations)
+    assert np.abs(profile.heading_deg - truth)[INSIDE].max() < 0.4
+
+
+def test_lasts_whose_sides_differ_read_their_planted_turn():
+    rng = np.random.default_rng(11)
+    specs = [replace(varied(rng), **SMALL) for _ in range(10)]
+    errors = [flare_profile(*last_mesh(s)).angle_deg - true_flare_deg(s) for s in specs]
+    assert np.sqrt(np.mean(np.square(errors))) < 0.15
+
+
+def test_noise_moves_the_angle_about_as_much_as_the_sd_says(usual):
+    vertices, faces, clean = usual
+    rng = np.random.default_rng(2)
+    noisy = [flare_profile(distortions.white_noise(vertices, rng, 0.3), faces) for _ in range(12)]
+    moved = np.std([p.angle_deg for p in noisy])
+    said = np.mean([p.angle_sd_deg for p in noisy])
+    assert moved < 0.25
+    assert 0.4 < moved / said < 2.0
+    assert said > clean.angle_sd_deg >= FlareDefinition().frame_sd_deg
+
+
+def test_decimation_hardly_moves_the_angle():
+    _, vertices, faces = last(rings=160, segments=110)
+    before = flare_profile(vertices, faces).angle_deg
+    after = flare_profile(*distortions.decimated(vertices, faces, 4.0)).angle_deg
+    assert after == pytest.approx(before, abs=0.05)
+
+
+@pytest.mark.parametrize("change_deg", [-8.0, -4.0, 4.0, 8.0])
+def test_a_further_bend_of_a_last_is_read_whole(usual, change_deg):
+    _, vertices, faces = last(8.0 + change_deg)
+    change = flare_profile(vertices, faces).angle_deg - usual[2].angle_deg
+    assert change == pytest.approx(change_deg, abs=0.3)
+
+
+def test_a_graded_last_has_the_identical_profile():
+    spec = LastSpec(length_mm=250.0, flare_deg=7.0, **SMALL)
+    one = flare_profile(*last_mesh(spec))
+    other = flare_profile(*last_mesh(graded(spec, 290.0)))
+    same(one, other, 1e-7)
+    assert profile_distance(one, other)[0] < 1e-5
+
+
+@settings(max_examples=8, deadline=None)
+@given(power=st.floats(-1.0, 1.0))
+def test_scale_changes_nothing(usual, power):
+    vertices, faces, profile = usual
+    same(profile, flare_profile(vertices * 10.0**power, faces), 1e-7)
+
+
+@settings(max_examples=6, deadline=None)
+@given(seed=seeds)
+def test_the_order_of_vertices_and_faces_changes_nothing(usual, seed):
+    vertices, faces, profile = usual
+    shuffled = distortions.shuffled(vertices, faces, np.random.default_rng(seed))
+    same(profile, flare_profile(*shuffled), 1e-7)
+
+
+@settings(max_examples=6, deadline=None)
+@given(seed=seeds)
+def test_subdivision_changes_nothing_but_how_the_surface_is_weighed(usual, seed):
+    vertices, faces, profile = usual
+    chosen = np.random.default_rng(seed).random(len(faces)) < 0.3
+    other = flare_profile(*distortions.subdivided(vertices, faces, chosen))
+    assert other.angle_deg == pytest.approx(profile.angle_deg, abs=1e-6)
+    assert np.allclose(channels(other)[:4], channels(profile)[:4], atol=1e-4)
+    # facets are weighed at their centres: right to the square of their size
+    assert np.abs(channels(other)[4] - channels(profile)[4])[INSIDE].max() < 0.01
+
+
+@settings(max_examples=8, deadline=None)
+@given(x=st.floats(-40.0, 40.0), y=st.floats(-40.0, 40.0))
+def test_where_the_shape_lies_on_the_floor_changes_nothing(usual, x, y):
+    vertices, faces, profile = usual
+    same(profile, flare_profile(vertices + np.array([x, y, 0.0]), faces), 1e-6)
+
+
+@settings(max_examples=8, deadline=None)
+@given(roll=st.floats(-2.0, 2.0), pitch=st.floats(-0.5, 0.5), yaw=st.floats(-1.0, 1.0))
+def test_a_slightly_wrong_frame_hardly_moves_the_angle(usual, roll, pitch, yaw):
+    vertices, faces, profile = usual
+    for axis, angle in (("x", roll), ("y", pitch), ("z", yaw)):
+        vertices = vertices @ distortions.axis_rotation(axis, angle)[:3, :3].T
+    assert flare_profile(vertices, faces).angle_deg == pytest.approx(profile.angle_deg, abs=0.12)
+
+
+def bowl(along_mm, across_mm):
+    """A block whose bottom is a doubly curved bowl of these two radii at its middle."""
+    x, y = np.linspace(0, 250, 121), np.linspace(-45, 45, 61)
+    X, Y = np.meshgrid(x, y, indexing="ij")
+    Z = along_mm - np.sqrt(along_mm**2 - (X - 125) ** 2)
+    Z = Z + across_mm - np.sqrt(across_mm**2 - Y**2)
+    below = np.stack([X, Y, Z], axis=-1).reshape(-1, 3)
+    above = np.stack([X, Y, np.full_like(Z, 70.0)], axis=-1).reshape(-1, 3)
+    index = np.arange(x.size * y.size).reshape(x.size, y.size)
+    a, b, c, d = (
+        i.ravel() for i in (index[:-1, :-1], index[1:, :-1], index[:-1, 1:], index[1:, 1:])
+    )
+    bottom = np.concatenate([np.stack([a, c, b], axis=1), np.stack([b, c, d], axis=1)])
+    sides = [
+        np.stack([p, q, q + index.size, p + index.size], axis=1)
+        for p, q in ((index[:-1, 0], index[1:, 0]), (index[1:, -1], index[:-1, -1]))
+    ]
+    quads = np.concatenate(sides)
+    walls = np.concatenate([quads[:, [0, 1, 2]], quads[:, [0, 2, 3]]])
+    faces = np.concatenate([bottom, bottom[:, ::-1] + index.size, walls])
+    return np.concatenate([below, above]), faces
+
+
+def test_a_bowl_has_the_curvature_of_its_radii():
+    profile = flare_profile(*bowl(400.0, 300.0))
+    assert profile.angle_deg == pytest.approx(0.0, abs=1e-9)
+    middle = slice(20, 27)
+    mean = 0.5 * (1 / 400 + 1 / 300) * 250
+    assert profile.curvature["bottom_surface"][middle] == pytest.approx(mean, rel=0.01)
+    for name in ("bottom_20", "bottom_50", "bottom_80"):
+        assert profile.curvature[name][middle] == pytest.approx(250 / 400, rel=0.02)
+    assert profile.curvature["plan"] == pytest.approx(0.0, abs=1e-9)
+
+
+def test_a_hollow_bottom_is_negative():
+    vertices, faces = bowl(400.0, 300.0)
+    vertices[:, 2] = np.where(vertices[:, 2] < 70.0, 25.0 - vertices[:, 2], 70.0)
+    profile = flare_profile(vertices, faces)
+    for name in CHANNELS[1:]:
+        assert (profile.curvature[name][20:27] < -0.5).all()
+
+
+def test_the_plan_channel_is_the_planted_curvature():
+    spec = plain(LastSpec(flare_deg=12.0, **SMALL))
+    profile = flare_profile(*last_mesh(spec))
+    step = 1e-3
+    ahead, behind = (true_heading_deg(spec, profile.stations + d) for d in (step, -step))
+    truth = np.radians(ahead - behind)[INSIDE] / (2 * step)
+    assert np.corrcoef(truth, profile.curvature["plan"][INSIDE])[0, 1] > 0.995
+
+
+def test_a_shape_without_a_sole_has_no_bottom_channels(usual):
+    vertices, faces, profile = usual
+    centres = vertices[faces].mean(axis=1)
+    down = np.cross(*(vertices[faces[:, i]] - vertices[faces[:, 0]] for i in (1, 2)))[:, 2] < 0
+    bare = flare_profile(vertices, faces[~(down & (centres[:, 2] < 30.0))])
+    assert all(bare.curvature[name] is None for name in CHANNELS[1:])
+    assert bare.curvature["plan"] is not None
+    assert bare.angle_deg == pytest.approx(profile.angle_deg, abs=1.0)
+
+
+def test_half_a_last_is_refused(usual):
+    vertices, faces, _ = usual
+    gap = np.abs(vertices[faces, 0].mean(axis=1) - 130.0) < 75.0
+    with pytest.raises(HalfScan, match="of the length"):
+        flare_profile(vertices, faces[~gap])
+
+
+def test_holes_in_the_wall_do_not_upset_the_angle(usual):
+    vertices, faces, profile = usual
+    holed = distortions.with_holes(vertices, faces, np.random.default_rng(7), 3, 10.0)
+    assert flare_profile(*holed).angle_deg == pytest.approx(profile.angle_deg, abs=0.5)
+
+
+def test_the_class_follows_the_kinds_thresholds():
+    definition = FlareDefinition()
+    for kind, (least, most) in (
+        ("last", definition.last_straight_deg),
+        ("foot", definition.foot_straight_deg),
+    ):
+        names = [flare_class(a, kind, definition) for a in (least - 0.1, least, most, most + 0.1)]
+        assert names == ["outflare", "straight", "straight", "inflare"]
+
+
+def test_the_definition_travels_as_json():
+    stored = json.loads(json.dumps(asdict(FlareDefinition())))
+    lists = {k: tuple(v) if isinstance(v, list) else v for k, v in stored.items()}
+    assert FlareDefinition(**lists) == FlareDefinition()
+
+
+def test_a_profiles_arrays_stand_at_the_fixed_stations(usual):
+    profile = usual[2]
+    definition = profile.definition
+    assert len(profile.stations) == definition.stations
+    ends = (definition.stations_from, definition.stations_to)
+    assert (profile.stations[0], profile.stations[-1]) == pytest.approx(ends)
+    assert channels(profile).shape == (5, definition.stations)
+    assert profile.heading_deg.shape == profile.stations.shape
+    assert profile.centre_line.shape == (definition.stations, 2)
+    assert np.isfinite(channels(profile)).all()
+
+
+# ------------------------------------------------------------------ distance
+
+
+@pytest.fixture(scope="module")
+def library():
+    return [flare_profile(*last(f, heel_height_mm=h)[1:]) for f, h in ((2, 10), (8, 25), (14, 40))]
+
+
+def test_the_distance_is_symmetric_and_zero_to_itself(usual, library):
+    profile = usual[2]
+    for other in library:
+        there, parts = profile_distance(profile, other)
+        back, _ = profile_distance(other, profile)
+        assert there == pytest.approx(back)
+        assert sum(parts.values()) == pytest.approx(there**2)
+    assert profile_distance(profile, profile)[0] == 0.0
+
+
+def test_many_distances_are_the_single_ones(usual, library):
+    profile = usual[2]
+    found = profile_distances(profile, library)
+    singles = [profile_distance(profile, other) for other in library]
+    assert found.total == pytest.approx([d for d, _ in singles])
+    for name in CHANNELS:
+        assert found.parts[name] == pytest.approx([parts[name] for _, parts in singles])
+    assert profile_distances(profile, []).total.shape == (0,)
+
+
+def test_a_rescan_is_nearer_than_any_other_last(usual, library):
+    vertices, faces, profile = usual
+    noisy = distortions.white_noise(vertices, np.random.default_rng(3), 0.3)
+    found = profile_distances(flare_profile(noisy, faces), [profile, library[0], library[2]])
+    assert found.total.argmin() == 0
+    assert found.total[0] < 2.0
+    assert found.total[1:].min() > 3.0 * found.total[0]
+
+
+def test_a_missing_channel_leaves_its_weight_to_the_others(usual, library):
+    profile = usual[2]
+    bare = replace(profile, curvature={**profile.curvature, "bottom_surface": None})
+    distance, parts = profile_distance(bare, library[0])
+    whole = profile_distance(profile, library[0])[1]
+    assert np.isnan(parts["bottom_surface"])
+    assert parts["plan"] > whole["plan"]
+    known = [part for part in parts.values() if not np.isnan(part)]
+    assert sum(known) == pytest.approx(distance**2)
+
+
+def test_profiles_of_other_stations_are_not_compared(usual):
+    vertices, faces, profile = usual
+    other = flare_profile(vertices, faces, FlareDefinition(stations=24))
+    with pytest.raises(ValueError, match="definitions"):
+        profile_distance(profile, other)
+
+
+def test_a_round_thing_has_no_flare():
+    vertices, faces = shapes.sphere(60.0, 3)
+    profile = flare_profile(vertices + np.array([0.0, 0.0, 60.0]), faces)
+    assert profile.angle_deg == pytest.approx(0.0, abs=1.0)

@@ -1,0 +1,93 @@
+"""From an aligned mesh to its profile: sides, kinds, refusals, feet of known bend."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from benchmarks.flare import bent
+from footfit.errors import SideUndecided
+from footfit.geometry.flare import CHANNELS, flare_profile
+from footfit.geometry.surface import signed_volume
+from footfit.meshes.read import read_scan
+from footfit.pipeline.align import aligned
+from footfit.pipeline.flare import profiled, right_shape
+from tests import distortions
+
+SCANS = Path(__file__).resolve().parents[2] / "shared" / "scans" / "makehuman"
+
+pytestmark = pytest.mark.skipif(
+    not SCANS.exists(), reason="the scans beside the project are not here"
+)
+
+
+@pytest.fixture(scope="module")
+def right():
+    return aligned(read_scan(SCANS / "mh007_R.stl"))
+
+
+def as_left(one):
+    """The mirror image of an aligned right shape, as an aligned left one."""
+    vertices, faces = distortions.mirrored(one.vertices_mm, one.faces)
+    side = replace(one.alignment.side, side="left")
+    return replace(
+        one, vertices_mm=vertices, faces=faces, alignment=replace(one.alignment, side=side)
+    )
+
+
+def test_a_left_foots_profile_is_its_mirror_images(right):
+    one, other = profiled(right), profiled(as_left(right))
+    assert other.flare.angle_deg == pytest.approx(one.flare.angle_deg, abs=1e-9)
+    assert other.flare.angle_sd_deg == pytest.approx(one.flare.angle_sd_deg, abs=1e-9)
+    for name in CHANNELS:
+        assert np.allclose(other.flare.curvature[name], one.flare.curvature[name], atol=1e-9)
+    for a, b in zip(one.measures, other.measures, strict=True):
+        assert b.measured.value == pytest.approx(a.measured.value, abs=1e-9)
+
+
+def test_a_right_shape_stays_and_a_left_one_is_turned_over(right):
+    vertices, faces = right_shape(right)
+    assert vertices is right.vertices_mm
+    assert faces is right.faces
+    left = as_left(right)
+    mirrored = right_shape(left)
+    assert np.allclose(mirrored[0], vertices)
+    assert np.sign(signed_volume(*mirrored)) == np.sign(signed_volume(vertices, faces))
+
+
+def test_an_undecided_side_is_refused_with_what_to_type(right):
+    side = replace(right.alignment.side, side=None)
+    undecided = replace(right, alignment=replace(right.alignment, side=side))
+    with pytest.raises(SideUndecided, match="--side left or --side right"):
+        profiled(undecided)
+
+
+def test_measures_carry_their_sd_and_definition(right):
+    found = profiled(right)
+    by_name = {measure.name: measure for measure in found.measures}
+    assert by_name["length"].measured.value == pytest.approx(right.alignment.length_mm, abs=0.3)
+    for measure in found.measures:
+        assert measure.measured.sd > 0.0
+        assert measure.measured.reason is None
+        assert measure.definition
+
+
+def test_what_is_not_there_has_a_reason_and_no_sd(right):
+    centres = right.vertices_mm[right.faces].mean(axis=1)
+    start = right.vertices_mm[:, 0].min() + right.alignment.length_mm / 6.0
+    holed = replace(right, faces=right.faces[np.abs(centres[:, 0] - start) > 8.0])
+    heel = next(m for m in profiled(holed).measures if m.name == "heel_width")
+    assert (heel.measured.value, heel.measured.sd) == (None, None)
+    assert "gap" in heel.measured.reason
+
+
+@pytest.mark.parametrize("name", ["mh000_L", "mh005_R", "mh010_L"])
+def test_a_foot_of_known_bend_reads_the_bend(name):
+    vertices, faces = right_shape(aligned(read_scan(SCANS / f"{name}.stl")))
+    before = flare_profile(vertices, faces).angle_deg
+    for turn_deg in (-4.0, 4.0):
+        after = flare_profile(bent(vertices, turn_deg), faces).angle_deg
+        assert after - before == pytest.approx(turn_deg, abs=0.3)
