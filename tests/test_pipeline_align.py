@@ -24,7 +24,7 @@ from footfit.geometry import wpca
 from footfit.geometry.rotations import angle_deg, applied
 from footfit.meshes.read import read_scan
 from footfit.pipeline.align import MM_PER_UNIT, aligned
-from footfit.results import MeshInfo, Reference, Scan
+from footfit.results import MeshInfo, Notice, Reference, Scan
 from tests import distortions, shapes
 from tools.lasts import LastSpec, last_mesh
 
@@ -124,8 +124,15 @@ def test_a_provisional_unit_is_corrected_by_the_length(last, taken_for, truly):
     """The reader saw a long leg, say, and took the file's numbers in another unit."""
     vertices, faces = last
     wrong = vertices / MM_PER_UNIT[truly] * MM_PER_UNIT[taken_for]
-    found = aligned(scan_of(wrong, faces, units=taken_for)).alignment
+    scan = replace(
+        scan_of(wrong, faces, units=taken_for),
+        warnings=(Notice("units_detected", "too early"), Notice("open_mesh", "open")),
+    )
+    found = aligned(scan).alignment
     assert found.info.units == truly
+    said = {notice.code: notice.message for notice in found.warnings}
+    assert truly in said["units_detected"]
+    assert said["open_mesh"] == "open"
     assert found.length_mm == pytest.approx(LENGTH_MM, abs=1.0)
 
 

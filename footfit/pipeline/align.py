@@ -116,7 +116,7 @@ def aligned(
         reference=reference,
         length_mm=factor * frame.length,
         warnings=(
-            *scan.warnings,
+            *_read_notices(scan, info),
             *shape.notices,
             *_notices(frame, canonical_mm, factor * frame.length, verdict, info),
         ),
@@ -166,6 +166,14 @@ def _info_with_unit(info: MeshInfo, length: float, known_length_mm: float | None
             f" ({least:.0f}-{most:.0f} mm); check --units, or say --known-length MM"
         )
     return info
+
+
+def _read_notices(scan: Scan, info: MeshInfo) -> list[Notice]:
+    """What the reader said, with the unit put right where the aligned length tells another."""
+    if info.units_source != "detected" or info.units == scan.info.units:
+        return list(scan.warnings)
+    kept = [notice for notice in scan.warnings if notice.code != "units_detected"]
+    return [*kept, Notice("units_detected", f"unit taken as {info.units}, by the length")]
 
 
 # ---------------------------------------------------------------- the frame
