@@ -59,6 +59,8 @@ class FormatName(StrEnum):
     obj = "obj"
     ply = "ply"
     off = "off"
+    glb = "glb"
+    threemf = "3mf"
 
 
 Meshes = Annotated[

@@ -16,7 +16,7 @@ _BEGINNINGS: tuple[tuple[bytes, str], ...] = (
     (b"GIF8", "a GIF picture"),
     (b"II*\0", "a TIFF picture"),
     (b"MM\0*", "a TIFF picture"),
-    (b"PK", "a ZIP archive (unpack it first; a 3MF file is one too)"),
+    (b"PK", "a ZIP archive (unpack it first)"),
     (b"\x1f\x8b", "a gzip archive (unpack it first)"),
     (b"BZh", "a bzip2 archive (unpack it first)"),
     (b"\xfd7zXZ", "an xz archive (unpack it first)"),
@@ -25,7 +25,6 @@ _BEGINNINGS: tuple[tuple[bytes, str], ...] = (
     (b"%PDF", "a PDF document"),
     (b"\xd0\xcf\x11\xe0", "an old Office document"),
     (b"SQLite format 3\0", "an SQLite database"),
-    (b"glTF", "a GLB model"),
     (b"Kaydara FBX", "an FBX model"),
     (b"ISO-10303-21", "a STEP model (export it as STL)"),
     (b"#VRML", "a VRML model (export it as STL)"),
@@ -39,7 +38,7 @@ _BEGINNINGS: tuple[tuple[bytes, str], ...] = (
 _MARKUP: tuple[tuple[re.Pattern[bytes], str], ...] = (
     (re.compile(rb"\s*(<!doctype html|<html)", re.IGNORECASE), "an HTML page (a failed download?)"),
     (re.compile(rb"\s*<"), "XML"),
-    (re.compile(rb"\s*[{\[]"), "JSON"),
+    (re.compile(rb"\s*[{\[]"), "JSON (a glTF text file? export it as GLB)"),
 )
 _CONTROL = re.compile(rb"[\x00-\x08\x0e-\x1a\x1c-\x1f]")
 

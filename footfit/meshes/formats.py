@@ -8,12 +8,14 @@ from pathlib import PurePath
 
 from footfit.errors import BadOption, DamagedMesh, FootfitError, TooLarge, UnknownFormat
 from footfit.meshes.foreign import is_text, known_foreign, likeness
+from footfit.meshes.glb import is_glb, read_glb
 from footfit.meshes.limits import Limits
 from footfit.meshes.obj import is_obj, read_obj
 from footfit.meshes.off import is_off, read_off
 from footfit.meshes.ply import is_ply, read_ply
 from footfit.meshes.raw import RawMesh, sound
 from footfit.meshes.stl import is_binary_stl, read_ascii_stl, read_binary_stl
+from footfit.meshes.threemf import is_3mf, read_3mf
 from footfit.results import Notice
 
 
@@ -53,11 +55,13 @@ FORMATS: tuple[MeshFormat, ...] = (
     MeshFormat("stl-binary", "stl", is_binary_stl, read_binary_stl),
     MeshFormat("ply", "ply", is_ply, read_ply),
     MeshFormat("off", "off", is_off, read_off),
+    MeshFormat("glb", "glb", is_glb, read_glb),
+    MeshFormat("3mf", "3mf", is_3mf, read_3mf),
     MeshFormat("stl-ascii", "stl", _is_ascii_stl, read_ascii_stl),
     MeshFormat("obj", "obj", _is_obj_text, read_obj),
 )
 EXTENSIONS = tuple(sorted({known.extension for known in FORMATS}))
-_READABLE = "STL, OBJ, PLY or OFF"
+_READABLE = "STL, OBJ, PLY, OFF, GLB or 3MF"
 
 
 def raw_mesh(

@@ -21,6 +21,14 @@ class Limits:
         How far the header of a text format may reach.
     coordinate : float
         The largest absolute coordinate, in the file's unit: 1e9 mm are 1,000 km.
+    document_bytes : int
+        What a GLB's description, an archive's directory, an XML tag may take.
+    parts : int
+        How many nodes, primitives or archive parts a file of one object may have.
+    elements : int
+        How many XML elements there may be beside vertices and triangles.
+    expanded_bytes, expansion : int
+        How large an archive's part may become, and how many times its packed size.
     """
 
     file_bytes: int = 640_000_000
@@ -29,6 +37,11 @@ class Limits:
     polygon_corners: int = 1_000
     header_bytes: int = 65_536
     coordinate: float = 1e9
+    document_bytes: int = 4_000_000
+    parts: int = 1_000
+    elements: int = 100_000
+    expanded_bytes: int = 400_000_000
+    expansion: int = 200
 
 
 LIMITS = Limits()

@@ -28,14 +28,14 @@ def read_scan(
     Parameters
     ----------
     path : path
-        A regular file, STL, OBJ, PLY or OFF by its content; nothing else is ever opened.
+        A regular file, STL, OBJ, PLY, OFF, GLB or 3MF by its content; nothing else is ever opened.
     units : str
         "mm", "cm", "m", "in", or "auto": the one that makes the longest extent a foot's or last's.
     known_length_mm : float, optional
         The length of the foot, for a scan without a true scale. The scale is provisional (the
         longest extent) until the alignment settles it.
     format : str, optional
-        "stl", "obj", "ply" or "off"; refused where the content is another.
+        "stl", "obj", "ply", "off", "glb" or "3mf"; refused where the content is another.
     limits : Limits
 
     Returns

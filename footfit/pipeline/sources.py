@@ -9,7 +9,7 @@ from typing import BinaryIO
 
 from footfit.errors import UnreadableFile
 
-MESH_SUFFIXES = (".stl", ".obj", ".ply", ".off")
+MESH_SUFFIXES = (".stl", ".obj", ".ply", ".off", ".glb", ".3mf")
 GLOB_CHARACTERS = frozenset("*?[")
 
 
