@@ -32,6 +32,8 @@ class DiffusionSettings:
         slivers) are slowed to it.
     reach_least
         t times the rate of every vertex is at least this: the nearest ring is always seen.
+    slot_least
+        The least share of the vertices for which a j-th neighbour is handled as a slot.
     cotangent_least
         Obtuse corners would give negative weights: cotangents are at least this.
     """
@@ -42,6 +44,7 @@ class DiffusionSettings:
     crowding_quantile: float = 0.9
     crowding: float = 1.2
     reach_least: float = 0.25
+    slot_least: float = 0.02
     cotangent_least: float = 0.05
 
 
@@ -53,7 +56,8 @@ class Diffusion:
     """A polynomial in the Laplacian of one mesh, ready for :func:`diffused`.
 
     The k vertices it works on are taken in the order ``order``, those with the most neighbours
-    first. Slot j holds the j-th neighbour of the first ``len(columns[j])`` of them and its weight.
+    first. Slot j holds the j-th neighbour of the first ``len(columns[j])`` of them and its weight;
+    the many neighbours of a few vertices (the hub of a fan) stand in ``rest_*``, entry by entry.
     ``centre`` (k,) is the weight of the vertex itself, ``coefficients`` (degree + 1,) are of
     Chebyshev polynomials.
     """
@@ -62,6 +66,9 @@ class Diffusion:
     centre: Floats
     columns: tuple[Ints, ...]
     weights: tuple[Floats, ...]
+    rest_row: Ints
+    rest_column: Ints
+    rest_weight: Floats
     coefficients: Floats
 
 
@@ -100,7 +107,7 @@ def diffusion(
         kept = dilated(subset, faces, len(coefficients) - 1)
         inside = kept[row] & kept[column]
         row, column, weight = row[inside], column[inside], weight[inside]
-    order, slots = _slots(row, kept)
+    order, slots, rest = _slots(row, kept)
     place = np.empty(n, dtype=np.int64)
     place[order] = np.arange(len(order))
     return Diffusion(
@@ -108,6 +115,9 @@ def diffusion(
         centre=-1.0 - np.bincount(row, weights=weight, minlength=n).astype(np.float64)[order],
         columns=tuple(place[column[slot]] for slot in slots),
         weights=tuple(weight[slot] for slot in slots),
+        rest_row=place[row[rest]],
+        rest_column=place[column[rest]],
+        rest_weight=weight[rest],
         coefficients=coefficients,
     )
 
@@ -136,6 +146,9 @@ def _product(operator: Diffusion, field: Floats) -> Floats:
     product = operator.centre * field
     for column, weight in zip(operator.columns, operator.weights, strict=True):
         product[: len(column)] += weight * field[column]
+    if len(operator.rest_row):
+        rest = operator.rest_weight * field[operator.rest_column]
+        product += np.bincount(operator.rest_row, weights=rest, minlength=len(field))
     return product
 
 
@@ -195,15 +208,21 @@ def _exchange_rates(degree: Floats, area: Floats, time: float) -> Floats:
     return np.where(joined, limited, 0.0)
 
 
-def _slots(row: Ints, kept: Bools) -> tuple[Ints, list[Ints]]:
-    """Kept vertices by falling number of neighbours, and per slot the entries of those with one."""
+def _slots(row: Ints, kept: Bools) -> tuple[Ints, list[Ints], Ints]:
+    """Kept vertices by falling number of neighbours, the entries of each slot, and the others.
+
+    A slot that only a few vertices reach costs as much as a full one: their entries are the others.
+    """
     count = np.bincount(row, minlength=len(kept))
     order = np.argsort(-count, kind="stable").astype(np.int64)
     order = order[kept[order]]
     first = (np.cumsum(count) - count)[order]
     falling = count[order]
-    filled = [int(np.searchsorted(-falling, -j)) for j in range(int(count.max(initial=0)))]
-    return order, [first[:size] + j for j, size in enumerate(filled)]
+    reach = np.searchsorted(-falling, -np.arange(int(count.max(initial=0))))
+    full = int(np.count_nonzero(reach > SETTINGS.slot_least * len(order)))
+    slots = [first[: int(size)] + j for j, size in enumerate(reach[:full])]
+    place_in_row = np.arange(len(row)) - np.repeat(np.cumsum(count) - count, count)
+    return order, slots, np.flatnonzero(place_in_row >= full)
 
 
 def _heat_coefficients(exponent: float) -> Floats:
