@@ -4,23 +4,30 @@ from __future__ import annotations
 
 import numpy as np
 
-from footfit.geometry.arrays import Bools, Floats, Ints
-from footfit.geometry.centre_line import BottomShape, CentreLine
+from footfit.geometry.arrays import Bools, Floats
+from footfit.geometry.centre_line import CentreLine
 from footfit.geometry.flare_definition import FlareDefinition
 from footfit.geometry.polylines import curvature_density
 from footfit.geometry.sections import depth_at
 from footfit.geometry.smoothing import local_quadratic
-from footfit.geometry.surface import area_vectors
 
 
 def bottom_curvature(
-    shape: BottomShape, line: CentreLine, place: float, definition: FlareDefinition
+    line: CentreLine, down: Bools, place: float, definition: FlareDefinition
 ) -> Floats | None:
     """Curvature times length of one longitudinal curve of the bottom, (stations,).
 
     The curve is the depth of each section at ``place`` of its width from the medial side; + is
     convex, as on a ball of the foot. The line from seat to ball is taken out, so that a heel's
     pitch does not shrink what the curve bends.
+
+    Parameters
+    ----------
+    line : CentreLine
+    down : (m,)
+        Which segments of the line's bands are of faces that look down.
+    place : float
+    definition : FlareDefinition
 
     Returns
     -------
@@ -30,7 +37,6 @@ def bottom_curvature(
     """
     bands = line.bands
     where = (1.0 - 2.0 * place) * bands.half_width + bands.offset
-    down = _looks_down(shape, bands.segments.face)
     depth, _ = depth_at(where, bands.across, bands.height, bands.segments, down)
     near = depth <= bands.floor + definition.band_height
     if near.mean() < definition.found_least:
@@ -52,8 +58,3 @@ def extended_stations(definition: FlareDefinition) -> Floats:
     return np.linspace(
         definition.stations_from - step, definition.stations_to + step, definition.stations + 2
     )
-
-
-def _looks_down(shape: BottomShape, face: Ints) -> Bools:
-    vectors = area_vectors(shape.vertices, shape.faces)
-    return np.asarray(vectors[face, 2] < 0.0)

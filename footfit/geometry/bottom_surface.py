@@ -16,7 +16,8 @@ import numpy as np
 
 from footfit.geometry.arrays import Floats
 from footfit.geometry.bottom import extended_stations
-from footfit.geometry.centre_line import BottomShape, CentreLine
+from footfit.geometry.bottom_shape import BottomShape
+from footfit.geometry.centre_line import CentreLine
 from footfit.geometry.flare_definition import FlareDefinition
 from footfit.geometry.smoothing import local_quadratic
 from footfit.geometry.surface import area_vectors
@@ -125,9 +126,9 @@ class _Window:
 def _window(points: Floats, line: CentreLine, definition: FlareDefinition) -> _Window:
     x = points[:, 0]
     known = np.isfinite(line.bands.half_width)
-    smooth, slope = local_quadratic(line.x, line.bands.x[known], _WIDTH_BANDWIDTH)
+    smooth, slope = local_quadratic(line.bands.x, line.bands.x[known], _WIDTH_BANDWIDTH)
     half, half_slope = (
-        np.interp(x, line.x, rows @ line.bands.half_width[known]) for rows in (smooth, slope)
+        np.interp(x, line.bands.x, rows @ line.bands.half_width[known]) for rows in (smooth, slope)
     )
     reach = definition.surface_width * np.maximum(half, 1e-6)
     aside = (points[:, 1] - np.interp(x, line.x, line.y)) / reach

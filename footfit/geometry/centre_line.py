@@ -14,44 +14,26 @@ from dataclasses import dataclass
 import numpy as np
 
 from footfit.errors import HalfScan
-from footfit.geometry.arrays import Bools, Floats, Ints
+from footfit.geometry.arrays import Bools, Floats
 from footfit.geometry.bands import band_edges
+from footfit.geometry.bottom_shape import BottomShape, low_length, section_places
 from footfit.geometry.flare_definition import FlareDefinition
 from footfit.geometry.sections import (
     Planes,
     Segments,
-    depth_at,
-    extremes_below,
     lowest,
     plane_sections,
-    sections_across,
 )
 from footfit.geometry.smoothing import cubic_splines
-from footfit.geometry.surface import area_vectors
+
+__all__ = ["Bands", "CentreLine", "centre_line", "low_length", "projected"]
 
 _GRID = np.linspace(-0.1, 1.1, 1201)  # where lines are tabulated between passes
-_NEIGHBOURHOOD = 0.10  # a normal section reaches less than this forward and backward along x
 _HEEL, _TOE = 0.05, 0.95  # from where the line goes straight on to its ends
-_ROLL_LIFT = 0.02
 _FULL_STEPS = 4  # then half steps: a foot's toes can make whole ones swing for ever
 _WIDTH_STIFFNESS = 1e-7  # of the widths' curve, of which only the slope is used
 _PROJECTIONS = 2  # Newton steps onto the line: a third moves nothing by more than 1e-6
 _TURN_LEAST = 0.2  # keeps a point beyond the line's centre of curvature on its own side
-
-
-@dataclass(frozen=True, slots=True)
-class BottomShape:
-    """The faces that a band may touch, over the length, the rearmost point at x = 0.
-
-    ``tips`` (t, 3, 3) are the triangles where the line may leave the shape, low enough to be no
-    leg; ``origin_mm`` and ``length_mm`` lead back to millimetres.
-    """
-
-    vertices: Floats
-    faces: Ints
-    tips: Floats
-    origin_mm: float
-    length_mm: float
 
 
 @dataclass(frozen=True, slots=True)
@@ -99,85 +81,6 @@ class CentreLine:
     def station_at(self, x: Floats) -> Floats:
         """The station of the line at ``x`` (n,)."""
         return np.interp(x, self.x, self.station)
-
-
-def low_length(vertices: Floats, height: float) -> tuple[float, float]:
-    """The rearmost x and the extent along x of what lies lower than ``height`` times it.
-
-    Examples
-    --------
-    >>> low_length(np.array([[0.0, 0, 0], [10, 0, 0], [-3, 0, 9]]), 0.3)
-    (0.0, 10.0)
-    """
-    start, length = float(vertices[:, 0].min()), float(np.ptp(vertices[:, 0]))
-    for _ in range(3):
-        low = vertices[vertices[:, 2] < height * length, 0]
-        if len(low) == 0:
-            break
-        start, length = float(low.min()), float(np.ptp(low))
-    return start, length
-
-
-def bottom_shape(vertices_mm: Floats, faces: Ints, definition: FlareDefinition) -> BottomShape:
-    """A canonical right mesh over its length, with only the faces that a band may touch.
-
-    Raises
-    ------
-    HalfScan
-        The mesh has no length.
-    """
-    origin, length = low_length(vertices_mm, definition.length_height)
-    if length <= 0.0:
-        raise HalfScan("the scan has no length along its own axis: scan the whole foot again")
-    vertices = (vertices_mm - np.array([origin, 0.0, 0.0])) / length
-    x = _section_places(definition)
-    across = sections_across(vertices, faces, x)
-    vertices = vertices @ _levelling(vertices, faces, across, x, definition)
-    ceiling = _highest_near(lowest(across.points[:, :, 2], across), x) + definition.band_height
-    # A small roll lifts an edge by less than the reach of the neighbourhood's floors.
-    low = vertices[:, 2] <= np.interp(vertices[:, 0], x, ceiling) + _ROLL_LIFT
-    a, b, c = faces.T
-    keep = low[a] | low[b] | low[c]
-    for start, end in ((a, b), (b, c), (c, a)):
-        keep |= np.abs(vertices[end, 0] - vertices[start, 0]) > _NEIGHBOURHOOD
-    all_faces, faces = faces, faces[keep]
-    used = np.zeros(len(vertices), dtype=np.bool_)
-    used[faces] = True
-    numbers = np.cumsum(used) - 1
-    tip = np.abs(vertices[:, 0] - 0.5) > 0.5 - _NEIGHBOURHOOD
-    tip &= vertices[:, 2] < definition.length_height
-    tips = vertices[all_faces[tip[all_faces].any(axis=1)]]
-    return BottomShape(vertices[used], numbers[faces], tips, origin, length)
-
-
-def _levelling(
-    vertices: Floats, faces: Ints, across: Segments, x: Floats, definition: FlareDefinition
-) -> Floats:
-    """The rotation about X, (3, 3) to multiply rows with, that levels seat and tread across.
-
-    The plane of a whole sole rolls with the arch, by a degree or two on a heeled last; where a
-    shape stands, under the seat and the tread, it is level.
-    """
-    height = across.points[:, :, 2]
-    limit = lowest(height, across) + definition.band_height
-    least, most = extremes_below(across.points[:, :, 1], height, limit, across)
-    down = (area_vectors(vertices, faces)[:, 2] < 0.0)[across.face]
-    first, _, last = definition.bottom_places
-    sides = [
-        depth_at(most - place * (most - least), across.points[:, :, 1], height, across, down)[0]
-        for place in (first, last)
-    ]
-    slope = (sides[0] - sides[1]) / ((last - first) * (most - least))
-    rolls = []
-    for low, high in (definition.seat, definition.tread):
-        inside = slope[(x >= low) & (x <= high)]
-        found = inside[np.isfinite(inside)]
-        if len(found) < definition.found_least * len(inside):
-            return np.eye(3)  # no sole to stand on: the frame's own level
-        rolls.append(float(np.median(found)))
-    roll = np.arctan(np.mean(rolls))
-    cosine, sine = np.cos(roll), np.sin(roll)
-    return np.array([[1.0, 0.0, 0.0], [0.0, cosine, -sine], [0.0, sine, cosine]])
 
 
 def centre_line(shape: BottomShape, definition: FlareDefinition) -> CentreLine:
@@ -228,7 +131,7 @@ class _Axis:
 
 def _settled_axis(shape: BottomShape, definition: FlareDefinition) -> _Axis:
     """Cut across the line, move the line to the mid-points, until it no longer moves."""
-    x = _section_places(definition)
+    x = section_places(definition)
     basis = cubic_splines(x, definition.splines)
     table = cubic_splines(_GRID, definition.splines)
     stiff = _stiffness(2, definition.axis_stiffness, definition)
@@ -266,19 +169,6 @@ def _seen(bands: Bands, definition: FlareDefinition) -> Bools:
             "scan the whole foot again"
         )
     return seen
-
-
-def _section_places(definition: FlareDefinition) -> Floats:
-    return np.linspace(definition.sections_from, definition.sections_to, definition.sections)
-
-
-def _highest_near(floor: Floats, x: Floats) -> Floats:
-    """The highest floor of the sections within reach of each: no face of a band is left out."""
-    reach = int(np.ceil(_NEIGHBOURHOOD / (x[1] - x[0])))
-    known = np.where(np.isfinite(floor), floor, -np.inf)
-    padded = np.pad(known, reach, constant_values=-np.inf)
-    highest = np.lib.stride_tricks.sliding_window_view(padded, 2 * reach + 1).max(axis=1)
-    return np.where(np.isfinite(highest), highest, 1.0)
 
 
 def _stiffness(order: int, strength: float, definition: FlareDefinition) -> Floats:

@@ -10,8 +10,9 @@ import numpy as np
 
 from footfit.geometry.arrays import Floats, Ints
 from footfit.geometry.bottom import bottom_curvature, extended_stations
+from footfit.geometry.bottom_shape import BottomShape, bottom_shape
 from footfit.geometry.bottom_surface import surface_curvature_profile
-from footfit.geometry.centre_line import BottomShape, CentreLine, bottom_shape, centre_line
+from footfit.geometry.centre_line import CentreLine, centre_line
 from footfit.geometry.flare_definition import (
     CHANNELS,
     FlareDefinition,
@@ -27,6 +28,7 @@ from footfit.geometry.profile_distance import (
     profile_distances,
 )
 from footfit.geometry.smoothing import cubic_splines, local_quadratic
+from footfit.geometry.surface import area_vectors
 
 __all__ = [
     "CHANNELS",
@@ -96,7 +98,8 @@ def _channels(
     shape: BottomShape, line: CentreLine, definition: FlareDefinition
 ) -> dict[str, Floats | None]:
     plan = _plan_curvature(line, definition)
-    places = (bottom_curvature(shape, line, p, definition) for p in definition.bottom_places)
+    down = area_vectors(shape.vertices, shape.faces)[line.bands.segments.face, 2] < 0.0
+    places = (bottom_curvature(line, down, p, definition) for p in definition.bottom_places)
     surface = surface_curvature_profile(shape, line, definition)
     return dict(zip(CHANNELS, (plan, *places, surface), strict=True))
 

@@ -13,7 +13,7 @@ from typing import NamedTuple
 import numpy as np
 
 from footfit.geometry.arrays import Floats, Ints
-from footfit.geometry.centre_line import low_length
+from footfit.geometry.bottom_shape import low_length
 from footfit.geometry.sections import extremes_below, lowest, sections_across
 
 
