@@ -26,7 +26,7 @@ from footfit.errors import (
     UnreadableFile,
 )
 from footfit.meshes.write import encoded_mesh
-from tests import shapes
+from tests import packed, shapes
 
 VERTICES, FACES = shapes.ellipsoid((125.0, 50.0, 35.0), subdivisions=2)
 
@@ -125,6 +125,65 @@ def flat_stl() -> bytes:
     return encoded_mesh(VERTICES * [1.0, 0.0, 0.0], FACES, "stl")
 
 
+_NOISE = "0123456789" * 5
+_P = 'xmlns:p="http://schemas.microsoft.com/3dmanufacturing/production/2015/06"/>'
+_TWO = '<item objectid="2"/>'
+_LOOP = '<object id="2"><components><component objectid="2"/></components></object>'
+_SAME = '<object id="1"><mesh/></object>'
+
+
+def _part(tree: packed.Tree) -> packed.Tree:
+    return tree["meshes"][0]["primitives"][0]
+
+
+def _without_view(tree: packed.Tree) -> None:
+    del tree["accessors"][1]["bufferView"]
+    tree["accessors"][1]["count"] = 2_000_000
+
+
+def _compressed(tree: packed.Tree) -> None:
+    tree["extensionsRequired"] = ["KHR_draco_mesh_compression"]
+
+
+def _compressed_part(tree: packed.Tree) -> None:
+    _part(tree)["extensions"] = {"KHR_draco_mesh_compression": {"bufferView": 0}}
+
+
+def _twice(tree: packed.Tree) -> None:
+    tree["scenes"][0]["nodes"] = [0, 1]
+    tree["nodes"].append({"mesh": 0})
+
+
+def _many_parts(tree: packed.Tree) -> None:
+    tree["meshes"][0]["primitives"] *= 20_000
+
+
+def _flipped(data: bytes) -> bytes:
+    return data[:500] + bytes([data[500] ^ 255]) + data[501:]
+
+
+def _encrypted(data: bytes) -> bytes:
+    flagged = bytearray(data)
+    flagged[data.rfind(b"PK\1\2") + 8] |= 1
+    return bytes(flagged)
+
+
+def _model_around(text: str) -> str:
+    return packed.model(build=text)
+
+
+def _loose(xml: str) -> bytes:
+    """Stored as it is, so that it is no bomb by its ratio."""
+    memory = io.BytesIO()
+    with zipfile.ZipFile(memory, "w") as archive:
+        archive.writestr(packed.MODEL, xml)
+    return memory.getvalue()
+
+
+def _built(items: str) -> bytes:
+    return packed.threemf(packed.model(build=items))
+
+
 BAD = [
     Bad("empty.stl", lambda: b"", EmptyMesh),
     Bad("header-only.stl", lambda: bytes(84), EmptyMesh),
@@ -197,7 +256,119 @@ BAD = [
     Bad("table.ply", lambda: b"x,y,z\n1,2,3\n", UnknownFormat),
     Bad("wide.stl", lambda: ascii_stl().decode().encode("utf-16"), UnknownFormat),
     Bad("zeros", lambda: bytes(1000), UnknownFormat),
+    Bad("cut-off.glb", lambda: packed.glb()[:-50], DamagedMesh),
+    Bad("header-only.glb", lambda: packed.glb()[:16], DamagedMesh),
+    Bad("version-1.glb", lambda: b"glTF\1" + packed.glb()[5:], UnknownFormat),
+    Bad("no-body.glb", lambda: packed.glb(content=b""), DamagedMesh),
+    Bad("no-json.glb", lambda: packed.glb_of(b"[1,", b""), DamagedMesh),
+    Bad("deep-json.glb", lambda: packed.glb_of(b"[" * 200_000, b""), DamagedMesh),
+    Bad("long-json.glb", lambda: packed.glb_of(b" " * 5_000_000, b""), TooLarge),
+    Bad("array-json.glb", lambda: packed.glb_of(b"[1, 2]", b""), DamagedMesh),
+    Bad("nan-json.glb", lambda: packed.glb_of(b'{"scene": NaN}', b""), DamagedMesh),
+    Bad("wrong-types.glb", lambda: packed.glb_of(b'{"meshes": 3, "nodes": {}}', b""), EmptyMesh),
+    Bad("no-mesh.glb", lambda: packed.glb_of(b"{}", b""), EmptyMesh),
+    Bad("count-bomb.glb", lambda: packed.glb_with("accessors", 1, count=10**9), TooLarge),
+    Bad("count-high.glb", lambda: packed.glb_with("accessors", 1, count=10**5), DamagedMesh),
+    Bad("count-half.glb", lambda: packed.glb_with("accessors", 1, count=1.5), DamagedMesh),
+    Bad("count-zero.glb", lambda: packed.glb_with("accessors", 1, count=0), DamagedMesh),
+    Bad("no-view.glb", lambda: packed.glb(_without_view), UnknownFormat),
+    Bad("sparse.glb", lambda: packed.glb_with("accessors", 1, sparse={"count": 1}), UnknownFormat),
+    Bad("two-corners.glb", lambda: packed.glb_with("accessors", 0, count=959), DamagedMesh),
+    Bad("far-offset.glb", lambda: packed.glb_with("accessors", 1, byteOffset=9), DamagedMesh),
+    Bad("below-zero.glb", lambda: packed.glb_with("bufferViews", 1, byteOffset=-4), DamagedMesh),
+    Bad("stride.glb", lambda: packed.glb_with("bufferViews", 1, byteStride=10**9), DamagedMesh),
+    Bad("stride-zero.glb", lambda: packed.glb_with("bufferViews", 1, byteStride=0), DamagedMesh),
+    Bad("loop.glb", lambda: packed.glb_with("nodes", 0, children=[0]), DamagedMesh),
+    Bad("no-such-node.glb", lambda: packed.glb_with("nodes", 0, children=[7]), DamagedMesh),
+    Bad("other-file.glb", lambda: packed.glb_with("buffers", 0, uri="../secret"), UnknownFormat),
+    Bad("other-site.glb", lambda: packed.glb_with("buffers", 0, uri="http://a/b"), UnknownFormat),
+    Bad("compressed.glb", lambda: packed.glb(_compressed), UnknownFormat),
+    Bad("compressed-part.glb", lambda: packed.glb(_compressed_part), UnknownFormat),
+    Bad("posed.glb", lambda: packed.glb_with("nodes", 0, skin=0), UnknownFormat),
+    Bad("lines.glb", lambda: packed.glb(lambda t: _part(t).update(mode=1)), UnknownFormat),
+    Bad("fan.glb", lambda: packed.glb(lambda t: _part(t).update(mode=6)), UnknownFormat),
+    Bad("two-objects.glb", lambda: packed.glb(_twice), UnknownFormat),
+    Bad("many-parts.glb", lambda: packed.glb(_many_parts), TooLarge),
+    Bad("matrix-short.glb", lambda: packed.glb_with("nodes", 0, matrix=[1] * 15), DamagedMesh),
+    Bad("matrix-huge.glb", lambda: packed.glb_with("nodes", 0, scale=[1e300] * 3), DamagedMesh),
+    Bad("index-past.glb", lambda: packed.glb(content=b"\xff" * 3864), DamagedMesh),
+    Bad("nan.glb", lambda: packed.glb(content=packed.body()[:-4] + b"\0\0\xc0\x7f"), DamagedMesh),
+    Bad("cut-off.3mf", lambda: packed.threemf()[:-90], DamagedMesh),
+    Bad("flipped.3mf", lambda: _flipped(packed.threemf()), DamagedMesh),
+    Bad("half-xml.3mf", lambda: packed.threemf(packed.model()[:-300]), DamagedMesh),
+    Bad("no-xml.3mf", lambda: packed.threemf("not a model"), DamagedMesh),
+    Bad("entity-bomb.3mf", lambda: packed.threemf(packed.entity_bomb()), DamagedMesh),
+    Bad(
+        "outside-entity.3mf",
+        lambda: packed.threemf(packed.outside_entity("file:///etc/hostname")),
+        DamagedMesh,
+    ),
+    Bad("zip-bomb.3mf", lambda: packed.threemf(bytes(300_000_000)), TooLarge),
+    Bad("blank-bomb.3mf", lambda: packed.threemf(_model_around(" " * 190_000_000)), TooLarge),
+    Bad("element-bomb.3mf", lambda: packed.threemf(_model_around("<a/>" * 400_000)), TooLarge),
+    Bad("nested-bomb.3mf", lambda: packed.threemf(_model_around("<a>" * 300_000)), TooLarge),
+    Bad("long-tag.3mf", lambda: _loose(_model_around(f'<a b="{_NOISE * 130_000}"/>')), TooLarge),
+    Bad("many-parts.3mf", lambda: packed.many_parts(1_200), TooLarge),
+    Bad("very-many-parts.3mf", lambda: packed.many_parts(66_000), TooLarge),
+    Bad("size-too-low.3mf", lambda: packed.lying_size(100), DamagedMesh),
+    Bad("size-too-high.3mf", lambda: packed.lying_size(2**31), TooLarge),
+    Bad("rarely-packed.3mf", lambda: packed.packed_with(zipfile.ZIP_LZMA), UnknownFormat),
+    Bad("encrypted.3mf", lambda: _encrypted(packed.threemf()), UnknownFormat),
+    Bad("no-model.3mf", lambda: packed.threemf(name="foot.xml"), UnknownFormat),
+    Bad("climbing.3mf", lambda: packed.threemf(name="../../other.txt"), UnknownFormat),
+    Bad(
+        "two-models.3mf", lambda: packed.threemf(name="a.model", **{"b.model": b""}), UnknownFormat
+    ),
+    Bad("other-part.3mf", lambda: _built('<item objectid="1" p:path="/b" ' + _P), UnknownFormat),
+    Bad(
+        "needs-more.3mf",
+        lambda: packed.threemf(packed.model(unit='requiredextensions="b"')),
+        UnknownFormat,
+    ),
+    Bad("leagues.3mf", lambda: packed.threemf(packed.model(unit='unit="league"')), DamagedMesh),
+    Bad("two-objects.3mf", lambda: _built('<item objectid="1"/>' * 2), UnknownFormat),
+    Bad("no-object.3mf", lambda: _built(""), EmptyMesh),
+    Bad("no-such-object.3mf", lambda: _built('<item objectid="7"/>'), DamagedMesh),
+    Bad("loop.3mf", lambda: packed.threemf(packed.model(build=_TWO, more=_LOOP)), DamagedMesh),
+    Bad("same-id.3mf", lambda: packed.threemf(packed.model(more=_SAME)), DamagedMesh),
+    Bad("transform.3mf", lambda: _built('<item objectid="1" transform="1 0 0"/>'), DamagedMesh),
+    Bad("word.3mf", lambda: packed.threemf(packed.model().replace('"0"', '"x"')), DamagedMesh),
+    Bad("no-x.3mf", lambda: packed.threemf(packed.model().replace(" x=", " u=", 1)), DamagedMesh),
+    Bad(
+        "nan.3mf",
+        lambda: packed.threemf(packed.model().replace('x="', 'x="nan" u="', 1)),
+        DamagedMesh,
+    ),
+    Bad(
+        "index-past.3mf",
+        lambda: packed.threemf(packed.model().replace('v1="0"', 'v1="999"')),
+        DamagedMesh,
+    ),
+    Bad("collada.dae", lambda: b"<?xml version='1.0'?><COLLADA/>", UnknownFormat),
+    Bad("text.gltf", lambda: b'{"asset": {"version": "2.0"}}', UnknownFormat),
 ]
+
+_SECOND = '<item objectid="2" transform="0 1 0 -1 0 0 0 0 1 5 6 7"/>'
+_AROUND = (
+    '<object id="2"><components><component objectid="1" transform="1 0 0 0 0 1 0 -1 0 0 0 9"/>'
+    "</components></object>"
+)
+
+
+def _placed(tree: packed.Tree) -> None:
+    tree["nodes"] = [
+        {"children": [1], "rotation": [0.6, 0.0, 0.0, 0.8], "translation": [1, 2, 3]},
+        {"mesh": 0, "matrix": [0, -1, 0, 0, 1, 0, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1]},
+    ]
+
+
+def _pictured(tree: packed.Tree) -> None:
+    """An image elsewhere is never looked at: the materials play no part."""
+    tree["images"] = [{"uri": "http://example.invalid/skin.png"}, {"uri": "/dev/zero"}]
+    tree["textures"] = [{"source": 0}, {"source": 1}]
+    tree["materials"] = [{"pbrMetallicRoughness": {"baseColorTexture": {"index": 1}}}]
+    _part(tree)["material"] = 0
+
 
 ODD = {
     "solid-header.stl": lambda: b"solid foot" + stl()[10:],
@@ -223,6 +394,17 @@ ODD = {
     ),
     "coloured.obj": lambda: obj().replace(b"\nv", b" .5 .5 .5 # grey\nv"),
     "continued.obj": lambda: obj().replace(b"f ", b"f \\\n"),
+    "metres.glb": packed.glb,
+    "placed.glb": lambda: packed.glb(_placed),
+    "with-picture.glb": lambda: packed.glb(_pictured),
+    "trailing.glb": lambda: packed.glb() + b"made by a scanner",
+    "plain.3mf": packed.threemf,
+    "inches.3mf": lambda: packed.threemf(packed.model(VERTICES / 25.4, unit='unit="inch"')),
+    "microns.3mf": lambda: packed.threemf(packed.model(VERTICES * 1000.0, unit='unit="micron"')),
+    "feet.3mf": lambda: packed.threemf(packed.model(VERTICES / 304.8, unit='unit="foot"')),
+    "placed.3mf": lambda: packed.threemf(packed.model(build=_SECOND, more=_AROUND)),
+    "named.3mf": lambda: packed.threemf(name="3D/other.MODEL"),
+    "called-otherwise.stl": packed.threemf,
     "faces-first.obj": lambda: b"".join(sorted(obj().splitlines(keepends=True), key=_faces_first)),
 }
 

@@ -46,7 +46,7 @@ def is_3mf(data: bytes) -> bool:
     """Whether the content is a ZIP archive that has a model in it."""
     mark = _SUFFIX.encode()
     return data.startswith(b"PK\3\4") and (
-        mark in data[:_LOOKED_AT_BYTES] or mark in data[-_LOOKED_AT_BYTES:]
+        mark in data[:_LOOKED_AT_BYTES].lower() or mark in data[-_LOOKED_AT_BYTES:].lower()
     )
 
 
