@@ -23,6 +23,7 @@ class PlateSettings:
     parallel: float = 0.95
     area_share: float = 0.10
     cut: float = 0.02
+    beyond_share: float = 0.10  # of a plate that reaches beyond the foot; of a holed sole: none
     flat: float = 0.04  # thickness over length of a piece that is a plate by itself
 
 
@@ -32,8 +33,9 @@ PLATE = PlateSettings()
 def without_plate(vertices: Floats, faces: Ints, settings: PlateSettings = PLATE) -> Bools:
     """Which faces are left, (m,) bool, when a floor plate is cut away; all where there is none.
 
-    A plate is a plane on which most of an open mesh's boundary lies and which holds a good part of
-    the area. Everything near the plane goes with it.
+    A plate is a plane on which most of an open mesh's boundary lies, which holds a good part of
+    the area, and which reaches beyond the rest: the sole of a last with holes in it does not.
+    Everything near the plane goes with it.
     """
     every = np.ones(len(faces), dtype=bool)
     rim = np.unique(boundary_edges(faces))
@@ -52,6 +54,9 @@ def without_plate(vertices: Floats, faces: Ints, settings: PlateSettings = PLATE
     left = away >= settings.cut * size
     if held < settings.area_share * areas.sum() or not left.any():
         return every
+    beyond = _beyond(vertices[faces].mean(axis=1), left, plane.normal)
+    if areas[beyond].sum() < settings.beyond_share * areas[~left].sum():
+        return every
     return np.asarray(left)
 
 
@@ -61,6 +66,17 @@ def is_flat(vertices: Floats, settings: PlateSettings = PLATE) -> bool:
     directions = np.linalg.eigh(away.T @ away)[1]
     extents = np.ptp(away @ directions, axis=0)
     return bool(extents[0] < settings.flat * extents[2])
+
+
+def _beyond(middles: Floats, left: Bools, normal: Floats) -> Bools:
+    """Which faces near the plane lie outside the box of what is left, seen along the normal."""
+    across = np.linalg.svd(normal[None])[2][1:]
+    plan = middles @ across.T
+    centre = plan[left].mean(axis=0)
+    plan = (plan - centre) @ np.linalg.eigh(np.cov(plan[left].T))[1]
+    low, high = plan[left].min(axis=0), plan[left].max(axis=0)
+    outside = ((plan < low) | (plan > high)).any(axis=1)
+    return np.asarray(outside & ~left)
 
 
 def _boundary_plane(points: Floats, size: float, settings: PlateSettings) -> Plane:
