@@ -72,7 +72,7 @@ class FlareDefinition:
     # The angle's uncertainty: the scatter of the mid-points, and what scatter does not show.
     scatter_bandwidth: float = 0.02
     scatter_lags: int = 1
-    frame_sd_deg: float = 0.05  # of an unsure frame: benchmarks/flare.py
+    frame_sd_deg: float = 0.05  # a frame wrong by 1 degree of yaw or 2 of roll: benchmarks/flare.py
 
 
 @dataclass(frozen=True, slots=True)
