@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, TypeVar
 
 from footfit.cli.console import answer, error_line, say, say_notices, show
+from footfit.cli.signals import LISTENER
 from footfit.errors import BadOption, FootfitError
 
 if TYPE_CHECKING:
@@ -116,13 +117,20 @@ def tell_error(error: FootfitError, voice: Voice) -> None:
 
 
 def counted(items: Iterable[T], voice: Voice) -> Iterator[T]:
-    """``items`` behind a progress bar, where a person watches several meshes go by."""
-    if voice.quiet or voice.as_json or voice.total < 2 or not sys.stderr.isatty():
-        yield from items
-        return
+    """``items``, counted for who interrupts them, and behind a progress bar where a person
+    watches several meshes go by.
+    """
+    LISTENER.total = voice.total
+    shown = voice.total > 1 and not (voice.quiet or voice.as_json) and sys.stderr.isatty()
+    for item in _behind_a_bar(items, voice.total) if shown else items:
+        yield item
+        LISTENER.done += 1
+
+
+def _behind_a_bar(items: Iterable[T], total: int) -> Iterator[T]:
     from rich.console import Console
     from rich.progress import BarColumn, MofNCompleteColumn, Progress, TimeRemainingColumn
 
     columns = (BarColumn(), MofNCompleteColumn(), TimeRemainingColumn())
     with Progress(*columns, console=Console(stderr=True), transient=True) as bar:
-        yield from bar.track(items, total=voice.total)
+        yield from bar.track(items, total=total)

@@ -3,48 +3,39 @@
 from __future__ import annotations
 
 import os
-import signal
 import sys
 from collections.abc import Callable, Sequence
-from types import FrameType
 from typing import Any
 
 from footfit.cli.console import error_line, say
+from footfit.cli.signals import CODES, LISTENER, Stopped
 from footfit.errors import BadOption, ExitCode, FootfitError
 
 REPORT_TO = "please report it with the command that you typed (docs/exit-codes.md says how)"
 
 
-class Terminated(BaseException):
-    """SIGTERM came: unwinds the stack, so that nothing is left half written."""
-
-
-def _terminate(_number: int, _frame: FrameType | None) -> None:
-    raise Terminated
-
-
 def guarded(application: Callable[..., Any], arguments: Sequence[str]) -> int:
     """Run the application on ``arguments``; return the exit code, having said what went wrong."""
+    with LISTENER.listening():
+        return _answered(application, arguments)
+
+
+def _answered(application: Callable[..., Any], arguments: Sequence[str]) -> int:
     as_json, verbose = "--json" in arguments, "--verbose" in arguments
-    signal.signal(signal.SIGTERM, _terminate)
     try:
         code = application(args=list(arguments), prog_name="footfit", standalone_mode=False)
     except FootfitError as error:
         say(error_line(error, as_json=as_json))
         return int(error.exit)
-    except Terminated:
-        say("footfit: ended by SIGTERM; what was confirmed is stored")
-        return int(ExitCode.TERMINATED)
-    except KeyboardInterrupt:
-        code = int(ExitCode.INTERRUPTED)
+    except Stopped as stopped:
+        say(LISTENER.words(stopped.number))
+        return int(CODES[stopped.number])
     except BrokenPipeError:
         # The reader has gone (| head): keep the interpreter from complaining at its exit.
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
         return int(ExitCode.OK)
     except Exception as error:  # noqa: BLE001 - the boundary: nothing may pass it as a traceback
         return _unexpected(error, as_json=as_json, verbose=verbose)
-    if code == int(ExitCode.INTERRUPTED):
-        say("footfit: interrupted; what was confirmed is stored")
     return code if isinstance(code, int) else int(ExitCode.OK)
 
 

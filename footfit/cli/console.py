@@ -8,7 +8,7 @@ import sys
 from collections.abc import Iterable
 from typing import TYPE_CHECKING
 
-from footfit.errors import FootfitError
+from footfit.errors import BadOption, FootfitError
 from footfit.report.lines import failure_document, json_line
 from footfit.report.text import visible
 
@@ -21,10 +21,23 @@ PLAIN_WIDTH = 100
 
 
 def answer(text: str) -> None:
-    """Write to stdout as UTF-8, whatever the locale says."""
+    """Write to stdout as UTF-8, whatever the locale says.
+
+    Raises
+    ------
+    BadOption
+        The disk that stdout goes to takes no more.
+    BrokenPipeError
+        The reader has gone.
+    """
     data = text if text.endswith("\n") else text + "\n"
-    sys.stdout.buffer.write(data.encode("utf-8", "backslashreplace"))
-    sys.stdout.flush()
+    try:
+        sys.stdout.buffer.write(data.encode("utf-8", "backslashreplace"))
+        sys.stdout.flush()
+    except BrokenPipeError:
+        raise
+    except OSError as error:
+        raise BadOption(f"the answer could not be written to stdout: {error.strerror}") from error
 
 
 def show(renderable: RenderableType) -> None:

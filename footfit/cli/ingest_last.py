@@ -73,6 +73,7 @@ def ingest_last(
     from footfit.cli.answer_forms import INGEST_LAST
     from footfit.cli.answers import Voice, counted, sources_of, tell
     from footfit.cli.settings import catalogue_path
+    from footfit.cli.signals import LISTENER
     from footfit.pipeline.batch import common_code
     from footfit.pipeline.ingest import entries, ingest
     from footfit.pipeline.manifest import read_manifest
@@ -85,9 +86,15 @@ def ingest_last(
     batch = entries(sources_of(paths or [], format), rows, given, reading)
     voice = Voice(json, quiet, len(batch))
     refused: list[int] = []
-    for outcome in counted(
-        ingest(batch, catalogue_path(catalogue), jobs=jobs, replace=replace, dry_run=dry_run), voice
-    ):
+    ingesting = ingest(
+        batch,
+        catalogue_path(catalogue),
+        jobs=jobs,
+        replace=replace,
+        dry_run=dry_run,
+        steady=LISTENER.hold,
+    )
+    for outcome in counted(ingesting, voice):
         tell(outcome, INGEST_LAST, voice)
         if outcome.exit:
             refused.append(outcome.exit)

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from contextlib import AbstractContextManager, nullcontext
 from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
@@ -45,6 +46,10 @@ class Prepared:
     sha256: str
     record: LastRecord | None
     copy: MeshCopy | None
+
+
+Steady = Callable[[], AbstractContextManager[object]]
+"""A block that no signal may part: what is stored in it is also said in it."""
 
 
 class Shelf(Protocol):
@@ -188,8 +193,11 @@ def ingest(
     jobs: int = 1,
     replace: bool = False,
     dry_run: bool = False,
+    steady: Steady = nullcontext,
 ) -> Iterator[IngestOutcome]:
     """Ingest a batch into the catalogue at ``path``, which is made where there is none.
+
+    ``steady`` holds signals off from before a commit until the next outcome is asked for.
 
     Raises
     ------
@@ -205,7 +213,8 @@ def ingest(
         yield from ingested(batch, None, stored, jobs=jobs, replace=replace)
         return
     with open_catalogue(path, write=True) as catalogue:
-        yield from ingested(batch, catalogue, list(catalogue.records()), jobs=jobs, replace=replace)
+        stored = list(catalogue.records())
+        yield from ingested(batch, catalogue, stored, jobs=jobs, replace=replace, steady=steady)
 
 
 def ingested(
@@ -215,6 +224,7 @@ def ingested(
     *,
     jobs: int = 1,
     replace: bool = False,
+    steady: Steady = nullcontext,
 ) -> Iterator[IngestOutcome]:
     """Ingest a batch; yield each file's outcome after its commit.
 
@@ -223,7 +233,8 @@ def ingested(
     index = _Index.of(stored)
     work = partial(prepared, known=frozenset() if replace else frozenset(index.by_content))
     for outcome in outcomes(work, batch, jobs):
-        yield _stored(outcome, index, shelf, replace)
+        with steady():
+            yield _stored(outcome, index, shelf, replace)
 
 
 def _stored(

@@ -1,0 +1,124 @@
+"""Ctrl-C and SIGTERM: the work unwinds at the next safe moment, or the process ends without it.
+
+Python hears a signal between two of its own steps only. A process that sits in one long call (a
+lock that another program holds, a big mesh) would not end for as long as that takes. So a thread
+hears it too, and ends the process when `PATIENCE_S` are over; what is stored is safe at any
+moment (docs/reliability.md).
+"""
+
+from __future__ import annotations
+
+import os
+import select
+import signal
+import sys
+import threading
+from collections.abc import Iterator
+from contextlib import contextmanager, suppress
+from types import FrameType
+
+from footfit.errors import ExitCode
+
+PATIENCE_S = 1.5
+"""From the signal to the end of the process at the latest, short of the two seconds promised."""
+CODES = {signal.SIGINT: ExitCode.INTERRUPTED, signal.SIGTERM: ExitCode.TERMINATED}
+_WORDS = {signal.SIGINT: "interrupted", signal.SIGTERM: "ended by SIGTERM"}
+
+
+class Stopped(BaseException):
+    """A signal asks to end: unwinds the stack, so that nothing is left half written."""
+
+    def __init__(self, number: int) -> None:
+        super().__init__(number)
+        self.number = signal.Signals(number)
+
+
+class Listener:
+    """What this process has heard, and how far its batch is."""
+
+    def __init__(self) -> None:
+        self._held = False
+        self._pending: int | None = None
+        self.done = 0
+        self.total = 0
+
+    def words(self, number: int) -> str:
+        """The line that says why the process ends, and what became of the batch."""
+        what = _WORDS[signal.Signals(number)]
+        if self.total < 2:
+            return f"footfit: {what}; what was confirmed is stored"
+        return (
+            f"footfit: {what} after {self.done} of {self.total} files; their lines say what is done"
+        )
+
+    @contextmanager
+    def hold(self) -> Iterator[None]:
+        """Put a signal off until the block is over: what is stored in it is also said in it."""
+        self._held = True
+        try:
+            yield
+        finally:
+            self._held = False
+            number, self._pending = self._pending, None
+        if number is not None:
+            raise Stopped(number)
+
+    @contextmanager
+    def listening(self) -> Iterator[None]:
+        """Hear SIGINT and SIGTERM inside; outside everything is as it was."""
+        self._held, self._pending, self.done, self.total = False, None, 0, 0
+        if threading.current_thread() is not threading.main_thread():
+            yield  # Python lets only the main thread set a handler
+            return
+        # What is ignored stays so: a job that a script put into the background.
+        heard = [number for number in CODES if signal.getsignal(number) != signal.SIG_IGN]
+        before = {number: signal.signal(number, self._hear) for number in heard}
+        ear, mouth = os.pipe()
+        os.set_blocking(mouth, False)
+        wakeup = signal.set_wakeup_fd(mouth, warn_on_full_buffer=False)
+        threading.Thread(target=self._watch, args=(ear,), daemon=True).start()
+        try:
+            yield
+        finally:
+            signal.set_wakeup_fd(wakeup)
+            os.close(mouth)  # the thread's sign to end
+            for number, handler in before.items():
+                signal.signal(number, handler)
+
+    def _hear(self, number: int, _frame: FrameType | None) -> None:
+        if self._held:
+            self._pending = number
+        else:
+            raise Stopped(number)
+
+    def _watch(self, ear: int) -> None:
+        """In the thread: a second signal, or the end of patience, ends the process at once."""
+        heard: int | None = None
+        while True:
+            ready, _, _ = select.select([ear], [], [], None if heard is None else PATIENCE_S)
+            said = os.read(ear, 1) if ready else b""
+            if ready and not said:
+                os.close(ear)
+                return
+            if said and said[0] not in CODES:  # another signal, such as an alarm
+                continue
+            if heard is not None:
+                self._end_at_once(heard)
+            heard = said[0]
+
+    def _end_at_once(self, number: int) -> None:
+        with suppress(OSError):
+            os.write(sys.__stderr__.fileno() if sys.__stderr__ else 2, self._line(number))
+        if "multiprocessing" in sys.modules:
+            from multiprocessing import active_children
+
+            for child in active_children():
+                child.kill()
+        os._exit(int(CODES[signal.Signals(number)]))
+
+    def _line(self, number: int) -> bytes:
+        return (self.words(number) + "\n").encode()
+
+
+LISTENER = Listener()
+"""One for the process, as its signals are."""
