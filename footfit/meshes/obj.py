@@ -37,6 +37,7 @@ def read_obj(data: bytes, limits: Limits) -> RawMesh:
     TooLarge
         More vertices or faces, or a longer face, than ``limits`` allow.
     """
+    check_counts(data.count(b"\nv "), data.count(b"\nf "), limits)  # a look before the work
     text = _CONTINUED.sub(b" ", unix_text(data))
     rows = text_lines(_COMMENT.sub(b"", text))
     is_vertex, is_face = _starting_with(rows, b"v"), _starting_with(rows, b"f")

@@ -15,6 +15,7 @@ from footfit.meshes.tokens import floats, text_lines, unix_text
 
 # ST, C, N: texture, colour and normal follow the coordinates; 4 and n would change what they mean.
 _MAGIC = re.compile(rb"\s*(?:ST)?C?N?OFF\b(?!\s*BINARY)", re.IGNORECASE)
+_COUNTS = re.compile(rb"\s*(\d{1,15})\s+(\d{1,15})\s")
 _COMMENT = re.compile(rb"#[^\n]*")
 
 
@@ -33,7 +34,10 @@ def read_off(data: bytes, limits: Limits) -> RawMesh:
     TooLarge
         Counts past ``limits``.
     """
-    text = _COMMENT.sub(b"", _MAGIC.sub(b"", unix_text(data), count=1))
+    early = _COUNTS.match(_numbers_of(data[: limits.header_bytes]))
+    if early is not None:
+        check_counts(int(early[1]), int(early[2]), limits)  # a look before the work
+    text = _numbers_of(data)
     rows = text_lines(text)
     values = floats(text, len(rows.words))
     if len(rows.counts) == 0 or rows.counts[0] < 2:
@@ -49,6 +53,11 @@ def read_off(data: bytes, limits: Limits) -> RawMesh:
     vertices = _vertices(values, rows.first[1:after], rows.counts[1:after])
     ends = slice(after, after + n_faces)
     return RawMesh(vertices, _faces(values, rows.first[ends], rows.counts[ends], limits))
+
+
+def _numbers_of(data: bytes) -> bytes:
+    """The text without its keyword and its comments."""
+    return _COMMENT.sub(b"", _MAGIC.sub(b"", unix_text(data), count=1))
 
 
 def _count(value: float) -> int:

@@ -89,6 +89,7 @@ def read_ascii_stl(data: bytes, limits: Limits) -> RawMesh:
     EmptyMesh, TooLarge
         No facets, or more than ``limits`` allow.
     """
+    check_counts(0, data.count(b"endfacet"), limits)  # a look before the work
     text = unix_text(data)
     corners, facets = [], 0
     for chunk in _chunks(text):
