@@ -15,7 +15,8 @@ The whole tree (a test compares this drawing with the classes)::
     │   ├── TooLarge              too_large
     │   ├── UnknownUnits          unknown_units
     │   ├── ImplausibleSize       implausible_size
-    │   └── BadManifest           bad_manifest
+    │   ├── BadManifest           bad_manifest
+    │   └── BadProfile            bad_profile
     ├── NotInCatalogue            exit 4
     │   ├── NoCatalogue           no_catalogue
     │   ├── EmptyCatalogue        empty_catalogue
@@ -164,6 +165,12 @@ class BadManifest(InputError):
     """The manifest CSV cannot be understood."""
 
     code = "bad_manifest"
+
+
+class BadProfile(InputError):
+    """The fit profile's TOML cannot be understood."""
+
+    code = "bad_profile"
 
 
 class NotInCatalogue(FootfitError):

@@ -1,123 +1,347 @@
-"""Ranking: the length gate, tiers, ties, sides, pairs; on records made by code."""
+"""Ranking: the gate, zones, ties, sides, pairs, reasons; on records made by code."""
 
 from __future__ import annotations
 
 from dataclasses import replace
 from typing import Any
 
+import numpy as np
 import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
 
 from footfit.errors import NoCandidate
-from footfit.pipeline.fit import TIE_DISTANCE, WALKING
-from footfit.pipeline.match import Library, Question, matched
-from footfit.results import LastRecord, Profiled
+from footfit.pipeline.choice import choice
+from footfit.pipeline.match import Library, Question, matched, meets
+from footfit.pipeline.profile import fit_profile
+from footfit.pipeline.ranking import TIE_DISTANCE
+from footfit.pipeline.zones import pitch_gain_mm, zone_shape
+from footfit.results import Candidate, LastRecord, Match, Measure, Measured, Profiled
 from tests import answers
 
+WALKING = fit_profile("walking")
+FOOT = {"ball_girth": 240.0, "ball_width": 98.0, "heel_width": 62.0, "ball_length": 188.0}
+LAST = {"ball_girth": 240.0, "ball_width": 96.0, "heel_width": 64.0, "ball_length": 188.0}
+SD_MM = 0.5
 
-def last(name: str, turn_deg: float = 8.0, length_mm: float = 273.0, **more: Any) -> LastRecord:
-    return answers.record(name, turn_deg, length_mm, **more)
+
+def measures(**values_mm: float | None) -> tuple[Measure, ...]:
+    return tuple(
+        Measure(name, Measured(mm, SD_MM if mm else None, None if mm else "a gap"), f"{name}/1")
+        for name, mm in values_mm.items()
+    )
+
+
+def foot(
+    length_mm: float = 260.0, turn_deg: float = 8.0, left: bool = False, **mm: Any
+) -> Profiled:
+    shape = answers.foot(left=left, length_mm=length_mm, turn_deg=turn_deg)
+    return replace(shape, measures=measures(length=length_mm, **(FOOT | mm)))
+
+
+def last(
+    name: str, length_mm: float = 273.0, turn_deg: float = 8.0, left: bool = False, **more: Any
+) -> LastRecord:
+    mm = {key: more.pop(key) for key in tuple(more) if key in LAST}
+    record = answers.record(name, turn_deg, length_mm, left, **more)
+    return replace(record, measures=measures(length=length_mm, **(LAST | mm)))
 
 
 def library(*lasts: LastRecord) -> Library:
     return Library(tuple(lasts), len(lasts), lasts[0].labels.name if lasts else None)
 
 
-def names(*lasts: LastRecord, foot: Profiled | None = None, **question: Any) -> list[str]:
-    feet = [foot or answers.foot(length_mm=260.0, turn_deg=8.0)]
-    found = matched(feet, library(*lasts), Question(**question))
-    return [candidate.last for candidate in found.candidates]
+def answer(*lasts: LastRecord, feet: tuple[Profiled, ...] | None = None, **question: Any) -> Match:
+    return matched(feet or (foot(),), library(*lasts), Question(**question))
 
 
-def test_the_length_gate_holds_whatever_the_flare() -> None:
-    short, long, good = last("a", 8, 267.9), last("b", 8, 280.1), last("c", 30, 273)
-    assert names(short, long, good) == ["c"]
-    found = matched([answers.foot(length_mm=260.0)], library(short, long, good))
+def names(*lasts: LastRecord, **more: Any) -> list[str]:
+    return [candidate.last for candidate in answer(*lasts, **more).candidates]
+
+
+def zone(candidate: Candidate, name: str, of: int = 0) -> Any:
+    return next(z for z in candidate.fits[of].zones if z.zone == name)
+
+
+# ---------------------------------------------------------------- the gate
+
+
+def test_the_length_gate_holds_whatever_else_fits() -> None:
+    short, long, good = last("a", 267.9), last("b", 280.1), last("c", 273, 30, ball_girth=250)
+    found = answer(short, long, good)
+    assert [c.last for c in found.candidates] == ["c"]
     assert dict(found.rejected) == {"too_long": 1, "too_short": 1}
 
 
-def test_by_flare_knows_no_size_and_says_so() -> None:
-    found = matched(
-        [answers.foot(length_mm=260.0, turn_deg=8.0)],
-        library(last("far", 8, 330), last("near", 20, 273)),
-        Question(by="flare"),
+@given(st.floats(-80, 80), st.sampled_from(["sure", "low", "undecided"]))
+@settings(deadline=None, max_examples=40)
+def test_no_confidence_switches_the_gate_off(room_mm: float, word: str) -> None:
+    shape = foot()
+    side = replace(shape.aligned.alignment.side, confidence=word)
+    alignment = replace(shape.aligned.alignment, side=side)
+    unsure = replace(shape, aligned=replace(shape.aligned, alignment=alignment))
+    found = answer(last("a", 260.0 + room_mm), feet=(unsure,))
+    assert bool(found.candidates) == (8.0 <= 260.0 + room_mm - 260.0 <= 20.0)
+
+
+def test_a_ball_line_over_four_percent_off_is_a_reject() -> None:
+    limit_mm = 0.04 * 260.0
+    near = last("near", ball_length=188.0 + limit_mm - 0.1)
+    over, under = (
+        last("over", ball_length=188.0 + limit_mm + 0.1),
+        last("under", ball_length=188.0 - limit_mm - 0.1),
     )
-    assert [c.last for c in found.candidates] == ["far", "near"]
-    assert [notice.code for notice in found.warnings] == ["scale_free"]
+    found = answer(near, over, under)
+    assert [c.last for c in found.candidates] == ["near"]
+    assert dict(found.rejected) == {"ball_line_too_far_back": 1, "ball_line_too_far_forward": 1}
 
 
-def test_the_nearer_flare_ranks_first_and_a_tie_is_settled_by_length_then_name() -> None:
-    lasts = [last("z", 8, 273), last("y", 8, 275), last("x", 8, 273), last("w", 25, 273)]
-    assert names(*lasts) == ["x", "z", "y", "w"]
-    found = matched([answers.foot(length_mm=260.0, turn_deg=8.0)], library(*lasts))
-    assert set(found.candidates[0].tied_with) == {"y", "z"}
-    assert found.candidates[-1].tied_with == ()
-    distances = [candidate.distance for candidate in found.candidates]
-    assert distances[-1] - distances[0] > TIE_DISTANCE
+# ---------------------------------------------------------------- verdicts
 
 
-def test_the_order_of_the_library_does_not_matter() -> None:
-    lasts = [last(f"l{i}", 4 + 3 * i, 268.5 + i) for i in range(8)]
-    assert names(*lasts, top=0) == names(*reversed(lasts), top=0)
+@pytest.mark.parametrize(
+    ("girth_mm", "verdict"),
+    [(240, "good"), (244, "good"), (235, "acceptable"), (231, "poor"), (222, "reject")],
+)
+def test_the_verdict_is_the_worst_zone(girth_mm: float, verdict: str) -> None:
+    found = answer(last("a", ball_girth=girth_mm))
+    (one,) = found.candidates or found.nearest
+    assert one.verdict == verdict
+    assert zone(one, "ball_girth").verdict == verdict
+    assert zone(one, "length").verdict == "good"
+
+
+def test_a_better_verdict_ranks_before_a_nearer_distance() -> None:
+    one_bad = last("one-bad", ball_girth=231)
+    all_fair = last("fair", 269.0, ball_girth=234, ball_width=102, heel_width=70)
+    found = answer(one_bad, all_fair)
+    assert [c.verdict for c in found.candidates] == ["acceptable", "poor"]
+    assert found.candidates[0].distance > found.candidates[1].distance
+
+
+def test_a_missing_measure_is_said_and_never_good() -> None:
+    found = answer(last("whole"), last("lacking", ball_girth=None))
+    by_name = {c.last: c for c in found.candidates}
+    assert by_name["whole"].verdict == "good"
+    assert by_name["lacking"].verdict == "acceptable"
+    assert "ball_girth" in by_name["lacking"].not_judged
+    assert zone(by_name["lacking"], "ball_girth").clearance.reason == "the last: a gap"
+    assert by_name["lacking"].distance > by_name["whole"].distance
+    assert "not_judged" in [n.code for n in found.warnings], "instep and heel girth have no measure"
+
+
+def test_measures_of_two_definitions_are_not_compared() -> None:
+    old = last("old")
+    changed = tuple(replace(m, definition="older") for m in old.measures)
+    (found,) = answer(replace(old, measures=changed)).candidates
+    assert "another definition" in zone(found, "ball_girth").clearance.reason
+
+
+def test_the_cavity_is_taken_off_the_last() -> None:
+    rules = tuple(
+        replace(rule, cavity=3.0) if rule.zone == "ball_girth" else rule for rule in WALKING.zones
+    )
+    lined = replace(WALKING, zones=rules)
+    (found,) = answer(last("a"), profile=lined).candidates
+    assert zone(found, "ball_girth").clearance.value == pytest.approx(-3.0)
+
+
+def test_a_clearance_is_the_last_minus_the_foot_with_both_spreads() -> None:
+    (found,) = answer(last("a", ball_girth=243.5)).candidates
+    clearance = dict(found.clearance_mm)
+    assert clearance["ball_girth"].value == pytest.approx(3.5)
+    assert clearance["ball_girth"].sd == pytest.approx(SD_MM * 2**0.5)
+    assert clearance["length"].value == pytest.approx(13.0)
+
+
+# ---------------------------------------------------------------- order and ties
+
+
+def test_the_nearer_girth_and_the_nearer_flare_rank_first() -> None:
+    assert names(*(last(f"g{g}", ball_girth=g) for g in (244, 240, 236.5, 242))) == [
+        "g240",
+        "g242",
+        "g236.5",
+        "g244",
+    ]
+    assert names(*(last(f"t{t}", turn_deg=t) for t in (2, 8, 5))) == ["t8", "t5", "t2"]
+
+
+def test_a_difference_inside_the_uncertainty_is_a_tie_and_outside_none() -> None:
+    found = answer(
+        last("b", ball_girth=243.0), last("a", ball_girth=243.2), last("c", ball_girth=244)
+    )
+    first, second, third = found.candidates
+    assert [first.last, second.last, third.last] == ["a", "b", "c"], "by name inside the tie"
+    assert first.tied_with == ("b",)
+    assert second.tied_with == ("a",)
+    assert third.tied_with == ()
+    assert first.distance_sd is not None
+    assert first.distance_sd > 0
+    strict = replace(WALKING, tie_sds=0.0)
+    apart = answer(last("b", ball_girth=243.0), last("a", ball_girth=243.2), profile=strict)
+    assert [c.last for c in apart.candidates] == ["b", "a"]
+    assert all(c.tied_with == () for c in apart.candidates)
+
+
+def test_inside_a_tie_the_better_length_comes_first() -> None:
+    vague = replace(WALKING, tie_sds=9.0)
+    order = names(last("a", 271.0), last("b", 273.0), last("c", 273.0), profile=vague)
+    assert order == ["b", "c", "a"]
+
+
+@given(st.permutations(range(7)))
+@settings(deadline=None, max_examples=15)
+def test_the_order_of_the_library_does_not_matter(order: list[int]) -> None:
+    lasts = [last(f"l{i}", 268.5 + i, 4 + 3 * i, ball_girth=236 + i) for i in range(7)]
+    assert names(*(lasts[i] for i in order), top=0) == names(*lasts, top=0)
 
 
 def test_top_cuts_the_answer_and_not_the_ranks() -> None:
-    lasts = [last(f"l{i}", 8 + 4 * i) for i in range(6)]
+    lasts = [last(f"l{i}", ball_girth=240 + i) for i in range(6)]
     assert names(*lasts, top=2) == names(*lasts, top=0)[:2]
 
 
-def test_by_shape_finds_the_length_too() -> None:
-    lasts = [last(f"{mm}", 8, mm) for mm in (253, 260, 267)]
+# ---------------------------------------------------------------- other searches
+
+
+def test_by_flare_knows_no_size_and_says_so_and_still_judges() -> None:
+    found = answer(last("far", 330, 8), last("near", 273, 20), by="flare")
+    assert [c.last for c in found.candidates] == ["far", "near"]
+    assert found.candidates[0].verdict == "reject"
+    assert found.rejected == ()
+    assert "scale_free" in [notice.code for notice in found.warnings]
+
+
+def test_by_flare_a_tie_is_as_wide_as_two_rescans() -> None:
+    found = answer(last("z"), last("y"), last("w", turn_deg=25), by="flare")
+    assert set(found.candidates[0].tied_with) == {"z"}
+    assert found.candidates[-1].distance - found.candidates[0].distance > TIE_DISTANCE
+
+
+def test_by_shape_finds_length_and_width_and_judges_no_fit() -> None:
+    lasts = [last(str(mm), mm) for mm in (253, 260, 267)]
     assert names(*lasts, by="shape") == ["260", "253", "267"]
+    widths = [last(f"w{w}", 260, ball_width=w) for w in (94, 98, 102)]
+    found = answer(*widths, by="shape")
+    assert found.candidates[0].last == "w98"
+    assert {c.verdict for c in found.candidates} == {None}
+
+
+def test_the_flare_difference_is_the_last_minus_the_foot() -> None:
+    shape, one = foot(turn_deg=10.0), last("a", turn_deg=4.0)
+    (found,) = answer(one, feet=(shape,), by="flare").candidates
+    assert found.flare.delta_deg == pytest.approx(one.flare.angle_deg - shape.flare.angle_deg)
+    assert "less inward" in found.why
+    (found,) = answer(replace(one, flare=shape.flare), feet=(shape,), by="flare").candidates
+    assert found.distance == pytest.approx(0.0, abs=1e-9)
+
+
+# ---------------------------------------------------------------- sides and pairs
 
 
 def test_a_pair_of_lasts_is_shown_once_on_the_foots_own_side() -> None:
     labels = {"style": "derby", "size": "42", "size_system": "eu"}
     right, left = last("r", **labels), last("l", left=True, **labels)
     other = last("only-right", **{**labels, "size": "43"})
-    foot = answers.foot(left=True, length_mm=260.0)
-    assert names(right, left, other, foot=foot) == ["l", "only-right"]
-    found = matched([foot], library(right, left, other))
-    assert [candidate.mirrored for candidate in found.candidates] == [False, True]
+    found = answer(right, left, other, feet=(foot(left=True),))
+    assert [(c.last, c.mirrored) for c in found.candidates] == [("l", False), ("only-right", True)]
 
 
 def test_the_larger_foot_of_a_pair_governs_the_length() -> None:
-    small, large = answers.foot(length_mm=255.0, left=True), answers.foot(length_mm=262.0)
+    small, large = foot(255.0, left=True), foot(262.0)
     for feet in ((small, large), (large, small)):
-        found = matched(feet, library(last("a", 8, 268), last("b", 8, 275)))
-        assert [candidate.last for candidate in found.candidates] == ["b"]
-    both_right = (answers.foot(), answers.foot())
-    assert "same_side" in [n.code for n in matched(both_right, library(last("a"))).warnings]
+        found = answer(last("a", 268), last("b", 275), feet=feet)
+        assert [c.last for c in found.candidates] == ["b"]
+        governs = [zone(found.candidates[0], "length", i).counts for i in (0, 1)]
+        assert governs == [foot is large for foot in feet]
+    assert "same_side" in [n.code for n in answer(last("a"), feet=(foot(), foot())).warnings]
 
 
-def test_where_nothing_fits_the_nearest_are_named_and_not_ranked() -> None:
-    found = matched([answers.foot(length_mm=260.0)], library(last("a", 8, 250), last("b", 8, 262)))
+def test_the_wider_foot_of_a_pair_counts_too() -> None:
+    pair = (foot(left=True, ball_girth=252.0), foot())
+    (found,) = answer(last("a"), feet=pair).candidates
+    assert found.verdict == "poor"
+    assert [fit.verdict for fit in found.fits] == ["poor", "good"]
+    assert found.fits[0].side == "left"
+
+
+def test_a_pair_that_differs_by_a_size_is_advised() -> None:
+    feet = (foot(254.0, left=True), foot(262.0))
+    (notice,) = [n for n in answer(last("a", 275), feet=feet).warnings if "differ" in n.code]
+    assert notice.code == "feet_differ_by_a_size"
+    assert "right foot is 8.0 mm longer" in notice.message
+    assert "EU 41 and EU 40" in notice.message
+    near = answer(last("a", 275), feet=(foot(261.0, left=True), foot(262.0))).warnings
+    assert "pair_difference" in [n.code for n in near]
+
+
+# ---------------------------------------------------------------- reasons
+
+
+def test_the_first_is_said_by_its_worst_zone() -> None:
+    (found,) = answer(last("a", ball_girth=237.0)).candidates
+    assert found.why == "13.0 mm toe room (asked 13); ball girth 3.0 mm tighter than asked"
+    (found,) = answer(last("a")).candidates
+    assert found.why.endswith("near the target in every zone judged")
+
+
+def test_the_next_is_said_by_what_puts_it_behind_the_first() -> None:
+    found = answer(last("best"), last("wide", ball_width=101.0), last("long", 279.0))
+    why = {c.last: c.why for c in found.candidates}
+    assert why["wide"].endswith("ball width 5.0 mm wider than asked, behind best by that")
+    assert why["long"] == "19.0 mm toe room (asked 13): further off than best"
+
+
+def test_where_nothing_fits_the_nearest_three_say_what_they_miss_by() -> None:
+    lasts = (last("a", 250), last("b", 262), last("c", 300), last("d", 290))
+    found = answer(*lasts)
     assert found.candidates == ()
-    (notice,) = found.warnings
-    assert notice.code == "nothing_fits"
-    assert "b: 2.0 mm toe room (asked 13); a: 10.0 mm shorter than the foot" in notice.message
+    assert [c.last for c in found.nearest] == ["b", "d", "c"]
+    assert {c.verdict for c in found.nearest} == {"reject"}
+    assert found.nearest[0].why == "2.0 mm toe room (asked 13), 6.0 mm past the limit"
+    assert "nothing_fits" in [n.code for n in found.warnings]
+
+
+def test_a_check_asks_for_the_best_of_the_candidates() -> None:
+    good, fair, none = answer(last("a")), answer(last("a", 279)), answer(last("a", 300))
+    assert [meets(m, "good") for m in (good, fair, none)] == [True, False, False]
+    assert [meets(m, "acceptable") for m in (good, fair, none)] == [True, True, False]
+
+
+def test_the_profile_is_in_the_answer_with_its_hash() -> None:
+    found = answer(last("a"), profile=fit_profile("dress"))
+    assert found.profile == "dress"
+    assert found.fit_profile == fit_profile("dress")
+
+
+# ---------------------------------------------------------------- pitch
+
+
+def test_a_heel_makes_the_bottom_longer_than_its_chord() -> None:
+    """Against the triangle: the forepart of true length f rises by the pitch from the chord."""
+    chord_mm, forepart_mm = 190.0, 80.0
+    for heel_mm in (20.0, 45.0, 75.0):
+        pitch = np.arcsin(heel_mm / chord_mm)
+        length_mm = chord_mm + forepart_mm * np.cos(pitch)
+        pitched = last("a", length_mm, heel_height_mm=heel_mm, ball_length=chord_mm)
+        gain = pitch_gain_mm(zone_shape(pitched))
+        assert length_mm + gain == pytest.approx(chord_mm + forepart_mm)
+    flat = last("a", heel_height_mm=None)
+    assert pitch_gain_mm(zone_shape(flat)) == 0.0
+
+
+# ---------------------------------------------------------------- the library
 
 
 def test_no_last_at_all_is_an_error() -> None:
     with pytest.raises(NoCandidate):
-        matched([answers.foot()], library())
+        answer()
 
 
-def test_a_clearance_is_the_last_minus_the_foot_with_its_uncertainty() -> None:
-    found = matched([answers.foot(length_mm=260.0)], library(last("a", 8, 273)))
-    clearance = dict(found.candidates[0].clearance_mm)["length"]
-    assert clearance.value == pytest.approx(13.0)
-    assert clearance.sd is not None
-    assert clearance.sd > 0
-    assert WALKING.good_mm[0] <= 13.0 <= WALKING.good_mm[1]
-
-
-def test_the_flare_difference_is_the_last_minus_the_foot() -> None:
-    foot, one = answers.foot(turn_deg=10.0), last("a", 4.0)
-    found = matched([foot], library(one), Question(by="flare"))
-    delta = found.candidates[0].flare.delta_deg
-    assert delta == pytest.approx(one.flare.angle_deg - foot.flare.angle_deg)
-    assert delta < 0
-    assert "less inward" in found.candidates[0].why
-    same = replace(one, flare=foot.flare)
-    found = matched([foot], library(same), Question(by="flare"))
-    assert found.candidates[0].distance == pytest.approx(0.0, abs=1e-9)
+def test_a_size_system_that_no_last_has_ranks_all_and_says_so(stocked: Any) -> None:
+    found = choice(stocked, None, "us-women")
+    assert found.lasts
+    assert [notice.code for notice in found.warnings] == ["other_systems"]
+    assert choice(stocked, None, "EU").warnings == ()
+    assert not choice(stocked, None, "the shop's own").lasts

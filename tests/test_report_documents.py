@@ -17,6 +17,7 @@ from hypothesis import strategies as st
 
 from footfit import __version__
 from footfit.errors import SeveralFeet
+from footfit.pipeline.match import Library, matched
 from footfit.report import documents, last_documents, upkeep
 from footfit.report.lines import failure_document
 from footfit.report.numbers import nested, rounded
@@ -105,6 +106,22 @@ def test_the_page_lists_the_keys_of_every_part() -> None:
     assert set(candidate["clearance_mm"]["length"]) == listed["measured value"]
     lasts = last_documents.list_lasts_document([answers.record()], None)["lasts"]
     assert set(lasts[0]) == listed["last"]
+    assert set(lasts[0]["label_check"]) == listed["label_check"]
+
+
+def test_the_page_lists_the_keys_of_a_fit() -> None:
+    listed = listed_keys()
+    answer = matched([answers.foot()], Library((answers.record(),), 1, None))
+    match = documents.match_document(answer)
+    fit = match["candidates"][0]["fits"][0]
+    assert set(fit) == listed["fit"]
+    assert {key for zone in fit["zones"].values() for key in zone} == listed["zone"]
+    assert {key for size in match["feet"][0]["sizes"].values() for key in size} == listed["size"]
+    rules = match["fit_profile"]["zones"]
+    assert set(match["fit_profile"]) == listed["fit profile"]
+    assert {key for rule in rules.values() for key in rule} == listed["rule"]
+    assert list(rules) == list(fit["zones"])
+    documents.json_line(match)
     checked = upkeep.check_catalogue_document(CheckOutcome("a.footfit", 1, 1, (FINDING,)))
     assert set(checked["findings"][0]) == listed["finding"]
 

@@ -9,7 +9,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from rich.cells import cell_len
 
-from footfit.report import last_tables, tables
+from footfit.pipeline.match import Library, matched
+from footfit.report import last_tables, match_tables, tables
 from footfit.report.tables import terminal_text
 from footfit.results import DemoOutcome, MeshCopy, SideVerdict, UpgradeOutcome
 from tests import answers
@@ -24,7 +25,7 @@ def every_table(name: str = "derby-42"):
     return [
         tables.align_table(foot.aligned.alignment),
         tables.flare_table(foot),
-        tables.match_table(answers.match((foot,), names=(name, "oxford-42"))),
+        match_tables.match_table(answers.match((foot,), names=(name, "oxford-42"))),
         tables.ingest_line(answers.outcome(last=name)),
         tables.ingest_line(answers.outcome(status="refused", last=None, error=name, path=name)),
         tables.curvature_table(answers.curvature(name)),
@@ -49,13 +50,13 @@ def test_no_line_is_wider_than_the_terminal(name: str, width: int) -> None:
 
 
 def test_a_long_name_is_folded_and_not_cut() -> None:
-    lines = terminal_text(tables.match_table(answers.match(names=(LONG,))), 80).splitlines()
+    lines = terminal_text(match_tables.match_table(answers.match(names=(LONG,))), 80).splitlines()
     rows = lines[next(i for i, line in enumerate(lines) if "─" in line) + 1 :]
-    assert "".join(line[3:22].strip() for line in rows).startswith(LONG)
+    assert "".join(line[4:24].strip() for line in rows).startswith(LONG)
 
 
 def test_the_match_says_what_a_fitter_asks() -> None:
-    text = terminal_text(tables.match_table(answers.match()), 100)
+    text = terminal_text(match_tables.match_table(answers.match()), 100)
     assert "right foot, 260.0 mm long, flare +10.0 ± 0.2 deg (straight)" in text
     assert "derby, EU 42 G" in text
     assert "+11.5" in text
@@ -64,28 +65,66 @@ def test_the_match_says_what_a_fitter_asks() -> None:
 
 
 def test_nothing_fits_is_an_answer() -> None:
-    text = terminal_text(tables.match_table(answers.match(candidates=())))
+    text = terminal_text(match_tables.match_table(answers.match(candidates=())))
     assert "No last fits." in text
 
 
 def test_a_verdict_is_a_word_and_has_its_column_once_it_is_there() -> None:
     match = answers.match()
     judged = tuple(replace(c, verdict="acceptable") for c in match.candidates)
-    assert "verdict" not in terminal_text(tables.match_table(match))
-    text = terminal_text(tables.match_table(replace(match, candidates=judged)), 120)
+    assert "verdict" not in terminal_text(match_tables.match_table(match))
+    text = terminal_text(match_tables.match_table(replace(match, candidates=judged)), 120)
     assert "verdict" in text
     assert text.count("acceptable") == len(judged)
+
+
+def test_a_real_answer_fits_eighty_columns_with_its_sentences_and_zones() -> None:
+    lasts = tuple(answers.record(f"derby-{i}", 8 + i, 271 + i) for i in range(3))
+    pair = (answers.foot("l.stl", left=True, length_mm=258.0), answers.foot("r.stl"))
+    for feet in (pair[1:], pair):
+        answer = matched(feet, Library(lasts, 3, None))
+        text = terminal_text(match_tables.match_table(answer), 80)
+        assert all(cell_len(line) <= 80 for line in text.splitlines())
+        for candidate in answer.candidates:
+            assert candidate.why[:60] in " ".join(text.split())
+            assert candidate.verdict in text
+        assert "Zone by zone" in text
+        assert "not judged: not measured on the foot" in " ".join(text.split())
+        assert "EU 41" in text
+
+
+def test_the_size_system_asked_for_is_said_with_the_sizes_beside() -> None:
+    text = terminal_text(match_tables.match_table(answers.match(size_system="uk")))
+    assert "size UK 7.5; beside it UK 7 and UK 8" in text
+
+
+def test_where_nothing_fits_the_nearest_are_shown() -> None:
+    lasts = (answers.record("far", 8, 250.0), answers.record("near", 8, 262.0))
+    answer = matched((answers.foot(),), Library(lasts, 2, None))
+    text = terminal_text(match_tables.match_table(answer))
+    assert "The nearest, and what they miss by:" in text
+    assert text.index("near") < text.index("far ")
+    assert "6.0 mm past the limit" in text
+
+
+def test_a_label_that_is_off_is_flagged() -> None:
+    right, wrong = answers.record("right", 8, 280.0), answers.record("wrong", 8, 253.0)
+    text = terminal_text(last_tables.list_lasts_table([right, wrong], None))
+    assert "! wrong: labelled 4" in text
+    assert "! right" not in text
+    assert "by its length" in terminal_text(last_tables.show_last_table(wrong, None))
+    assert "by its length" not in terminal_text(last_tables.show_last_table(right, None))
 
 
 def test_ties_and_mirroring_are_said() -> None:
     match = answers.match()
     first = replace(match.candidates[0], tied_with=("a", "b", "c", "d"), mirrored=True)
-    text = terminal_text(tables.match_table(replace(match, candidates=(first,))), 240)
+    text = terminal_text(match_tables.match_table(replace(match, candidates=(first,))), 240)
     assert "; mirrored; tied with a, b, c and 1 more" in text
 
 
 def test_plain_text_has_no_escape_and_colour_has() -> None:
-    table = tables.match_table(answers.match())
+    table = match_tables.match_table(answers.match())
     assert "\x1b" not in terminal_text(table, colour=False)
     assert "\x1b[" in terminal_text(table, colour=True)
 

@@ -11,7 +11,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, Generic, TypeVar
 
 from footfit.pipeline.match import Library
-from footfit.report import documents, last_documents, last_tables, tables, upkeep
+from footfit.report import documents, last_documents, last_tables, match_tables, tables, upkeep
 from footfit.results import (
     AlignedScan,
     BackupOutcome,
@@ -67,7 +67,7 @@ CURVATURE: Answer[SurfaceCurvature] = Answer(
 )
 MATCH: Answer[Match] = Answer(
     documents.match_document,
-    tables.match_table,
+    match_tables.match_table,
     lambda match: (None, _match_notices(match)),
 )
 INGEST_LAST: Answer[IngestOutcome] = Answer(

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from enum import StrEnum
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
@@ -22,15 +23,30 @@ class ByName(StrEnum):
     shape = "shape"
 
 
+class Least(StrEnum):
+    """The verdict that is asked for."""
+
+    good = "good"
+    acceptable = "acceptable"
+
+
 def match(
     feet: options.Meshes,
     by: Annotated[
         ByName,
         typer.Option(
             "--by",
-            help="fit: length, then flare. flare: the paper's search. shape: find a scanned last.",
+            help="fit: length, then zones. flare: the paper's search. shape: find a scanned last.",
         ),
     ] = ByName.fit,
+    profile: Annotated[
+        str,
+        typer.Option(
+            "--profile",
+            metavar="NAME|FILE.toml",
+            help="What is fitted: walking, dress, sport, child, safety, or a profile of your own.",
+        ),
+    ] = "walking",
     pair: Annotated[
         bool, typer.Option("--pair", help="The two scans are one customer's feet.")
     ] = False,
@@ -44,7 +60,19 @@ def match(
     size_system: Annotated[
         str | None,
         typer.Option(
-            "--size-system", metavar="S", show_default=False, help="Only lasts of this size system."
+            "--size-system",
+            metavar="S",
+            show_default=False,
+            help="Say sizes in eu, uk, us-men, us-women, us-women-fia or mondopoint, and take only "
+            "lasts labelled in it, if there are any.",
+        ),
+    ] = None,
+    fail_under: Annotated[
+        Least | None,
+        typer.Option(
+            "--fail-under",
+            show_default=False,
+            help="Exit 7 where a customer has no last that is at least this.",
         ),
     ] = None,
     html: Annotated[
@@ -77,20 +105,23 @@ def match(
     from footfit.cli.answers import Voice, only_one, sources_of, told
     from footfit.cli.outputs import refuse_existing, write_or_answer, write_output
     from footfit.cli.settings import catalogue_path
-    from footfit.pipeline.lasts import library
+    from footfit.pipeline.choice import choice
     from footfit.pipeline.match import Question, customers
+    from footfit.pipeline.profile import fit_profile
     from footfit.pipeline.shapes import candidate_shapes
     from footfit.pipeline.sources import ReadingOptions
     from footfit.report.csv import match_csv
     from footfit.report.html import match_report
 
+    refuse_check(by, fail_under)
     sources = sources_of(feet, format)
     only_one(sources[:1] if pair else sources, html)
     refuse_existing(html, csv, force=force)
     path = catalogue_path(catalogue)
-    found = library(path, style, size_system)
+    asked = fit_profile(profile)
+    found = choice(path, style, size_system)
     reading = ReadingOptions(units.value, known_length, side.value)
-    question = Question(by.value, top)
+    question = Question(by.value, top, asked, size_system)
     answers = customers(sources, reading, found, question, pair=pair, jobs=jobs)
     voice = Voice(json, quiet, 1 if pair else len(sources), answers=csv != options.STDOUT)
     matches: list[Match] = []
@@ -100,4 +131,47 @@ def match(
     if html is not None and matches:
         shapes = candidate_shapes(path, matches[0])
         write_output(html, match_report(matches[0], shapes), force=force)
+    if fail_under is not None:
+        code = checked(matches, fail_under, code, as_json=json)
     raise typer.Exit(code)
+
+
+def refuse_check(by: ByName, least: Least | None) -> None:
+    """Refuse a check of what is not judged.
+
+    Raises
+    ------
+    BadOption
+        A search by shape gives no verdict.
+    """
+    from footfit.errors import BadOption
+
+    if by is ByName.shape and least is not None:
+        raise BadOption("--fail-under goes with --by fit or flare: a search by shape judges no fit")
+
+
+def checked(matches: Sequence[Match], least: Least, code: int, *, as_json: bool) -> int:
+    """The exit code after the answers were held to the verdict asked for.
+
+    Raises
+    ------
+    CheckFailed
+        A customer has no last that is at least ``least``, and nothing else went wrong.
+    """
+    from footfit.cli.console import error_line, say
+    from footfit.errors import CheckFailed
+    from footfit.pipeline.batch import common_code
+    from footfit.pipeline.match import meets
+
+    under = [match for match in matches if not meets(match, least.value)]
+    if not under:
+        return code
+    first = under[0].feet[0].aligned.alignment.info.path
+    who = f"{len(under)} of {len(matches)} customers" if len(matches) > 1 else "this customer"
+    verb = "have" if len(under) > 1 else "has"
+    better = "" if least is Least.good else " or better"
+    error = CheckFailed(f"{who} {verb} no last that is {least.value}{better}", first)
+    if not code:
+        raise error
+    say(error_line(error, as_json=as_json))
+    return common_code([code, int(error.exit)])

@@ -1,88 +1,204 @@
-"""Rules of fit, as pure functions on numbers. For now the length rule of a walking shoe."""
+"""The arithmetic of a fit, on arrays: scores, verdicts, the fit distance, its spread, ties.
+
+Rows are lasts, columns are zones (of one foot, or of both feet of a pair side by side). What a
+clearance should be stands in the fit profile (``docs/fit.md``); nothing of it is here.
+"""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
 
+import numpy as np
+
+from footfit.geometry.arrays import Floats, Ints
+from footfit.results import Verdict, ZoneRule
+
+VERDICTS: tuple[Verdict, ...] = ("good", "acceptable", "poor", "reject")
+GOOD, ACCEPTABLE, POOR, REJECT = range(4)
+NOT_JUDGED = -1
+UNKNOWN_SCORE = 1.0
+"""What a zone counts that one last lacks and others have: the edge of good."""
+
 
 @dataclass(frozen=True, slots=True)
-class LengthRule:
-    """Toe allowance: how much longer than the foot a last is asked to be, in mm.
+class Column:
+    """One zone of one foot; ``counts`` False where another foot governs it or its weight is 0."""
 
-    The published allowances are 10 to 17 mm (docs/references.md); 8 to 20 is still worn.
+    foot: int
+    rule: ZoneRule
+    counts: bool
+
+
+@dataclass(frozen=True, slots=True)
+class Judged:
+    """n lasts judged in z columns.
+
+    ``score`` (n, z) is 0 at the target and 1 at the edge of good, - tight, + loose; NaN where it
+    is not measured. ``level`` (n, z) indexes VERDICTS, NOT_JUDGED where it is not measured.
+    ``foot_sd`` and ``last_sd`` (n, z) are the score's, from the foot's and the last's measures.
     """
 
-    name: str = "walking"
-    version: str = "length/1"
-    target_mm: float = 13.0
-    good_mm: tuple[float, float] = (10.0, 17.0)
-    acceptable_mm: tuple[float, float] = (8.0, 20.0)
+    score: Floats
+    level: Ints
+    foot_sd: Floats
+    last_sd: Floats
+    weight: Floats
 
 
-WALKING = LengthRule()
-TIE_DISTANCE = 2.0**0.5
-"""Two distances closer than this are a tie: each of the two profiles carries one sigma."""
-
-
-def length_refusal(clearance_mm: float, rule: LengthRule = WALKING) -> str | None:
-    """Why a last is out by its length: "too_short", "too_long", or None where it is not.
-
-    Examples
-    --------
-    >>> length_refusal(5.0), length_refusal(13.0), length_refusal(21.0)
-    ('too_short', None, 'too_long')
-    """
-    shortest, longest = rule.acceptable_mm
-    if clearance_mm < shortest:
-        return "too_short"
-    return "too_long" if clearance_mm > longest else None
-
-
-def tiers(distances: Sequence[float], tie: float = TIE_DISTANCE) -> list[int]:
-    """The tier of each distance: a tier begins at its smallest and is ``tie`` wide.
-
-    Examples
-    --------
-    >>> tiers([3.0, 1.0, 2.0, 9.0], tie=1.5)
-    [1, 0, 0, 2]
-    """
-    tier_of: dict[int, int] = {}
-    tier, start = -1, float("-inf")
-    for index in sorted(range(len(distances)), key=lambda i: distances[i]):
-        if distances[index] > start + tie:
-            tier, start = tier + 1, distances[index]
-        tier_of[index] = tier
-    return [tier_of[i] for i in range(len(distances))]
-
-
-def length_words(clearance_mm: float, rule: LengthRule = WALKING) -> str:
-    """The length clearance in words.
-
-    Examples
-    --------
-    >>> length_words(12.6)
-    '12.6 mm toe room (asked 13)'
-    >>> length_words(-4.0)
-    '4.0 mm shorter than the foot'
-    """
-    if clearance_mm < 0:
-        return f"{-clearance_mm:.1f} mm shorter than the foot"
-    return f"{clearance_mm:.1f} mm toe room (asked {rule.target_mm:.0f})"
-
-
-def flare_words(delta_deg: float, sd_deg: float) -> str:
-    """The flare difference (last minus foot) in words.
-
-    Examples
-    --------
-    >>> flare_words(-2.13, 0.2)
-    'turns 2.1 deg less inward than the foot'
-    >>> flare_words(0.1, 0.2)
-    'turns inward as the foot does'
-    """
-    if abs(delta_deg) <= sd_deg:
-        return "turns inward as the foot does"
-    return (
-        f"turns {abs(delta_deg):.1f} deg {'more' if delta_deg > 0 else 'less'} inward than the foot"
+def judged(
+    clearance: Floats, foot_sd: Floats, last_sd: Floats, columns: Sequence[Column]
+) -> Judged:
+    """Score and judge clearances (n, z) with their spreads (n, z) by the columns' rules."""
+    scale = np.array([_scales(column.rule) for column in columns]).reshape(-1, 2)
+    target = np.array([column.rule.target for column in columns])
+    over = clearance >= target
+    width = np.where(over, scale[:, 1], scale[:, 0])
+    return Judged(
+        score=(clearance - target) / width,
+        level=levels(clearance, [column.rule for column in columns]),
+        foot_sd=np.where(np.isnan(clearance), 0.0, foot_sd / width),
+        last_sd=np.where(np.isnan(clearance), 0.0, last_sd / width),
+        weight=np.array([column.rule.weight if column.counts else 0.0 for column in columns]),
     )
+
+
+def _scales(rule: ZoneRule) -> tuple[float, float]:
+    """From the target to the edge of good, downwards and upwards; one serves both if alone."""
+    below, above = rule.target - rule.good[0], rule.good[1] - rule.target
+    return below or above, above or below
+
+
+def levels(clearance: Floats, rules: Sequence[ZoneRule]) -> Ints:
+    """The verdict of each clearance as an index of VERDICTS; the ranges' ends are inside.
+
+    Examples
+    --------
+    >>> rule = ZoneRule("length", 13, (10, 17), (8, 20), (8, 20), 1.0, True, 0.0)
+    >>> levels(np.array([[7.9], [8.0], [13.0], [17.1], [np.nan]]), [rule]).ravel().tolist()
+    [3, 1, 0, 1, -1]
+    """
+    endless = (-np.inf, np.inf)
+    found = np.zeros(clearance.shape, dtype=np.int64)
+    for name in ("good", "acceptable", "poor"):
+        ends = np.array([getattr(rule, name) or endless for rule in rules]).reshape(-1, 2)
+        found += (clearance < ends[:, 0]) | (clearance > ends[:, 1])
+    found[np.isnan(clearance)] = NOT_JUDGED
+    return found
+
+
+def worst_levels(found: Judged, columns: Sequence[Column]) -> Ints:
+    """Each last's verdict (n,): the worst of the zones that count, and at best acceptable where a
+    required zone is not judged: what is not known is not good.
+    """
+    counts = np.array([column.counts for column in columns], dtype=bool)
+    required = np.array([c.counts and c.rule.required for c in columns], dtype=bool)
+    worst = np.where(counts, found.level, GOOD).max(axis=1, initial=GOOD)
+    unknown = (required & (found.level == NOT_JUDGED)).any(axis=1)
+    verdict: Ints = np.where(unknown, np.maximum(worst, ACCEPTABLE), worst)
+    return verdict
+
+
+def fit_distance(found: Judged) -> Floats:
+    """The distance (n,): the weighted root mean square of the scores; 1 is the edge of good.
+
+    A zone that one last lacks counts as UNKNOWN_SCORE; one that every last lacks counts nothing.
+    """
+    weight = _carried(found)
+    distance: Floats = np.sqrt(np.square(_known_scores(found)) @ weight / weight.sum())
+    return distance
+
+
+def _carried(found: Judged) -> Floats:
+    """The weights (z,) of the zones that any last is judged in."""
+    carried: Floats = np.where(np.isfinite(found.score).any(axis=0), found.weight, 0.0)
+    return carried
+
+
+def _known_scores(found: Judged) -> Floats:
+    return np.nan_to_num(found.score, nan=UNKNOWN_SCORE)
+
+
+@dataclass(frozen=True, slots=True)
+class Spread:
+    """How sure n distances are.
+
+    ``slope`` (n, z) is the distance's derivative by each score, ``foot_sd`` (n, z) the scores'
+    spread from the foot's measures, which is common to all lasts; ``own`` (n,) is the distance's
+    variance from the last's own measures, ``common`` (n,) what the foot's leave at the target,
+    where the slopes vanish.
+    """
+
+    slope: Floats
+    foot_sd: Floats
+    own: Floats
+    common: Floats
+
+    def alone(self) -> Floats:
+        """The standard deviation (n,) of each distance."""
+        foot = np.square(self.slope * self.foot_sd).sum(axis=1)
+        sd: Floats = np.sqrt(foot + self.common + self.own)
+        return sd
+
+    def difference(self, i: int, j: int) -> float:
+        """The standard deviation of the difference of two distances: what the foot's measures
+        are off by moves both, and counts only by how differently.
+        """
+        sd = 0.5 * (self.foot_sd[i] + self.foot_sd[j])
+        foot = np.square((self.slope[i] - self.slope[j]) * sd).sum()
+        return float(np.sqrt(foot + self.own[i] + self.own[j]))
+
+
+def distance_spread(found: Judged) -> Spread:
+    """The spread of the fit distance, propagated from the measures' standard deviations.
+
+    With Q = D^2 = sum w u^2 / W and u of variance s^2: var Q = sum (w/W)^2 (4 u^2 s^2 + 2 s^4),
+    and var D = var Q / 4 Q with the noise's own share, sum w s^2 / W, added to Q.
+    """
+    weight = _carried(found)
+    share = weight / weight.sum()
+    foot, last = np.square(found.foot_sd), np.square(found.last_sd)
+    scores = _known_scores(found)
+    base = np.maximum(np.square(scores) @ share + (foot + last) @ share, 1e-18)[:, None]
+    slope = share * scores / np.sqrt(base)
+    quarter = np.square(share) / (2.0 * base)
+    own = np.square(slope) * last + quarter * last * (last + 2.0 * foot)
+    return Spread(slope, found.foot_sd, own.sum(axis=1), (quarter * foot**2).sum(axis=1))
+
+
+def tiers(
+    order: Sequence[int], distance: Floats, group: Ints, spread: Spread, tie_sds: float
+) -> list[int]:
+    """The tier of each of ``order`` (best first within each group): a tier begins with its best
+    and holds the lasts of its group that the measures do not tell from that one.
+    """
+    found: list[int] = []
+    first = -1
+    for i in order:
+        if first >= 0 and group[i] == group[first]:
+            apart = distance[i] - distance[first]
+            if apart <= tie_sds * spread.difference(first, i):
+                found.append(found[-1])
+                continue
+        first = i
+        found.append(found[-1] + 1 if found else 0)
+    return found
+
+
+def fixed_tiers(distances: Sequence[float], tie: float) -> list[int]:
+    """The tier of each of the distances, which rise: a tier is ``tie`` wide from its smallest.
+
+    Examples
+    --------
+    >>> fixed_tiers([1.0, 2.0, 3.0, 9.0], tie=1.5)
+    [0, 0, 1, 2]
+    """
+    found: list[int] = []
+    start = float("-inf")
+    for distance in distances:
+        if distance > start + tie:
+            start = distance
+            found.append(found[-1] + 1 if found else 0)
+        else:
+            found.append(found[-1])
+    return found

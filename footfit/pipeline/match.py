@@ -1,50 +1,55 @@
-"""Match: a foot against every last of a catalogue, ranked, with reasons."""
+"""Match: a foot, or a pair, against every last of a catalogue, ranked, with reasons."""
 
 from __future__ import annotations
 
-from collections import Counter
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from functools import partial
 
+import numpy as np
+
 from footfit.errors import BadOption, NoCandidate
-from footfit.geometry.flare import profile_distances
+from footfit.geometry.arrays import Bools
+from footfit.pipeline import explain
 from footfit.pipeline.batch import Outcome, outcomes
-from footfit.pipeline.fit import (
-    WALKING,
-    LengthRule,
-    flare_words,
-    length_refusal,
-    length_words,
-    tiers,
+from footfit.pipeline.fit import VERDICTS
+from footfit.pipeline.profile import fit_profile
+from footfit.pipeline.ranking import (
+    Field,
+    Placing,
+    field,
+    foot_fits,
+    governing,
+    nearest,
+    placed,
+    refusals,
 )
 from footfit.pipeline.reading import profiled_source
 from footfit.pipeline.sources import ReadingOptions, Source
 from footfit.results import (
     Candidate,
-    FlareDifference,
+    FitProfile,
+    FootFit,
     LastRecord,
     Match,
     Measured,
     Notice,
     Profiled,
     SearchBy,
+    ZoneFit,
 )
 
-LENGTH_SD_MM = 0.5
-"""Repeatability of an aligned length between two scans of one shape (docs/alignment.md)."""
-TWIN_LENGTH_MM = 2.0
-"""Two lasts with the same labels and opposite sides are one pair if their lengths differ less."""
 NEAREST_NAMED = 3
 
 
 @dataclass(frozen=True, slots=True)
 class Question:
-    """What is asked of the catalogue; ``top`` 0 is all."""
+    """What is asked of the catalogue; ``top`` 0 is all, no ``profile`` is walking."""
 
     by: SearchBy = "fit"
     top: int = 5
-    rule: LengthRule = WALKING
+    profile: FitProfile | None = None
+    size_system: str | None = None
 
 
 @dataclass(frozen=True, slots=True)
@@ -59,14 +64,13 @@ class Library:
 
 
 @dataclass(frozen=True, slots=True)
-class _Row:
-    """One last with what was found of it; ``delta_deg`` and ``clearance_mm`` are last - foot."""
+class _Answer:
+    """What candidates are made from."""
 
-    last: LastRecord
-    distance: float
-    flare: FlareDifference
-    clearance_mm: float
-    mirrored: bool
+    feet: Sequence[Profiled]
+    found: Field
+    profile: FitProfile
+    by: SearchBy
 
 
 def matched(feet: Sequence[Profiled], library: Library, question: Question = Question()) -> Match:
@@ -79,29 +83,26 @@ def matched(feet: Sequence[Profiled], library: Library, question: Question = Que
     """
     if not library.lasts:
         raise NoCandidate(_nothing_left(library))
-    foot = max(feet, key=lambda one: one.aligned.alignment.length_mm)
-    rows = _own_side(_rows(feet, foot, library.lasts, question.by))
-    kept, rejected = _gated(rows, question)
-    ordered, tier = _ordered(kept, question)
-    top = ordered[: question.top or None]
+    profile = question.profile or fit_profile()
+    found = field(feet, library.lasts, profile, question.by)
+    answer = _Answer(feet, found, profile, question.by)
+    placing = placed(found, profile, question.by)
+    shown = range(len(placing.order))[: question.top or None]
+    near = [] if placing.order else nearest(found, NEAREST_NAMED)
+    missed = tuple(_near(answer, rank, row) for rank, row in enumerate(near, start=1))
+    rejected = refusals(found) if question.by == "fit" else {}
     return Match(
         feet=tuple(feet),
         by=question.by,
-        profile=question.rule.name,
+        profile=profile.name,
         catalogue_lasts=library.total,
         reference=library.reference,
-        candidates=tuple(
-            _candidate(
-                i + 1,
-                row,
-                [o.last.labels.name for o, t in zip(ordered, tier, strict=True) if t == tier[i]],
-                foot,
-                question,
-            )
-            for i, row in enumerate(top)
-        ),
+        candidates=tuple(_placed_candidate(answer, placing, place) for place in shown),
         rejected=tuple(sorted((*library.rejected, *rejected.items()))),
-        warnings=library.warnings + _notices(feet, rows, kept, question),
+        warnings=library.warnings + _notices(answer, missed, question),
+        fit_profile=profile,
+        nearest=missed,
+        size_system=question.size_system,
     )
 
 
@@ -146,6 +147,12 @@ def _answered(
     return Outcome(source, matched(shapes, library, question), None)
 
 
+def meets(match: Match, least: str) -> bool:
+    """Is there a last at least as good as ``least``, "good" or "acceptable"?"""
+    fine = VERDICTS[: VERDICTS.index(least) + 1]
+    return any(candidate.verdict in fine for candidate in match.candidates)
+
+
 def _nothing_left(library: Library) -> str:
     """Why there is no last to rank, and what to do."""
     if library.warnings:
@@ -153,75 +160,35 @@ def _nothing_left(library: Library) -> str:
     return "no last passes these filters; see footfit list-lasts"
 
 
-def _rows(
-    feet: Sequence[Profiled], foot: Profiled, lasts: Sequence[LastRecord], by: SearchBy
-) -> list[_Row]:
-    """Every last with its distances; two feet count by their root mean square."""
-    found = [profile_distances(one.flare, [last.flare for last in lasts]) for one in feet]
-    rows = []
-    for i, last in enumerate(lasts):
-        squares = [float(d.total[i]) ** 2 for d in found]
-        flare = (sum(squares) / len(squares)) ** 0.5
-        length = foot.aligned.alignment.length_mm
-        clearance = last.length_mm - length
-        parts = tuple((name, float(values[i])) for name, values in found[0].parts.items())
-        difference = FlareDifference(flare, last.flare.angle_deg - _angle(feet), parts)
-        distance = flare if by != "shape" else (flare**2 + (clearance / LENGTH_SD_MM) ** 2) ** 0.5
-        mirrored = last.side.side != foot.aligned.alignment.side.side
-        rows.append(_Row(last, distance, difference, clearance, mirrored))
-    return rows
+# ---------------------------------------------------------------- candidates
 
 
-def _angle(feet: Sequence[Profiled]) -> float:
-    return sum(one.flare.angle_deg for one in feet) / len(feet)
+def _placed_candidate(answer: _Answer, placing: Placing, place: int) -> Candidate:
+    row = placing.order[place]
+    fits = foot_fits(answer.found, row, answer.feet)
+    tied = tuple(answer.found.lasts[i].labels.name for i in placing.tied(place))
+    return _candidate(answer, row, place + 1, fits, tied, _why(answer, placing, place, fits))
 
 
-def _own_side(rows: Sequence[_Row]) -> list[_Row]:
-    """Where both sides of one last are stored, the one of the foot's own side."""
-    own = [row for row in rows if not row.mirrored]
-    return own + [row for row in rows if row.mirrored and not any(_twins(row, o) for o in own)]
-
-
-def _twins(one: _Row, other: _Row) -> bool:
-    """Is one the other side's last of the same model and size?"""
-    a, b = one.last.labels, other.last.labels
-    same = (a.style, a.size, a.size_system, a.width_label) == (
-        b.style,
-        b.size,
-        b.size_system,
-        b.width_label,
-    )
-    named = a.style is not None and a.size is not None
-    return named and same and abs(one.last.length_mm - other.last.length_mm) < TWIN_LENGTH_MM
-
-
-def _gated(rows: Sequence[_Row], question: Question) -> tuple[list[_Row], Counter[str]]:
-    """The rows whose length passes, and how many do not, by reason."""
-    if question.by != "fit":
-        return list(rows), Counter()
-    reasons = [length_refusal(row.clearance_mm, question.rule) for row in rows]
-    kept = [row for row, reason in zip(rows, reasons, strict=True) if reason is None]
-    return kept, Counter(reason for reason in reasons if reason is not None)
-
-
-def _ordered(rows: Sequence[_Row], question: Question) -> tuple[list[_Row], list[int]]:
-    """Best first, with each row's tier. By fit a tie is settled by the length, then the name."""
-    tier = tiers([row.distance for row in rows])
-
-    def key(i: int) -> tuple[float, float, str]:
-        row, name = rows[i], rows[i].last.labels.name
-        if question.by == "fit":
-            return tier[i], round(abs(row.clearance_mm - question.rule.target_mm), 3), name
-        return round(row.distance, 6), 0.0, name
-
-    order = sorted(range(len(rows)), key=key)
-    return [rows[i] for i in order], [tier[i] for i in order]
+def _near(answer: _Answer, rank: int, row: int) -> Candidate:
+    """One of the lasts that come nearest where none fits."""
+    fits = foot_fits(answer.found, row, answer.feet)
+    zones, rules = _flat(fits), [column.rule for column in answer.found.columns]
+    return _candidate(answer, row, rank, fits, (), explain.missed_sentence(zones, rules))
 
 
 def _candidate(
-    rank: int, row: _Row, tier: Sequence[str], foot: Profiled, question: Question
+    answer: _Answer,
+    row: int,
+    rank: int,
+    fits: tuple[FootFit, ...],
+    tied: tuple[str, ...],
+    why: str,
 ) -> Candidate:
-    labels = row.last.labels
+    found, last = answer.found, answer.found.lasts[row]
+    labels = last.labels
+    by_shape, by_fit = answer.by == "shape", answer.by == "fit"
+    known = np.isfinite(found.judged.score[row]).tolist()
     return Candidate(
         rank=rank,
         last=labels.name,
@@ -229,35 +196,77 @@ def _candidate(
         size=labels.size,
         size_system=labels.size_system,
         width_label=labels.width_label,
-        side=row.last.side.side,
-        mirrored=row.mirrored,
-        distance=row.distance,
-        flare=row.flare,
-        clearance_mm=(("length", Measured(row.clearance_mm, LENGTH_SD_MM * 2.0**0.5)),),
-        verdict=None,
-        why=_why(row, foot, question),
-        tied_with=tuple(name for name in tier if name != labels.name),
-        record=row.last,
+        side=last.side.side,
+        mirrored=found.mirrored[row],
+        distance=float(found.distance[row]),
+        flare=found.flare[row],
+        clearance_mm=_clearance_mm(fits[governing(answer.feet)]),
+        verdict=None if by_shape else VERDICTS[found.level[row]],
+        why=why,
+        tied_with=tied,
+        record=last,
+        distance_sd=float(found.spread.alone()[row]) if by_fit else None,
+        fits=() if by_shape else fits,
+        not_judged=() if by_shape else explain.not_judged(found.columns, known),
     )
 
 
-def _why(row: _Row, foot: Profiled, question: Question) -> str:
-    sd = (foot.flare.angle_sd_deg**2 + row.last.flare.angle_sd_deg**2) ** 0.5
-    flare = flare_words(row.flare.delta_deg, sd)
-    if question.by == "flare":
-        return flare
-    if question.by == "shape":
-        return (
-            f"length differs by {row.clearance_mm:+.1f} mm, flare by {row.flare.delta_deg:+.1f} deg"
-        )
-    return f"{length_words(row.clearance_mm, question.rule)}; {flare}"
+def _clearance_mm(fit: FootFit) -> tuple[tuple[str, Measured], ...]:
+    """The governing foot's clearances in mm, by zone."""
+    return tuple((zone.zone, zone.clearance) for zone in fit.zones if zone.unit == "mm")
+
+
+def _flat(fits: Sequence[FootFit]) -> list[ZoneFit]:
+    """The zones of all feet, in the columns' order."""
+    return [zone for fit in fits for zone in fit.zones]
+
+
+def _why(answer: _Answer, placing: Placing, place: int, fits: tuple[FootFit, ...]) -> str:
+    found, row = answer.found, placing.order[place]
+    zones = _counting(fits)
+    if answer.by == "flare":
+        flare = next((z for z in zones if z.zone == "flare"), None)
+        sd = 0.0 if flare is None else flare.clearance.sd or 0.0
+        return explain.flare_words(found.flare[row].delta_deg, sd)
+    if answer.by == "shape":
+        longer = answer.feet[governing(answer.feet)].aligned.alignment.length_mm
+        differs = found.lasts[row].length_mm - longer
+        delta = found.flare[row].delta_deg
+        return f"length differs by {differs:+.1f} mm, flare by {delta:+.1f} deg"
+    if placing.tier[place] == placing.tier[0]:
+        return explain.best_sentence(zones)
+    first = placing.order[0]
+    cost = _cost(found, row, first)
+    return explain.behind_sentence(zones, cost, found.lasts[first].labels.name)
+
+
+def _counting(fits: Sequence[FootFit]) -> list[ZoneFit]:
+    """The zones that count, of all feet."""
+    return [zone for zone in _flat(fits) if zone.counts]
+
+
+def _cost(found: Field, row: int, first: int) -> list[float]:
+    """How much more each counting zone adds to a last's distance than to the first's; a zone of a
+    worse verdict comes before all others.
+    """
+    counts = [i for i, column in enumerate(found.columns) if column.counts]
+    score = np.nan_to_num(found.judged.score[:, counts], nan=1.0)
+    more = found.judged.weight[counts] * (np.square(score[row]) - np.square(score[first]))
+    worse = np.maximum(found.judged.level[row, counts], 0) > np.maximum(
+        found.judged.level[first, counts], 0
+    )
+    behind = found.level[row] > found.level[first]
+    return [float(m) + (1e6 if behind and w else 0.0) for m, w in zip(more, worse, strict=True)]
+
+
+# ---------------------------------------------------------------- notices
 
 
 def _notices(
-    feet: Sequence[Profiled], rows: Sequence[_Row], kept: Sequence[_Row], question: Question
+    answer: _Answer, missed: Sequence[Candidate], question: Question
 ) -> tuple[Notice, ...]:
     """What the reader must know beside the table."""
-    notices = []
+    feet, notices = answer.feet, []
     if question.by == "flare":
         notices.append(
             Notice("scale_free", "a search by flare alone cannot tell sizes apart; look at length")
@@ -265,12 +274,21 @@ def _notices(
     sides = {one.aligned.alignment.side.side for one in feet}
     if len(feet) == 2 and len(sides) == 1:
         notices.append(Notice("same_side", f"both feet of the pair are {sides.pop()} feet"))
-    if not kept:
-        asked = question.rule.target_mm
-        near = sorted(rows, key=lambda r: (abs(r.clearance_mm - asked), r.last.labels.name))
-        named = "; ".join(
-            f"{r.last.labels.name}: {length_words(r.clearance_mm, question.rule)}"
-            for r in near[:NEAREST_NAMED]
-        )
-        notices.append(Notice("nothing_fits", f"no last has the length; the nearest are {named}"))
+    differ = explain.pair_notice(feet, question.size_system)
+    if differ is not None:
+        notices.append(differ)
+    if missed:
+        named = "; ".join(f"{one.last}: {one.why}" for one in missed)
+        notices.append(Notice("nothing_fits", f"no last fits; the nearest are {named}"))
+    unknown = _unknown_to_all(answer)
+    if unknown and question.by == "fit":
+        zones = explain.zone_list(unknown)
+        notices.append(Notice("not_judged", f"not judged, for lack of a measure: {zones}"))
     return tuple(notices)
+
+
+def _unknown_to_all(answer: _Answer) -> tuple[str, ...]:
+    """The zones that no last could be judged in."""
+    seen: Bools = np.atleast_1d(np.isfinite(answer.found.judged.score).any(axis=0))
+    known = [bool(one) for one in seen]
+    return explain.not_judged(answer.found.columns, known)

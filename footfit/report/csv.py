@@ -8,8 +8,9 @@ import re
 from typing import TYPE_CHECKING
 
 from footfit.geometry.flare import CHANNELS
+from footfit.report.lines import Json
 from footfit.report.numbers import degrees, millimetres, ratio
-from footfit.report.parts import FIT_NAMES, NOT_YET, last_part
+from footfit.report.parts import FIT_NAMES, NOT_YET, label_part, last_part
 from footfit.report.text import visible
 
 if TYPE_CHECKING:
@@ -32,12 +33,17 @@ MATCH_COLUMNS = (
     "side",
     "mirrored",
     "distance",
+    "distance_sd",
     "flare_distance",
     "flare_delta_deg",
     *(f"clearance_{name}_{end}" for name in FIT_NAMES for end in ("mm", "sd_mm")),
+    "foot_verdict",
     "verdict",
     "why",
     "tied_with",
+    "not_judged",
+    "profile",
+    "profile_sha256",
 )
 FLARE_COLUMNS = (
     "path",
@@ -64,6 +70,8 @@ LAST_COLUMNS = (
     "flare_angle_deg",
     "class",
     "reference",
+    "size_by_length",
+    "label_flagged",
 )
 
 # A spreadsheet runs a cell that starts so; a semicolon inside a cell starts another one where a
@@ -107,17 +115,20 @@ def _cell(value: Cell) -> str:
 def match_csv(matches: Iterable[Match], *, header: bool = True) -> str:
     """One row per candidate and foot; ``header`` False for the second customer of a stream."""
     rows = (
-        _match_row(match, foot, candidate)
+        _match_row(match, index, candidate)
         for match in matches
-        for foot in match.feet
+        for index in range(len(match.feet))
         for candidate in match.candidates
     )
     return csv_text(MATCH_COLUMNS, rows, header=header)
 
 
-def _match_row(match: Match, foot: Profiled, candidate: Candidate) -> list[Cell]:
-    alignment = foot.aligned.alignment
+def _match_row(match: Match, foot: int, candidate: Candidate) -> list[Cell]:
+    alignment = match.feet[foot].aligned.alignment
+    fit = candidate.fits[foot] if candidate.fits else None
     clearance = dict(candidate.clearance_mm)
+    if fit is not None:
+        clearance = {zone.zone: zone.clearance for zone in fit.zones if zone.unit == "mm"}
     row: list[Cell] = [
         alignment.info.path,
         alignment.side.side,
@@ -131,13 +142,24 @@ def _match_row(match: Match, foot: Profiled, candidate: Candidate) -> list[Cell]
         candidate.side,
         candidate.mirrored,
         ratio(candidate.distance),
+        ratio(candidate.distance_sd),
         ratio(candidate.flare.distance),
         degrees(candidate.flare.delta_deg),
     ]
     for name in FIT_NAMES:
         measured = clearance.get(name, NOT_YET)
         row += [millimetres(measured.value), millimetres(measured.sd)]
-    return [*row, candidate.verdict, candidate.why, " ".join(candidate.tied_with)]
+    profile = match.fit_profile
+    return [
+        *row,
+        None if fit is None else fit.verdict,
+        candidate.verdict,
+        candidate.why,
+        " ".join(candidate.tied_with),
+        " ".join(candidate.not_judged),
+        match.profile,
+        None if profile is None else profile.sha256,
+    ]
 
 
 def flare_csv(profiles: Iterable[Profiled], *, header: bool = True) -> str:
@@ -166,9 +188,20 @@ def _flare_rows(profiled: Profiled) -> Iterable[list[Cell]]:
 def lasts_csv(records: Iterable[LastRecord], reference: str | None) -> str:
     """One row per last, by name."""
     ordered = sorted(records, key=lambda record: record.labels.name)
-    parts = [last_part(record, reference=reference) for record in ordered]
+    parts = [_last_cells(record, reference) for record in ordered]
     rows = [[_known(part[column]) for column in LAST_COLUMNS] for part in parts]
     return csv_text(LAST_COLUMNS, rows, header=True)
+
+
+def _last_cells(record: LastRecord, reference: str | None) -> Json:
+    """The keys of a last, with its label's check beside them."""
+    part = last_part(record, reference=reference)
+    check = label_part(record) or {}
+    part["size_by_length"], part["label_flagged"] = (
+        check.get("size_by_length"),
+        check.get("flagged"),
+    )
+    return part
 
 
 def _known(value: object) -> Cell:

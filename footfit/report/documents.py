@@ -22,12 +22,15 @@ from footfit.report.numbers import (
 )
 from footfit.report.parts import (
     clearance_part,
+    fit_part,
     flare_part,
     measures_part,
     mesh_part,
     pose_part,
+    profile_part,
     reference_part,
     side_part,
+    sizes_part,
     warnings_part,
 )
 
@@ -88,8 +91,11 @@ def match_document(match: Match) -> Json:
             "feet": [foot_part(foot) for foot in match.feet],
             "by": match.by,
             "profile": match.profile,
+            "fit_profile": profile_part(match.fit_profile),
+            "size_system": match.size_system,
             "catalogue": {"lasts": match.catalogue_lasts, "reference": match.reference},
             "candidates": [candidate_part(candidate) for candidate in match.candidates],
+            "nearest": [candidate_part(candidate) for candidate in match.nearest],
             "rejected": {
                 "count": sum(count for _, count in match.rejected),
                 "by_reason": dict(match.rejected),
@@ -106,6 +112,7 @@ def foot_part(foot: Profiled) -> Json:
         "mesh": mesh_part(alignment.info),
         **side_part(alignment.side),
         "measures": measures_part(foot.measures),
+        "sizes": sizes_part(alignment.length_mm),
         "flare": flare_part(foot.flare),
         "warnings": warnings_part(alignment.warnings),
     }
@@ -124,12 +131,15 @@ def candidate_part(candidate: Candidate) -> Json:
         "side": candidate.side,
         "mirrored": candidate.mirrored,
         "distance": ratio(candidate.distance),
+        "distance_sd": ratio(candidate.distance_sd),
         "flare": {
             "distance": ratio(flare.distance),
             "delta_deg": degrees(flare.delta_deg),
             "parts": {name: ratio(part) for name, part in flare.parts},
         },
         "clearance_mm": clearance_part(candidate.clearance_mm),
+        "fits": [fit_part(fit) for fit in candidate.fits],
+        "not_judged": list(candidate.not_judged),
         "verdict": candidate.verdict,
         "why": candidate.why,
         "tied_with": list(candidate.tied_with),

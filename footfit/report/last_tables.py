@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 from rich.console import Group
 from rich.text import Text
 
+from footfit.geometry.sizes import LabelCheck, label_check, label_words
 from footfit.report.parts import paper_frame_angle_deg
 from footfit.report.tables import cell, facts, lined_table, side_words
 from footfit.report.text import measured_text, plain, signed, size_text, visible
@@ -29,17 +30,21 @@ MEGABYTE = 1_000_000
 
 
 def list_lasts_table(records: Iterable[LastRecord], reference: str | None) -> RenderableType:
-    """The library, one line per last, by name; the reference carries a star."""
+    """The library, one line per last, by name: a star marks the reference, "!" a label off."""
     ordered = sorted(records, key=lambda record: record.labels.name)
     heads = ("last", "style", "size", "side", "length\nmm", "flare\ndeg", "class", "heel\nmm")
     table = lined_table(*heads, right=frozenset({"length\nmm", "flare\ndeg", "heel\nmm"}))
+    notes: list[Text] = []
     for record in ordered:
         labels, heel = record.labels, record.labels.heel_height_mm
         star = " *" if labels.name == reference else ""
+        off = flagged(record)
+        notes += [Text(f"! {visible(labels.name)}: {label_words(off)}", "yellow")] if off else []
+        size = size_text(labels.size, labels.size_system, labels.width_label)
         table.add_row(
             cell(labels.name, "bold").append(star),
             cell(labels.style),
-            cell(size_text(labels.size, labels.size_system, labels.width_label)),
+            cell(size).append(" !", "bold yellow") if off else cell(size),
             record.side.side or "undecided",
             plain(record.length_mm),
             signed(record.flare.angle_deg),
@@ -48,19 +53,32 @@ def list_lasts_table(records: Iterable[LastRecord], reference: str | None) -> Re
         )
     noun = "last" if len(ordered) == 1 else "lasts"
     words = f"{len(ordered)} {noun}; * {visible(reference)} is the reference" if reference else ""
-    return Group(table, Text(words or f"{len(ordered)} {noun}; no reference is set", "dim"))
+    closing = Text(words or f"{len(ordered)} {noun}; no reference is set", "dim")
+    return Group(table, *notes, closing)
+
+
+def flagged(record: LastRecord) -> LabelCheck | None:
+    """The check of a label that is more than a size from its last's length, else None."""
+    check = label_check(record.labels.size, record.labels.size_system, record.length_mm)
+    return check if check is not None and check.flagged else None
+
+
+def _size_row(record: LastRecord) -> Text:
+    """The size as labelled, and what is wrong with it."""
+    labels, off = record.labels, flagged(record)
+    size = cell(size_text(labels.size, labels.size_system, labels.width_label))
+    return size.append(f" ! {label_words(off)}", "yellow") if off else size
 
 
 def show_last_table(record: LastRecord, reference: str | None) -> RenderableType:
     """Everything of one last that a person reads."""
     labels, flare, frame, info = record.labels, record.flare, record.eigenframe, record.info
-    size = size_text(labels.size, labels.size_system, labels.width_label)
     eigen = ", ".join(plain(float(value)) for value in frame.eigenvalues_mm2)
     upgraded = f", upgraded from {record.upgraded_from}" if record.upgraded_from else ""
     turned = f"{signed(flare.angle_deg)} ± {plain(flare.angle_sd_deg)} deg ({flare.flare_class})"
     rows: list[tuple[str, str | Text]] = [
         ("style", cell(labels.style)),
-        ("size", cell(size)),
+        ("size", _size_row(record)),
         ("family, parent", cell(", ".join(p for p in (labels.family, labels.parent) if p))),
         ("heel", "-" if labels.heel_height_mm is None else f"{plain(labels.heel_height_mm)} mm"),
         ("side", side_words(record.side)),

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from footfit.geometry.flare import CHANNELS
+from footfit.geometry.sizes import foot_sizes, label_check, label_words
 from footfit.report.lines import Json
 from footfit.report.numbers import (
     RATIO_DIGITS,
@@ -26,6 +27,8 @@ if TYPE_CHECKING:
     from footfit.geometry.arrays import Floats
     from footfit.geometry.flare import FlareProfile
     from footfit.results import (
+        FitProfile,
+        FootFit,
         LastRecord,
         Measure,
         MeshInfo,
@@ -119,6 +122,61 @@ def measured_parts(taken: dict[str, Measured]) -> Json:
     return {name: measured_value(measured) for name, measured in complete.items()}
 
 
+def sizes_part(foot_length_mm: float) -> Json:
+    """A foot's size in every system."""
+    return {
+        size.system: {
+            "exact": ratio(size.exact),
+            "nearest": ratio(size.nearest),
+            "words": size.words,
+            "beside": list(size.beside),
+            "child": size.child,
+            "within": size.within,
+        }
+        for size in foot_sizes(foot_length_mm)
+    }
+
+
+def profile_part(profile: FitProfile | None) -> Json | None:
+    """The fit profile with every rule, or null."""
+    if profile is None:
+        return None
+    known: Json = finite(asdict(profile))  # type: ignore[assignment]
+    rules = {rule.zone: finite(asdict(rule)) for rule in profile.zones}
+    for rule in rules.values():
+        rule.pop("zone")  # type: ignore[attr-defined]
+    return known | {"zones": rules}
+
+
+def fit_part(fit: FootFit) -> Json:
+    """One foot in one last, zone by zone."""
+    zones: Json = {
+        zone.zone: {
+            "clearance": measured_value(zone.clearance),
+            "unit": zone.unit,
+            "target": zone.target,
+            "score": ratio(zone.score),
+            "verdict": zone.verdict,
+            "counts": zone.counts,
+        }
+        for zone in fit.zones
+    }
+    return {"side": fit.side, "verdict": fit.verdict, "zones": zones}
+
+
+def label_part(record: LastRecord) -> Json | None:
+    """A last's label against its length; null where the label says no number."""
+    check = label_check(record.labels.size, record.labels.size_system, record.length_mm)
+    if check is None:
+        return None
+    return {
+        "size_by_length": ratio(check.by_length),
+        "off_sizes": ratio(check.off),
+        "flagged": check.flagged,
+        "words": label_words(check) if check.flagged else None,
+    }
+
+
 def finite(value: object) -> object:
     """A definition's parameters as JSON can carry them: unrounded, and finite or null.
 
@@ -176,6 +234,7 @@ def last_part(record: LastRecord, *, reference: str | None) -> Json:
         "parent": labels.parent,
         "side": record.side.side,
         "length_mm": millimetres(record.length_mm),
+        "label_check": label_part(record),
         "flare_angle_deg": degrees(record.flare.angle_deg),
         "class": record.flare.flare_class,
         "reference": labels.name == reference,

@@ -15,15 +15,7 @@ from rich.console import Console, Group
 from rich.table import Table
 from rich.text import Text
 
-from footfit.report.parts import NOT_YET
-from footfit.report.text import (
-    file_name,
-    plain,
-    signed,
-    size_text,
-    tie_words,
-    visible,
-)
+from footfit.report.text import plain, signed, visible
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Sequence
@@ -32,21 +24,12 @@ if TYPE_CHECKING:
 
     from footfit.results import (
         Alignment,
-        Candidate,
         IngestOutcome,
-        Match,
         Profiled,
         SideVerdict,
         SurfaceCurvature,
     )
 
-LIKENESS = {
-    "fit": "distance: how far the flare profile is from the foot's (0 = the same); "
-    "of tied lasts the one with the best length comes first",
-    "flare": "distance: how far the flare profile is from the foot's (0 = the same), at any size",
-    "shape": "distance: how far length and flare profile are from the mesh's (0 = the same)",
-}
-VERDICT_STYLES = {"good": "green", "acceptable": "yellow", "poor": "red", "reject": "bold red"}
 STATUS_STYLES = {"added": "green", "replaced": "green", "unchanged": "dim", "refused": "bold red"}
 
 
@@ -162,71 +145,6 @@ def _range_words(values: Sequence[float] | object) -> str:
     if not len(known):
         return "not measurable"
     return f"{signed(float(known.min()))} to {signed(float(known.max()))} (curvature times length)"
-
-
-def match_table(match: Match) -> RenderableType:
-    """One customer: the feet, the ranked lasts with reasons, what was left out and why."""
-    parts: list[RenderableType] = [_foot_line(foot) for foot in match.feet]
-    if match.candidates:
-        parts += [_candidate_table(match), Text(LIKENESS[match.by], "dim")]
-    else:
-        parts.append(Text("No last fits.", "bold"))
-    parts.append(Text(_closing(match), "dim"))
-    return Group(*parts)
-
-
-def _foot_line(foot: Profiled) -> Text:
-    alignment = foot.aligned.alignment
-    side = alignment.side.side or "undecided"
-    line = cell(file_name(alignment.info.path), "bold")
-    length = plain(alignment.length_mm)
-    return line.append(f"  {side} foot, {length} mm long, flare {flare_words(foot)}", "not bold")
-
-
-def _candidate_table(match: Match) -> Table:
-    judged = any(candidate.verdict for candidate in match.candidates)
-    heads = ["", "last", "style, size", "dist.", "flare\ndeg", "length\nmm", "why"]
-    right = frozenset({"", "dist.", "flare\ndeg", "length\nmm"})
-    table = lined_table(*heads[:-1], *(["verdict"] if judged else []), heads[-1], right=right)
-    for candidate in match.candidates:
-        verdict = [_verdict(candidate)] if judged else []
-        table.add_row(*_candidate_cells(candidate), *verdict, _why(candidate))
-    return table
-
-
-def _candidate_cells(candidate: Candidate) -> list[Text]:
-    size = size_text(candidate.size, candidate.size_system, candidate.width_label)
-    labels = ", ".join(part for part in (candidate.style, size) if part)
-    clearance = dict(candidate.clearance_mm).get("length", NOT_YET).value
-    return [
-        Text(str(candidate.rank)),
-        cell(candidate.last, "bold"),
-        cell(labels),
-        Text(plain(candidate.distance, 2)),
-        Text(signed(candidate.flare.delta_deg)),
-        Text("-" if clearance is None else signed(clearance)),
-    ]
-
-
-def _verdict(candidate: Candidate) -> Text:
-    return cell(candidate.verdict, VERDICT_STYLES.get(candidate.verdict or "", ""))
-
-
-def _why(candidate: Candidate) -> Text:
-    words = cell(candidate.why)
-    if candidate.mirrored:
-        words.append("; mirrored")
-    return words.append(f"; {tie_words(candidate.tied_with)}") if candidate.tied_with else words
-
-
-def _closing(match: Match) -> str:
-    noun = "last" if match.catalogue_lasts == 1 else "lasts"
-    words = f"{len(match.candidates)} of {match.catalogue_lasts} {noun}, by {match.by}"
-    words += f", profile {visible(match.profile)}" if match.by == "fit" else ""
-    left_out = "; ".join(
-        f"{count} {visible(reason).replace('_', ' ')}" for reason, count in match.rejected
-    )
-    return f"{words}. Left out: {left_out}." if left_out else f"{words}."
 
 
 def ingest_line(outcome: IngestOutcome) -> Text:

@@ -1,0 +1,31 @@
+"""Which lasts a question is asked of: the filters, and what they mean where nothing has them."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from pathlib import Path
+
+from footfit.geometry.sizes import SYSTEMS, system_named
+from footfit.pipeline.lasts import library
+from footfit.pipeline.match import Library
+from footfit.results import Notice
+
+
+def choice(path: Path, style: str | None, size_system: str | None) -> Library:
+    """The lasts to match against. A size system that no last is labelled in is the customer's
+    own: all lasts are then ranked, and that is said.
+
+    Raises
+    ------
+    NoCatalogue, EmptyCatalogue
+        There is nothing to match against; the message says what to type.
+    """
+    found = library(path, style, size_system)
+    system = system_named(size_system)
+    if found.lasts or system is None:
+        return found
+    everything = library(path, style, None)
+    if not everything.lasts:
+        return found
+    words = f"no last is labelled in {SYSTEMS[system.name].title} sizes: all systems are ranked"
+    return replace(everything, warnings=(*everything.warnings, Notice("other_systems", words)))

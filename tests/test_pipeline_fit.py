@@ -1,0 +1,116 @@
+"""The arithmetic of a fit: scores, verdicts, the distance and its spread, by formulas and draws."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from footfit.pipeline.fit import (
+    ACCEPTABLE,
+    GOOD,
+    POOR,
+    REJECT,
+    Column,
+    distance_spread,
+    fit_distance,
+    judged,
+    tiers,
+    worst_levels,
+)
+from footfit.results import ZoneRule
+
+LENGTH = ZoneRule("length", 13.0, (10, 17), (8, 20), (8, 20), 1.5, True, 0.0)
+GIRTH = ZoneRule("ball_girth", 0.0, (-4, 4), (-8, 8), (-16, 16), 1.0, False, 0.0)
+WIDTH = ZoneRule("ball_width", -2.0, (-6, 2), (-9, 5), None, 0.5, False, 0.0)
+COLUMNS = (Column(0, LENGTH, True), Column(0, GIRTH, True), Column(0, WIDTH, True))
+
+
+def judge(rows, foot_sd=0.0, last_sd=0.0, columns=COLUMNS):
+    values = np.array(rows, dtype=float)
+    full = np.full(values.shape, 1.0)
+    return judged(values, full * foot_sd, full * last_sd, columns)
+
+
+def test_a_score_is_zero_at_the_target_and_one_at_the_edges_of_good() -> None:
+    found = judge([[13, 0, -2], [10, -4, -6], [17, 4, 2]])
+    assert found.score[0] == pytest.approx([0, 0, 0])
+    assert found.score[1] == pytest.approx([-1, -1, -1])
+    assert found.score[2] == pytest.approx([1, 1, 1])
+
+
+def test_a_verdict_is_the_range_that_a_clearance_lies_in() -> None:
+    found = judge([[13, 5, -2], [9, 9, 60], [7.99, 17, -2]])
+    assert found.level.tolist() == [
+        [GOOD, ACCEPTABLE, GOOD],
+        [ACCEPTABLE, POOR, POOR],
+        [REJECT, REJECT, GOOD],
+    ]
+    assert worst_levels(found, COLUMNS).tolist() == [ACCEPTABLE, POOR, REJECT]
+
+
+def test_what_is_not_measured_is_never_passed_silently() -> None:
+    nan = float("nan")
+    found = judge([[nan, 0, -2], [13, nan, -2]])
+    assert worst_levels(found, COLUMNS).tolist() == [ACCEPTABLE, GOOD]
+
+
+def test_a_zone_that_does_not_count_judges_nothing() -> None:
+    columns = (COLUMNS[0], replace(COLUMNS[1], counts=False), COLUMNS[2])
+    found = judge([[13, 40, -2], [13, 0, -2]], columns=columns)
+    assert worst_levels(found, columns).tolist() == [GOOD, GOOD]
+    assert fit_distance(found) == pytest.approx([0.0, 0.0])
+
+
+def test_the_distance_is_the_weighted_root_mean_square() -> None:
+    found = judge([[17, -4, 0]])
+    expected = np.sqrt((1.5 * 1 + 1.0 * 1 + 0.5 * 0.25) / 3.0)
+    assert fit_distance(found) == pytest.approx([expected])
+
+
+def test_a_measure_that_one_last_lacks_is_no_advantage() -> None:
+    nan = float("nan")
+    whole, lacking, good = [13, 2, -2], [13, nan, -2], [13, 0, -2]
+    distances = fit_distance(judge([whole, lacking, good]))
+    assert distances[2] < distances[0] < distances[1]
+    alone = fit_distance(judge([lacking]))
+    assert alone == pytest.approx([0.0]), "what no last has tells none from another"
+
+
+@given(
+    st.lists(
+        st.tuples(st.floats(9, 19), st.floats(-15, 15), st.floats(-12, 8)), min_size=2, max_size=2
+    )
+)
+@settings(deadline=None, max_examples=25)
+def test_the_spread_is_what_noisy_measures_give(rows) -> None:
+    """Against draws: the foot's noise is common to both lasts, each last's is its own."""
+    rng, draws, foot_sd, last_sd = np.random.default_rng(1), 1500, 0.4, 0.3
+    values = np.array(rows)
+    spread = distance_spread(judge(values, foot_sd, last_sd))
+    foot = rng.normal(0, foot_sd, (draws, 1, 3))
+    own = rng.normal(0, last_sd, (draws, 2, 3))
+    noisy = (values + foot + own).reshape(-1, 3)
+    distances = fit_distance(judge(noisy)).reshape(draws, 2)
+    assert spread.alone() == pytest.approx(distances.std(axis=0), rel=0.35, abs=0.01)
+    drawn = (distances[:, 0] - distances[:, 1]).std()
+    assert spread.difference(0, 1) == pytest.approx(drawn, rel=0.35, abs=0.015)
+
+
+def test_the_foots_own_error_does_not_make_two_alike_lasts_a_tie_of_chance() -> None:
+    found = judge([[14, 3, 0], [14, 3, 0]], foot_sd=2.0, last_sd=0.0)
+    spread = distance_spread(found)
+    assert spread.difference(0, 1) < 0.5 * spread.alone()[0]
+
+
+def test_tiers_begin_with_the_best_and_never_cross_a_verdict() -> None:
+    found = judge([[13, 1.0, -2], [13, 1.2, -2], [13, 4.0, -2], [13, 4.1, -2]], 0.3, 0.3)
+    distance, spread = fit_distance(found), distance_spread(found)
+    level = worst_levels(found, COLUMNS)
+    assert level.tolist() == [GOOD, GOOD, GOOD, ACCEPTABLE]
+    assert tiers([0, 1, 2, 3], distance, level, spread, tie_sds=1.0) == [0, 0, 1, 2]
+    assert tiers([0, 1, 2, 3], distance, level, spread, tie_sds=0.0) == [0, 1, 2, 3]
+    assert tiers([], distance, level, spread, tie_sds=1.0) == []
