@@ -3,6 +3,7 @@ PYTHON ?= python3
 VENV := .venv
 BIN := $(VENV)/bin
 STAMP := $(VENV)/.ready
+BENCHMARKS := alignment flare curvature measures fit speed
 
 .PHONY: demo test check format lint types contracts tests bench torture clean help
 
@@ -41,7 +42,7 @@ contracts: $(STAMP)  ## the layers of docs/architecture.md
 
 bench: $(STAMP)  ## the benchmarks' tables (make bench WRITE=--write puts them into docs/)
 	$(BIN)/python -m pip install --quiet --editable '.[bench]'
-	@set -e; for b in alignment flare curvature speed; do $(BIN)/python benchmarks/$$b.py $(WRITE); done
+	@set -e; for b in $(BENCHMARKS); do $(BIN)/python -m benchmarks.$$b $(WRITE); done
 
 clean:           ## remove what make made
 	rm -rf $(VENV) demo dist build .pytest_cache .mypy_cache .ruff_cache .hypothesis .import_linter_cache

@@ -39,7 +39,8 @@ def cube(edge_mm: float = 100.0, cells: int = 4) -> Mesh:
             side[:, axis], side[:, (axis + 1) % 3], side[:, (axis + 2) % 3] = sign, u, v
             faces.append((quads if sign > 0 else quads[:, ::-1]) + len(points) * len(u))
             points.append(side)
-    key = np.round(np.concatenate(points) * cells + cells).astype(np.int64)
+    # Twice the cell's number: a half would round to even, and merge neighbours where cells is odd.
+    key = np.round(np.concatenate(points) * 2 * cells).astype(np.int64)
     _, first, which = np.unique(key, axis=0, return_index=True, return_inverse=True)
     return np.concatenate(points)[first] * edge_mm, which.reshape(-1)[np.concatenate(faces)]
 

@@ -41,6 +41,7 @@ def volume(vertices, faces):
 CLOSED = {
     "tetrahedron": (shapes.tetrahedron(), 2),
     "cube": (shapes.cube(), 2),
+    "odd cube": (shapes.cube(cells=5), 2),
     "sphere": (shapes.sphere(), 2),
     "ellipsoid": (shapes.ellipsoid(), 2),
     "torus": (shapes.torus(), 0),
