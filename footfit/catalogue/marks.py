@@ -59,7 +59,7 @@ def kind_of_file(path: Path) -> FileKind:
     if header.startswith(MARKS.magic):
         if int.from_bytes(header[MARKS.application_id_at :][:4], "big") == MARKS.application_id:
             return "catalogue"
-    elif _has_live_journal(path):
+    elif has_live_journal(path):
         return "interrupted"
     raise NotACatalogue("is not a footfit catalogue and was left as it is", str(path))
 
@@ -69,8 +69,8 @@ def _first_bytes(path: Path, count: int) -> bytes:
         return file.read(count)
 
 
-def _has_live_journal(path: Path) -> bool:
-    """A power cut while page 1 was written leaves it torn, and the journal to undo it."""
+def has_live_journal(path: Path) -> bool:
+    """Is there a journal to undo a write that is going on, or that a kill or a power cut ended?"""
     journal = path.with_name(path.name + "-journal")
     try:
         return _first_bytes(journal, len(MARKS.journal_magic)) == MARKS.journal_magic

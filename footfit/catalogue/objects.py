@@ -11,7 +11,7 @@ from functools import lru_cache
 from footfit.catalogue.migrate import Schema, create
 
 Objects = Mapping[tuple[str, str], str]
-"""SQL by (type, name), spaces, case and quotes apart."""
+"""SQL by (type, name), in the plain form of :func:`_plain`."""
 
 
 def stored_objects(connection: sqlite3.Connection) -> Objects:
@@ -31,11 +31,26 @@ def expected_objects(schema: Schema) -> Objects:
 
 
 def _plain(sql: object) -> str:
-    r"""SQL as its words: how they are spaced and quoted differs between releases of SQLAlchemy.
+    r"""SQL as its words and, for a table, its clauses sorted.
+
+    How they are spaced and quoted differs between releases of SQLAlchemy, and the order of the
+    constraints of a table that Alembic made anew from one process to the next.
 
     Examples
     --------
-    >>> _plain('CREATE TABLE "last" (\n\tid INTEGER NOT NULL\n)')
-    'create table last ( id integer not null )'
+    >>> _plain('CREATE TABLE "last" (\n\tid INTEGER NOT NULL, \n\tCHECK (id > 1)\n)')
+    'create table last | check ( id > 1 ) | id integer not null'
     """
-    return " ".join(re.findall(r"\w+|[^\w\s\"`\[\]]", str(sql).lower()))
+    words = re.findall(r"\w+|[^\w\s\"`\[\]]", str(sql).lower())
+    if words[:2] != ["create", "table"]:
+        return " ".join(words)
+    clauses: list[list[str]] = [[]]
+    depth = 0
+    for word in words:
+        depth += (word == "(") - (word == ")")
+        if (word, depth) in ((",", 1), ("(", 1)):
+            clauses.append([])
+        elif (word, depth) != (")", 0):
+            clauses[-1].append(word)
+    head, *body = (" ".join(clause) for clause in clauses)
+    return " | ".join([head, *sorted(body)])

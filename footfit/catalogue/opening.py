@@ -6,7 +6,7 @@ import sqlite3
 from pathlib import Path
 
 from footfit.catalogue.engine import CatalogueFile, connected, connected_for_reading, worded
-from footfit.catalogue.marks import kind_of_file
+from footfit.catalogue.marks import FileKind, has_live_journal, kind_of_file
 from footfit.catalogue.migrate import (
     Revisions,
     Schema,
@@ -18,6 +18,26 @@ from footfit.catalogue.migrate import (
 from footfit.errors import CatalogueNotWritable, NoCatalogue
 
 NOTHING_THERE = "there is no catalogue; type: footfit ingest-last FOLDER, or try: footfit demo"
+
+
+def settled_kind(path: Path, busy_timeout_s: float) -> FileKind:
+    """What lies at ``path`` once a journal that a kill or a power cut left is played back.
+
+    Before it, a catalogue may look like no catalogue (its first page is torn) and one whose
+    making was cut short like a catalogue (its first page was written first).
+
+    Raises
+    ------
+    NotACatalogue, CatalogueNotWritable
+        It is something else; it may not be read.
+    sqlite3.Error
+        Where SQLite cannot play it back; see ``engine.worded``.
+    """
+    kind = kind_of_file(path)
+    if kind in ("catalogue", "interrupted") and has_live_journal(path):
+        connected_for_reading(path, busy_timeout_s).close()
+        kind = kind_of_file(path)
+    return kind
 
 
 def opened_for_reading(
@@ -35,9 +55,7 @@ def opened_for_reading(
         The file is something else, or of another schema.
     """
     with worded(path):
-        if kind_of_file(path) == "interrupted":
-            connected_for_reading(path, busy_timeout_s).close()  # settles the journal
-        if kind_of_file(path) in ("missing", "empty"):
+        if settled_kind(path, busy_timeout_s) in ("missing", "empty"):
             raise NoCatalogue(NOTHING_THERE, str(path))
         connection = connected_for_reading(path, busy_timeout_s)
         try:
@@ -65,7 +83,7 @@ def opened_for_writing(
         The file is something else, or of another schema; it is left as it is.
     """
     with worded(path):
-        if kind_of_file(path) == "catalogue":
+        if settled_kind(path, busy_timeout_s) == "catalogue":
             revisions = _brought_up_to_date(path, schema, busy_timeout_s)
             connection = connected(path, "rw", busy_timeout_s)
         elif may_create:

@@ -17,12 +17,14 @@ from typing import BinaryIO
 
 from footfit.catalogue.copying import said_of, settled, synced
 from footfit.catalogue.engine import connected, worded
-from footfit.catalogue.marks import kind_of_file
+from footfit.catalogue.opening import settled_kind
 from footfit.errors import CatalogueDamaged, CatalogueLocked, NotACatalogue
 
 KEPT = "before-restore"
-PAGES_PER_STEP = 64
-"""Small against SQLite's cache of 2 MB: after the first step no page of the file is changed yet."""
+PAGES_PER_STEP = 1
+"""The first step takes the lock and is not the last one: no catalogue has a single page. With more
+pages a step, a small catalogue would be written over before anybody is asked to keep it.
+"""
 
 
 def put_in_place(whole: Path, path: Path, busy_timeout_s: float) -> Path | None:
@@ -38,7 +40,8 @@ def put_in_place(whole: Path, path: Path, busy_timeout_s: float) -> Path | None:
         Another program holds it; the folder or the disk takes no write.
     """
     try:
-        kind = kind_of_file(path)
+        with worded(path):
+            kind = settled_kind(path, busy_timeout_s)
     except NotACatalogue as error:
         words = "is not a footfit catalogue and was left as it is; move it away, then try again"
         raise NotACatalogue(words, str(path)) from error
@@ -77,7 +80,6 @@ def _overwritten(whole: Path, path: Path, kept: Path, busy_timeout_s: float) -> 
         closing(connected(whole, "ro")) as source,
         closing(connected(path, "rw", busy_timeout_s)) as target,
     ):
-        target.execute("PRAGMA user_version").fetchone()  # settles what a kill left
         source.backup(
             target, pages=PAGES_PER_STEP, progress=_keeping(old, kept, busy_timeout_s), sleep=0.02
         )
