@@ -52,6 +52,11 @@ def test_a_verdict_is_the_range_that_a_clearance_lies_in() -> None:
     assert worst_levels(found, COLUMNS).tolist() == [ACCEPTABLE, POOR, REJECT]
 
 
+def test_a_reject_is_sure_but_the_length_is_a_gate() -> None:
+    found = judge([[7.9, 16.5, -2], [13, 18.1, -2]], foot_sd=0.6, last_sd=0.8)
+    assert found.level[:, :2].tolist() == [[REJECT, POOR], [GOOD, REJECT]]
+
+
 def test_what_is_not_measured_is_never_passed_silently() -> None:
     nan = float("nan")
     found = judge([[nan, 0, -2], [13, nan, -2]])

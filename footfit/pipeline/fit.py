@@ -17,6 +17,7 @@ from footfit.results import Verdict, ZoneRule
 VERDICTS: tuple[Verdict, ...] = ("good", "acceptable", "poor", "reject")
 GOOD, ACCEPTABLE, POOR, REJECT = range(4)
 NOT_JUDGED = -1
+SURE_SDS = 2.0
 UNKNOWN_SCORE = 1.0
 """What a zone counts that one last lacks and others have: the edge of good."""
 
@@ -56,7 +57,7 @@ def judged(
     width = np.where(over, scale[:, 1], scale[:, 0])
     return Judged(
         score=(clearance - target) / width,
-        level=levels(clearance, [column.rule for column in columns]),
+        level=levels(clearance, [c.rule for c in columns], np.hypot(foot_sd, last_sd)),
         foot_sd=np.where(np.isnan(clearance), 0.0, foot_sd / width),
         last_sd=np.where(np.isnan(clearance), 0.0, last_sd / width),
         weight=np.array([column.rule.weight if column.counts else 0.0 for column in columns]),
@@ -69,22 +70,35 @@ def _scales(rule: ZoneRule) -> tuple[float, float]:
     return below or above, above or below
 
 
-def levels(clearance: Floats, rules: Sequence[ZoneRule]) -> Ints:
+def levels(clearance: Floats, rules: Sequence[ZoneRule], sd: Floats) -> Ints:
     """The verdict of each clearance as an index of VERDICTS; the ranges' ends are inside.
+
+    A reject takes a last out of the answer, so it must be sure: past the limit by SURE_SDS
+    standard deviations, else it is poor. The length is the gate and knows no doubt.
 
     Examples
     --------
     >>> rule = ZoneRule("length", 13, (10, 17), (8, 20), (8, 20), 1.0, True, 0.0)
-    >>> levels(np.array([[7.9], [8.0], [13.0], [17.1], [np.nan]]), [rule]).ravel().tolist()
+    >>> room = np.array([[7.9], [8.0], [13.0], [17.1], [np.nan]])
+    >>> levels(room, [rule], np.ones((5, 1))).ravel().tolist()
     [3, 1, 0, 1, -1]
     """
-    endless = (-np.inf, np.inf)
+    doubt = np.array([0.0 if rule.zone == "length" else SURE_SDS for rule in rules]) * sd
     found = np.zeros(clearance.shape, dtype=np.int64)
-    for name in ("good", "acceptable", "poor"):
-        ends = np.array([getattr(rule, name) or endless for rule in rules]).reshape(-1, 2)
-        found += (clearance < ends[:, 0]) | (clearance > ends[:, 1])
+    for name in ("good", "acceptable"):
+        low, high = _ends(rules, name)
+        found += (clearance < low) | (clearance > high)
+    low, high = _ends(rules, "poor")
+    found[(clearance < low) | (clearance > high)] = POOR
+    found[(clearance < low - doubt) | (clearance > high + doubt)] = REJECT
     found[np.isnan(clearance)] = NOT_JUDGED
     return found
+
+
+def _ends(rules: Sequence[ZoneRule], name: str) -> tuple[Floats, Floats]:
+    """The ends of a range of every rule, (z,) each; endless where a rule has none."""
+    ends = np.array([getattr(rule, name) or (-np.inf, np.inf) for rule in rules]).reshape(-1, 2)
+    return ends[:, 0], ends[:, 1]
 
 
 def worst_levels(found: Judged, columns: Sequence[Column]) -> Ints:

@@ -41,8 +41,6 @@ TWIN_LENGTH_MM = 2.0
 LENGTH_SD_MM = 0.5
 GOVERNED = frozenset({"length", "ball_line"})
 """Zones that the longer foot of a pair decides alone."""
-SAME_LENGTH_SCORE = 0.1
-"""Within a tie, length scores closer than this count as one: the name then decides."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -210,21 +208,7 @@ def placed(found: Field, profile: FitProfile, by: SearchBy) -> Placing:
     kept = [i for i in range(len(names)) if found.level[i] < REJECT]
     kept.sort(key=lambda i: (found.level[i], round(float(found.distance[i]), 6), names[i]))
     tier_of = tiers(kept, found.distance, found.level, found.spread, profile.tie_sds)
-    length = np.abs(found.judged.score[:, _length_column(found)])
-    ranked = sorted(
-        zip(tier_of, kept, strict=True),
-        key=lambda pair: (pair[0], round(length[pair[1]] / SAME_LENGTH_SCORE), names[pair[1]]),
-    )
-    return Placing(tuple(i for _, i in ranked), tuple(tier for tier, _ in ranked))
-
-
-def _length_column(found: Field) -> int:
-    """The column of the governing foot's length."""
-    return next(
-        i
-        for i, column in enumerate(found.columns)
-        if column.rule.zone == "length" and column.counts
-    )
+    return Placing(tuple(kept), tuple(tier_of))
 
 
 def nearest(found: Field, count: int) -> list[int]:

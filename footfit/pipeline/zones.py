@@ -106,10 +106,10 @@ def clearances(
 ) -> Clearances:
     """The clearance of a foot in each of n lasts, in the zones of the rules."""
     one = ZoneShape(foot.aligned.alignment.length_mm, foot.flare, _by_name(foot.measures), None)
-    table = [[_taken(one, zone_shape(last), rule) for rule in rules] for last in lasts]
-    shape = (len(lasts), len(rules), 3)
+    shapes = [zone_shape(last) for last in lasts]
+    table = [[_taken(one, shape, rule) for rule in rules] for shape in shapes]
     values = np.array([[(t.value, t.foot_sd, t.last_sd) for t in row] for row in table])
-    values = values.reshape(shape)
+    values = values.reshape(len(lasts), len(rules), 3)
     reasons = tuple(tuple(taken.reason for taken in row) for row in table)
     return Clearances(values[:, :, 0], values[:, :, 1], values[:, :, 2], reasons)
 

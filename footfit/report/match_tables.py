@@ -10,7 +10,6 @@ from typing import TYPE_CHECKING
 from rich.cells import cell_len
 from rich.console import Group
 from rich.padding import Padding
-from rich.rule import Rule
 from rich.table import Table
 from rich.text import Text
 
@@ -36,6 +35,7 @@ VERDICT_STYLES = {"good": "green", "acceptable": "yellow", "poor": "red", "rejec
 UNITS = {"mm": "mm", "deg": "deg", "percent": "%", "ratio": ""}
 LARGEST_NAME, LARGEST_LABEL = 20, 16
 NUMBERS = (("toe room\nmm", 8), ("flare\ndeg", 6), ("dist.\n", 5))
+COLUMN_GAP = 2
 SHOWN_SYSTEMS = ("eu", "uk", "us-men", "us-women", "mondopoint")
 
 
@@ -89,7 +89,7 @@ def _candidates(candidates: Sequence[Candidate]) -> list[RenderableType]:
     ]
     heads = ["", "last", "style, size", *(["verdict"] if judged else []), *(n for n, _ in NUMBERS)]
     rows: list[RenderableType] = [_row(widths, [Text(head, "bold") for head in heads])]
-    rows.append(Rule(style="dim", characters="─"))
+    rows.append(Text("─" * (sum(widths) + COLUMN_GAP * (len(widths) - 1)), "dim"))
     for candidate in candidates:
         rows += [_row(widths, _cells(candidate, judged=judged)), _sentence(candidate)]
     return rows
@@ -101,7 +101,7 @@ def _width(texts: Sequence[str], largest: int) -> int:
 
 def _row(widths: Sequence[int], cells: Sequence[Text]) -> Table:
     """One row of a table whose columns have these widths; the last three hold numbers."""
-    grid = Table.grid(padding=(0, 2, 0, 0))
+    grid = Table.grid(padding=(0, COLUMN_GAP, 0, 0))
     first_number = len(widths) - len(NUMBERS)
     for place, width in enumerate(widths):
         right = place >= first_number or place == 0
