@@ -17,6 +17,7 @@ class PiecesSettings:
 
     comparable: float = 0.25  # of the largest piece's area
     speck: float = 0.01
+    most: int = 8  # comparable pieces that are looked at one by one
     apart: float = 0.25  # of the larger piece's size, between the middles of their boxes
     gap: float = 0.06  # of the largest piece's size: what is farther off is something else
     gap_few: int = 150
@@ -87,9 +88,10 @@ def facing(vertices: Floats, faces: Ints) -> Facing:
     areas = np.sqrt(np.einsum("ij,ij->i", vectors, vectors))
     away = vertices[faces].mean(axis=1)
     away -= areas @ away / areas.sum()
-    distance = np.sqrt(np.einsum("ij,ij->i", away, away))
+    distance = float(areas @ np.sqrt(np.einsum("ij,ij->i", away, away)))
+    outward = float(np.einsum("ij,ij->", away, vectors))
     return Facing(
-        outward=float(np.einsum("ij,ij->", away, vectors) / (areas @ distance)),
+        outward=outward / distance if distance > 0.0 else 0.0,  # one face has no middle to leave
         one_way=float(np.linalg.norm(vectors.sum(axis=0)) / areas.sum()),
     )
 

@@ -85,6 +85,8 @@ def cleaned(vertices: Floats, faces: Ints, settings: CleanSettings = CLEAN_SETTI
     ------
     EmptyMesh
         No face has an area.
+    DamagedMesh
+        The surface is in far too many pieces.
     """
     vertices, faces, source, notices = _welded(vertices, faces, settings)
     faces, collapsed, found = _each_once(faces)

@@ -6,6 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from footfit.errors import DamagedMesh
 from footfit.geometry.arrays import Bools, Floats, Ints
 from footfit.meshes.extents import principal_extents
 from footfit.results import Notice
@@ -34,6 +35,8 @@ class PieceSettings:
     plate_side, plate_sinking : float
         The share of the foot's vertices that lie on one side of the plate, those not counted that
         have sunk in by less than ``plate_sinking`` of the plate's extent: a sole is noisy.
+    most_pieces : int
+        More pieces than this that are no dust are not a surface.
     """
 
     kept_share: float = 0.10
@@ -45,6 +48,7 @@ class PieceSettings:
     plate_cover: float = 0.80
     plate_side: float = 0.95
     plate_sinking: float = 0.01
+    most_pieces: int = 100
 
 
 PIECE_SETTINGS = PieceSettings()
@@ -77,6 +81,11 @@ def kept_faces(
         size both stay: whether they are two feet is the alignment's question.
     notices : tuple of Notice
         ``plate_removed``, ``specks_removed``, ``many_pieces``.
+
+    Raises
+    ------
+    DamagedMesh
+        The surface falls into more than ``most_pieces`` pieces, none of which is dust.
     """
     areas = np.bincount(labels, weights=face_areas).astype(np.float64)
     if len(areas) == 1:
@@ -89,14 +98,25 @@ def kept_faces(
     if plates.any():
         notices.append(Notice("plate_removed", "a floor plate was taken off"))
     if rest[dust].sum() > settings.dust_share * rest.sum():
+        if len(areas) > settings.most_pieces:
+            raise DamagedMesh(_in_pieces(len(areas)))
         message = f"the surface is in {len(areas)} pieces that touch nowhere: all are kept"
         notices.append(Notice("many_pieces", message))
         dust[:] = False
+    if (~dust).sum() > settings.most_pieces:
+        raise DamagedMesh(_in_pieces(int((~dust).sum())))
     if dust.any():
         share = 100.0 * rest[dust].sum() / rest.sum()
         message = f"{int(dust.sum())} small loose pieces ({share:.2g} % of the area) were removed"
         notices.append(Notice("specks_removed", message))
     return ~(dust | plates)[labels], tuple(notices)
+
+
+def _in_pieces(count: int) -> str:
+    return (
+        f"the surface is in {count:,} pieces that touch nowhere: merge its vertices, or export the"
+        " scan again as one surface"
+    )
 
 
 def _mattering(

@@ -125,6 +125,8 @@ def _without_strays(body: _Body) -> _Body:
 
 def _the_one_foot(body: _Body, found: list[Ints], windows: Windows) -> Posed:
     """The foot among comparable pieces, or the pieces together where they are one cracked scan."""
+    if len(found) > PIECES.most:  # no shelf of feet: looking at each would take minutes
+        return _oriented(body.vertices, body.faces, windows, body.notices)
     shapes = [
         _oriented(*part_of(body.vertices, body.faces, piece), windows, body.notices)
         for piece in found

@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 import hashlib
+from dataclasses import replace
 from typing import Literal, cast
 
+from footfit.errors import UnknownUnits
 from footfit.meshes.limits import LIMITS
 from footfit.meshes.read import scan_from_bytes
 from footfit.meshes.source import file_bytes
@@ -13,6 +15,9 @@ from footfit.pipeline.curvature import surface_curvature
 from footfit.pipeline.flare import profiled
 from footfit.pipeline.sources import ReadingOptions, Source
 from footfit.results import AlignedScan, Method, Profiled, Reference, Scan, SurfaceCurvature
+
+ANY_LENGTH_MM = 250.0
+"""What a shape of unknown scale is taken to be, to look at the shape alone."""
 
 
 def source_bytes(source: Source) -> bytes:
@@ -42,9 +47,18 @@ def aligned_source(
     method: Method = "footfit",
     reference: Reference | None = None,
 ) -> AlignedScan:
-    """Read and align one mesh."""
+    """Read and align one mesh.
+
+    Where no unit makes it a foot's length, its shape is asked first: half a foot, a cube or two
+    feet in one file is refused as what it is, and only a foot or last as of an unknown unit.
+    """
+    try:
+        scan = read(source, reading)
+    except UnknownUnits:
+        aligned(read(source, replace(reading, known_length_mm=ANY_LENGTH_MM)))
+        raise
     return aligned(
-        read(source, reading),
+        scan,
         method=method,
         side=cast(Literal["auto", "left", "right"], reading.side),
         reference=reference,
