@@ -7,7 +7,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from footfit.errors import EmptyMesh
+from footfit.errors import DamagedMesh, EmptyMesh
 from footfit.geometry.surface import signed_volume, surface_area
 from footfit.geometry.topology import is_closed, is_consistently_wound
 from footfit.meshes.clean import cleaned
@@ -103,12 +103,22 @@ def test_a_small_patch_stays_where_it_touches_the_shape_and_goes_where_it_does_n
     assert len(cleaned(*distortions.joined(FOOT, away)).faces) == len(FOOT[1])
 
 
-def test_a_surface_in_many_pieces_is_kept_whole():
+def test_a_surface_in_a_few_pieces_is_kept_whole():
     vertices, faces = FOOT
-    pieces = vertices[faces] * 0.98 + 0.02 * vertices[faces].mean(axis=1, keepdims=True)
-    mesh = cleaned(pieces.reshape(-1, 3), np.arange(3 * len(faces)).reshape(-1, 3))
+    middles = vertices[faces].mean(axis=1)
+    patch = (middles > np.median(middles, axis=0)) @ [1, 2, 4]
+    moved = vertices[faces] + 0.02 * np.sign(middles - np.median(middles, axis=0))[:, None, :]
+    mesh = cleaned(moved.reshape(-1, 3), np.arange(3 * len(faces)).reshape(-1, 3))
+    assert len(np.unique(patch)) == 8
     assert len(mesh.faces) == len(faces)
     assert not mesh.watertight
+
+
+def test_a_surface_in_thousands_of_pieces_is_refused():
+    vertices, faces = FOOT
+    pieces = vertices[faces] * 0.98 + 0.02 * vertices[faces].mean(axis=1, keepdims=True)
+    with pytest.raises(DamagedMesh, match="pieces"):
+        cleaned(pieces.reshape(-1, 3), np.arange(3 * len(faces)).reshape(-1, 3))
 
 
 @pytest.mark.parametrize("seed", range(4))
