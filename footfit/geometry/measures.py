@@ -1,125 +1,98 @@
 """What is measured in millimetres on a canonical right shape: one function a measure, one table.
 
 A new measure is a function and an entry of ``MEASURES``; its row in the catalogue, its key in the
-JSON and its line in the report follow.
+JSON and its line in the report follow. ``docs/measures.md`` has the definitions in full.
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import NamedTuple
 
-import numpy as np
+from footfit.geometry.landmarks import Shape
+from footfit.geometry.measures_girths import (
+    ball_girth,
+    instep_girth,
+    long_heel_girth,
+    short_heel_girth,
+    waist_girth,
+)
+from footfit.geometry.measures_heights import (
+    arch_height,
+    heel_height,
+    instep_height,
+    toe_height,
+    toe_spring,
+)
+from footfit.geometry.measures_lengths import (
+    ball_length,
+    functional_length,
+    length,
+    tape_length,
+)
+from footfit.geometry.measures_widths import (
+    ball_width,
+    ball_width_orthogonal,
+    bottom_width_ball,
+    bottom_width_heel,
+    heel_width,
+)
+from footfit.geometry.readings import Reading
 
-from footfit.geometry.arrays import Floats, Ints
-from footfit.geometry.bottom_shape import low_length
-from footfit.geometry.sections import extremes_below, lowest, sections_across
-
-
-@dataclass(frozen=True, slots=True)
-class MeasureSettings:
-    """Where measures are taken; heights and places over the length."""
-
-    length_height: float = 0.30  # what lies higher is leg
-    width_height: float = 0.15  # over each section's lowest point; over it ankles may stand out
-    ball: tuple[float, float] = (0.50, 0.90)
-    ball_sections: int = 61  # 2 mm apart: a tangent's error is under .02 mm
-    heel: float = 1.0 / 6.0
-
-
-SETTINGS = MeasureSettings()
-
-
-class Reading(NamedTuple):
-    """A measured value, or the reason why there is none."""
-
-    value: float | None
-    reason: str | None = None
+BOTH, LAST = ("foot", "last"), ("last",)
 
 
 @dataclass(frozen=True, slots=True)
 class Measure:
     """An entry of the table.
 
-    ``reading(vertices_mm, faces)`` takes a canonical right shape; ``sd`` is the repeatability of
-    the whole way from a scan (noise of 0.3 mm, decimation, any pose): benchmarks/flare.py.
+    ``version`` counts the changes of the definition. ``sd`` is the repeatability of the whole way
+    from a scan (any pose, noise of 0.3 mm, decimation to a quarter): benchmarks/measures.py.
+    ``usual`` is the range over the length that nearly every foot and last lies in.
     """
 
     name: str
-    unit: str
+    version: int
     sd: float
     definition: str
-    reading: Callable[[Floats, Ints], Reading]
+    reading: Callable[[Shape], Reading]
+    kinds: tuple[str, ...] = BOTH
+    usual: tuple[float, float] | None = None
+
+    @property
+    def definition_id(self) -> str:
+        """The name with the version: what a stored value was measured by."""
+        return f"{self.name}/{self.version}"
 
 
-def length(vertices_mm: Floats, faces: Ints) -> Reading:  # noqa: ARG001
-    """From the pternion to the foremost point along X, of what is no leg.
-
-    Examples
-    --------
-    >>> points = np.array([[0.0, 0, 0], [250, 0, 0], [-30, 0, 300]])
-    >>> length(points, np.array([[0, 1, 2]])).value
-    250.0
-    """
-    return Reading(low_length(vertices_mm, SETTINGS.length_height)[1])
+def of_kind(kind: str) -> tuple[Measure, ...]:
+    """The entries of the table that a "foot" or a "last" has."""
+    return tuple(entry for entry in MEASURES if kind in entry.kinds)
 
 
-def ball_width(vertices_mm: Floats, faces: Ints) -> Reading:
-    """Between the two tangents along X at the ball (the orthogonal ball width)."""
-    start, length_mm = low_length(vertices_mm, SETTINGS.length_height)
-    share = np.linspace(*SETTINGS.ball, SETTINGS.ball_sections)
-    least, most = _width_edges(vertices_mm, faces, start + share * length_mm, length_mm)
-    known = np.isfinite(least)
-    if known.mean() < 1.0:
-        return Reading(None, "the scan has a gap at the ball")
-    return Reading(float(most.max() - least.min()))
-
-
-def heel_width(vertices_mm: Floats, faces: Ints) -> Reading:
-    """Across the section at one sixth of the length from the pternion."""
-    start, length_mm = low_length(vertices_mm, SETTINGS.length_height)
-    at = np.array([start + SETTINGS.heel * length_mm])
-    least, most = _width_edges(vertices_mm, faces, at, length_mm)
-    if not np.isfinite(least[0]):
-        return Reading(None, "the scan has a gap at the heel")
-    return Reading(float(most[0] - least[0]))
-
-
-def _width_edges(
-    vertices_mm: Floats, faces: Ints, x_mm: Floats, length_mm: float
-) -> tuple[Floats, Floats]:
-    segments = sections_across(vertices_mm, faces, x_mm)
-    across, height = segments.points[:, :, 1], segments.points[:, :, 2]
-    floor = lowest(height, segments)
-    band = SETTINGS.width_height * length_mm
-    # Over a gap in the sole the lowest thing is a leg: no width.
-    limit = np.where(floor <= band, floor + band, np.nan)
-    return extremes_below(across, height, limit, segments)
-
-
+# The limits hold 99 % of the feet of a large survey (fit over length); see docs/measures.md.
 MEASURES: tuple[Measure, ...] = (
+    Measure("length", 2, 0.5, "pternion to the foremost point, along X", length),
     Measure(
-        "length",
-        "mm",
-        0.35,
-        "pternion to the foremost point along X, below 0.30 of the length",
-        length,
+        "functional_length", 1, 0.5, "pternion to the farthest toe, in plan", functional_length
     ),
+    Measure("ball_length", 1, 1.0, "pternion to MT1, along X", ball_length),
+    Measure("ball_width", 2, 0.5, "MT1 to MT5, in plan", ball_width),
+    Measure("ball_width_orthogonal", 1, 0.5, "between tangents along X", ball_width_orthogonal),
+    Measure("ball_girth", 1, 1.0, "upright plane through MT1 and MT5", ball_girth),
+    Measure("waist_girth", 1, 1.0, "half-way from ball to instep", waist_girth),
+    Measure("instep_girth", 1, 1.0, "across X at half the length", instep_girth),
+    Measure("long_heel_girth", 1, 1.0, "heel base and instep", long_heel_girth),
+    Measure("short_heel_girth", 1, 1.0, "heel base and bend of the ankle", short_heel_girth),
+    Measure("heel_width", 2, 0.5, "at one sixth of the length", heel_width),
+    Measure("arch_height", 1, 0.5, "the inner arch, over the contact plane", arch_height),
+    Measure("instep_height", 1, 0.5, "the top at half the length", instep_height),
+    Measure("toe_height", 1, 0.5, "lowest to highest at .92 of the length", toe_height),
     Measure(
-        "ball_width",
-        "mm",
-        0.35,
-        "between the tangents along X from 0.50 to 0.90 of the length, within 0.15 of the length "
-        "over the sole (orthogonal)",
-        ball_width,
+        "toe_spring", 1, 0.5, "the underside at .94 of the length, over the ground", toe_spring
     ),
-    Measure(
-        "heel_width",
-        "mm",
-        0.3,
-        "across X at one sixth of the length from the pternion, within 0.15 of the length over "
-        "the sole",
-        heel_width,
-    ),
+    Measure("heel_height", 1, 1.0, "the seat over the tread's ground", heel_height),
+    Measure("bottom_width_ball", 1, 0.5, "feather to feather", bottom_width_ball, LAST),
+    Measure("bottom_width_heel", 1, 0.5, "feather to feather", bottom_width_heel, LAST),
+    Measure("tape_length", 1, 0.5, "along the bottom", tape_length, LAST),
 )

@@ -8,6 +8,7 @@ from footfit.errors import SideUndecided
 from footfit.geometry import measures
 from footfit.geometry.arrays import Floats, Ints
 from footfit.geometry.flare import FlareDefinition, flare_profile
+from footfit.geometry.landmarks import Shape
 from footfit.results import AlignedScan, Measure, Measured, Profiled, SideName
 
 
@@ -38,7 +39,7 @@ def profiled(aligned: AlignedScan, definition: FlareDefinition | None = None) ->
         )
     vertices_mm, faces = right_shape(aligned)
     flare = flare_profile(vertices_mm, faces, definition, alignment.pose.kind)
-    return Profiled(aligned, flare, measured(vertices_mm, faces))
+    return Profiled(aligned, flare, measured(vertices_mm, faces, alignment.pose.kind))
 
 
 def right_shape(aligned: AlignedScan) -> tuple[Floats, Ints]:
@@ -53,12 +54,25 @@ def as_right(vertices_mm: Floats, faces: Ints, side: SideName | None) -> tuple[F
     return vertices_mm * np.array([1.0, -1.0, 1.0]), faces[:, ::-1]
 
 
-def measured(vertices_mm: Floats, faces: Ints) -> tuple[Measure, ...]:
-    """Every measure of the table on a canonical right shape, in the table's order."""
-    return tuple(_row(entry, vertices_mm, faces) for entry in measures.MEASURES)
+def measured(vertices_mm: Floats, faces: Ints, kind: str = "foot") -> tuple[Measure, ...]:
+    """Every measure of the table that a kind of shape has, on a canonical right shape.
+
+    Parameters
+    ----------
+    vertices_mm : (n, 3)
+    faces : (m, 3)
+    kind : {"foot", "last"}
+
+    Returns
+    -------
+    tuple of Measure
+        In the table's order; one that cannot be taken has a reason instead of a value.
+    """
+    shape = Shape(vertices_mm, faces, kind)
+    return tuple(_row(entry, shape) for entry in measures.of_kind(kind))
 
 
-def _row(entry: measures.Measure, vertices_mm: Floats, faces: Ints) -> Measure:
-    reading = entry.reading(vertices_mm, faces)
+def _row(entry: measures.Measure, shape: Shape) -> Measure:
+    reading = entry.reading(shape)
     sd = None if reading.value is None else entry.sd
-    return Measure(entry.name, Measured(reading.value, sd, reading.reason), entry.definition)
+    return Measure(entry.name, Measured(reading.value, sd, reading.reason), entry.definition_id)
