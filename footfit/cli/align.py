@@ -64,6 +64,7 @@ def align(
     units: options.Units = options.UnitName.auto,
     known_length: options.Known = None,
     format: options.Format = None,
+    split: options.Split = False,
     jobs: options.Jobs = 1,
     catalogue: options.Catalogue = None,
     force: options.Force = False,
@@ -78,7 +79,7 @@ def align(
     from functools import partial
 
     from footfit.cli.answer_forms import ALIGN
-    from footfit.cli.answers import Voice, only_one, sources_of, told
+    from footfit.cli.answers import Voice, only_one, sources_of, split_where_asked, told
     from footfit.cli.outputs import refuse_existing
     from footfit.cli.settings import catalogue_path
     from footfit.pipeline.batch import outcomes
@@ -86,10 +87,10 @@ def align(
     from footfit.pipeline.reading import aligned_source
     from footfit.pipeline.sources import ReadingOptions
 
-    sources = sources_of(meshes, format)
-    only_one(sources, output, plot)
     refuse_existing(output, plot, force=force)
     reading = ReadingOptions(units.value, known_length, side.value)
+    sources = split_where_asked(sources_of(meshes, format), reading, split=split)
+    only_one(sources, output, plot)
     reference = alignment_reference(catalogue_path(catalogue), method.value, to)
     work = partial(aligned_source, reading=reading, method=method.value, reference=reference)
     code = told(

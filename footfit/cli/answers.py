@@ -15,7 +15,7 @@ from footfit.errors import BadOption, FootfitError
 if TYPE_CHECKING:
     from footfit.cli.answer_forms import Answer
     from footfit.pipeline.batch import Outcome
-    from footfit.pipeline.sources import Source
+    from footfit.pipeline.sources import ReadingOptions, Source
 
 T = TypeVar("T")
 
@@ -52,6 +52,17 @@ def sources_of(arguments: Sequence[str], format: str | None) -> list[Source]:
     if format is None:
         raise BadOption("a mesh on standard input needs --format, for example --format stl")
     return [stdin_source(sys.stdin.buffer, format)]
+
+
+def split_where_asked(
+    sources: list[Source], reading: ReadingOptions, *, split: bool
+) -> list[Source]:
+    """The sources, those of several feet taken apart where that was asked for."""
+    if not split:
+        return sources
+    from footfit.pipeline.split import split_sources
+
+    return split_sources(sources, reading)
 
 
 def only_one(sources: Sequence[Source], *outputs: Path | None) -> None:

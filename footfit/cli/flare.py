@@ -30,6 +30,7 @@ def flare(
     units: options.Units = options.UnitName.auto,
     known_length: options.Known = None,
     format: options.Format = None,
+    split: options.Split = False,
     jobs: options.Jobs = 1,
     force: options.Force = False,
     json: options.Json = False,
@@ -43,7 +44,7 @@ def flare(
     from functools import partial
 
     from footfit.cli.answer_forms import FLARE
-    from footfit.cli.answers import Voice, only_one, sources_of, told
+    from footfit.cli.answers import Voice, only_one, sources_of, split_where_asked, told
     from footfit.cli.outputs import refuse_existing, write_or_answer, write_output
     from footfit.pipeline.batch import outcomes
     from footfit.pipeline.export import PICTURE_KINDS, file_kind
@@ -52,10 +53,11 @@ def flare(
     from footfit.report.csv import flare_csv
     from footfit.report.plots import flare_plot
 
-    sources = sources_of(meshes, format)
-    only_one(sources, plot)
     refuse_existing(plot, csv, force=force)
-    work = partial(profiled_source, reading=ReadingOptions(units.value, known_length, side.value))
+    reading = ReadingOptions(units.value, known_length, side.value)
+    sources = split_where_asked(sources_of(meshes, format), reading, split=split)
+    only_one(sources, plot)
+    work = partial(profiled_source, reading=reading)
     voice = Voice(json, quiet, len(sources), answers=csv != options.STDOUT)
     shapes: list[Profiled] = []
     code = told(outcomes(work, sources, jobs), FLARE, voice, then=shapes.append)

@@ -10,6 +10,7 @@
 ``Known``     ``--known-length MM``
 ``Side``      ``--side left|right|auto``
 ``Format``    ``--format`` for stdin
+``Split``     ``--split``
 ``Jobs``      ``--jobs N``
 ``Csv``       ``--csv FILE``
 ``Force``     ``--force``
@@ -127,6 +128,14 @@ Format = Annotated[
         show_default=False,
         rich_help_panel=READING,
         help="The format of the mesh on stdin.",
+    ),
+]
+Split = Annotated[
+    bool,
+    typer.Option(
+        "--split",
+        rich_help_panel=READING,
+        help="Take the feet of one file apart; each is a line of its own (file.stl#1, #2).",
     ),
 ]
 Jobs = Annotated[

@@ -95,7 +95,7 @@ def aligned(
         raise NoReference(
             f"method {method} needs a reference last; ingest one or run footfit set-reference LAST"
         )
-    shape = posed(scan, _windows(scan.info, known_length_mm))
+    shape = posed(scan, length_windows(scan.info, known_length_mm))
     frame = _Framed.of(shape)
     _refuse_half(shape, frame)
     info = _info_with_unit(scan.info, frame.length, known_length_mm)
@@ -127,7 +127,7 @@ def aligned(
 # ---------------------------------------------------------------- the unit
 
 
-def _windows(info: MeshInfo, known_length_mm: float | None) -> Windows:
+def length_windows(info: MeshInfo, known_length_mm: float | None) -> Windows:
     """Lengths that are plausible, in the scan's provisional mm; none where the scale is unknown."""
     if known_length_mm is not None or info.units_source == "known-length":
         return ()

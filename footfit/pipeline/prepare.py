@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from itertools import combinations
 
 import numpy as np
 
@@ -123,21 +124,39 @@ def _without_strays(body: _Body) -> _Body:
     return _Body(vertices, faces, near, (*body.notices, _STRAYS))
 
 
+def separate_feet(scan: Scan, windows: Windows) -> list[tuple[Floats, Ints]]:
+    """The meshes of the feet or lasts that stand beside each other in a scan, the largest first.
+
+    Empty where there are not at least two: the scan is then one shape, or none.
+    """
+    body = _without_floor(scan)
+    found = comparable(body.vertices, body.faces, body.pieces)
+    if not 1 < len(found) <= PIECES.most:
+        return []
+    feet = _feet(body, found, windows)
+    return [(foot.vertices, foot.faces) for foot in feet] if _beside(feet) else []
+
+
+def _feet(body: _Body, found: list[Ints], windows: Windows) -> list[Posed]:
+    """The pieces that each look like a foot or last."""
+    parts = (part_of(body.vertices, body.faces, piece) for piece in found)
+    shapes = [_oriented(*part, windows, body.notices) for part in parts]
+    return [shape for shape in shapes if shape.orientation.accepted]
+
+
+def _beside(feet: list[Posed]) -> bool:
+    """Does one of them stand beside another?"""
+    pairs = combinations(feet, 2)
+    return any(stand_apart(one.vertices, other.vertices) for one, other in pairs)
+
+
 def _the_one_foot(body: _Body, found: list[Ints], windows: Windows) -> Posed:
     """The foot among comparable pieces, or the pieces together where they are one cracked scan."""
     if len(found) > PIECES.most:  # no shelf of feet: looking at each would take minutes
         return _oriented(body.vertices, body.faces, windows, body.notices)
-    shapes = [
-        _oriented(*part_of(body.vertices, body.faces, piece), windows, body.notices)
-        for piece in found
-    ]
-    feet = [shape for shape in shapes if shape.orientation.accepted]
-    if any(
-        stand_apart(one.vertices, other.vertices)
-        for place, one in enumerate(feet)
-        for other in feet[place + 1 :]
-    ):
-        raise SeveralFeet(f"{len(feet)} feet or lasts in one file; give each its own file")
+    feet = _feet(body, found, windows)
+    if _beside(feet):
+        raise SeveralFeet(f"{len(feet)} feet or lasts in one file; add --split to take them apart")
     whole = _oriented(body.vertices, body.faces, windows, body.notices)
     if not feet:
         return whole

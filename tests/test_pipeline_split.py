@@ -1,0 +1,63 @@
+"""Two feet in one file: refused by name, taken apart on request, each as if it came alone."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from footfit.meshes.read import read_scan
+from footfit.meshes.write import encoded_mesh
+from tests.conftest import SAMPLES, Footfit
+from tests.distortions import floor_plate, in_metres, joined, moved, random_pose
+
+
+@pytest.fixture
+def both(tmp_path: Path) -> Path:
+    """A left and a right foot beside each other, posed as one, in metres."""
+    left, right = (read_scan(path) for path in sorted((SAMPLES / "feet").glob("mh007_*.stl")))
+    beside = right.vertices_mm - np.array([0.0, 150.0 + np.ptp(right.vertices_mm[:, 1]), 0.0])
+    vertices, faces = joined((left.vertices_mm, left.faces), (beside, right.faces))
+    posed = moved(vertices, random_pose(np.random.default_rng(11)))
+    path = tmp_path / "both.stl"
+    path.write_bytes(encoded_mesh(in_metres(posed), faces, "stl"))
+    return path
+
+
+def test_several_feet_are_refused_with_what_to_type(footfit: Footfit, both: Path) -> None:
+    run = footfit("align", both)
+    assert run.code == 5
+    assert "--split" in run.last_error
+
+
+def test_split_gives_each_foot_as_if_it_came_alone(footfit: Footfit, both: Path) -> None:
+    lines = footfit("flare", both, "--split", "--json").lines
+    assert [line["mesh"]["path"] for line in lines] == [f"{both}#1", f"{both}#2"]
+    alone = footfit("flare", *sorted((SAMPLES / "feet").glob("mh007_*.stl")), "--json").lines
+    ours = {line["side"]: line["flare_angle_deg"] for line in lines}
+    theirs = {line["side"]: line["flare_angle_deg"] for line in alone}
+    assert set(ours) == {"left", "right"}
+    for side, angle in ours.items():
+        assert angle == pytest.approx(theirs[side], abs=0.1)
+
+
+def test_one_foot_stays_one(footfit: Footfit, foot: Path, tmp_path: Path) -> None:
+    document = footfit("align", foot, "--split", "--json").document
+    assert document["mesh"]["path"] == str(foot)
+    scan = read_scan(foot)
+    vertices, faces = floor_plate(scan.vertices_mm, scan.faces)
+    plate = tmp_path / "plate.stl"
+    plate.write_bytes(encoded_mesh(vertices, faces, "stl"))
+    assert len(footfit("align", plate, "--split", "--json").lines) == 1
+
+
+def test_a_file_that_cannot_be_read_has_its_own_line(
+    footfit: Footfit, both: Path, tmp_path: Path
+) -> None:
+    run = footfit("align", tmp_path / "none.stl", both, "--split", "--json")
+    assert [line["schema"] for line in run.lines] == [
+        "footfit.error/1",
+        "footfit.align/1",
+        "footfit.align/1",
+    ]
