@@ -1,0 +1,126 @@
+"""``footfit match``: the profile, the check, the size system, pairs; from the command line."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+import pytest
+
+from footfit.pipeline.profile import FOLDER, fit_profile
+from tests.conftest import SAMPLES, Footfit
+
+PAIR = (SAMPLES / "feet" / "mh007_L.stl", SAMPLES / "feet" / "mh007_R.stl")
+
+
+@pytest.fixture
+def strict(tmp_path: Path) -> Path:
+    """A profile of the user's own in which no last is better than poor."""
+    text = (FOLDER / "walking.toml").read_text(encoding="utf-8")
+    path = tmp_path / "mine.toml"
+    path.write_text(
+        text.replace('name = "walking"', 'name = "mine"')
+        .replace("good_deg = [-9, 5]", "good_deg = [-0.01, 0.01]")
+        .replace("acceptable_deg = [-18, 12]", "acceptable_deg = [-0.02, 0.02]"),
+        encoding="utf-8",
+    )
+    return path
+
+
+def test_the_profile_is_recorded_with_its_rules_and_hash(
+    footfit: Footfit, foot: Path, stocked: Path
+) -> None:
+    for name in ("walking", "dress"):
+        run = footfit("match", foot, "--profile", name, "--catalogue", stocked, "--json")
+        document = run.document
+        assert document["profile"] == name
+        assert document["fit_profile"]["sha256"] == fit_profile(name).sha256
+        assert document["fit_profile"]["zones"]["length"]["required"] is True
+
+
+def test_the_check_fails_with_seven_and_one_line(
+    footfit: Footfit, foot: Path, stocked: Path, strict: Path
+) -> None:
+    command = ("match", foot, "--catalogue", stocked)
+    assert footfit(*command, "--fail-under", "acceptable").code in (0, 7)
+    run = footfit(*command, "--profile", strict, "--fail-under", "acceptable")
+    assert run.code == 7
+    assert "no last that is acceptable or better" in run.last_error
+    assert "rank" not in run.err
+    run = footfit(*command, "--profile", strict, "--fail-under", "good", "--json")
+    assert json.loads(run.last_error)["code"] == "check_failed"
+    assert {c["verdict"] for c in run.document["candidates"]} <= {"poor"}
+    assert footfit(*command, "--profile", strict).code == 0, "no check was asked for"
+
+
+def test_a_check_beside_a_bad_mesh_has_the_code_of_different_failures(
+    footfit: Footfit, foot: Path, stocked: Path, strict: Path, tmp_path: Path
+) -> None:
+    bad = tmp_path / "bad.stl"
+    bad.write_bytes(foot.read_bytes()[:5000])
+    run = footfit(
+        "match", bad, foot, "--profile", strict, "--fail-under", "good", "--catalogue", stocked
+    )
+    assert run.code == 3
+    assert "no last that is good" in run.last_error
+
+
+@pytest.mark.parametrize(
+    ("options", "code", "words"),
+    [
+        (("--profile", "disco"), 2, "child, dress, safety, sport, walking"),
+        (("--profile", "none.toml"), 3, "name a fit profile"),
+        (("--by", "shape", "--fail-under", "good"), 2, "judges no fit"),
+        (("--fail-under", "superb"), 2, "superb"),
+    ],
+)
+def test_what_cannot_be_asked_is_refused_in_one_line(
+    footfit: Footfit, foot: Path, stocked: Path, options: tuple[str, ...], code: int, words: str
+) -> None:
+    run = footfit("match", foot, "--catalogue", stocked, *options)
+    assert run.code == code
+    assert words in run.err
+    assert len(run.err.strip().splitlines()) == 1
+    assert run.out == ""
+
+
+def test_a_broken_profile_is_said_before_any_work(
+    footfit: Footfit, foot: Path, stocked: Path, tmp_path: Path
+) -> None:
+    path = tmp_path / "broken.toml"
+    path.write_text("name = ", encoding="utf-8")
+    run = footfit("match", foot, "--profile", path, "--catalogue", stocked, "--json")
+    assert run.code == 3
+    assert json.loads(run.last_error)["code"] == "bad_profile"
+
+
+def test_the_customers_system_is_shown_though_no_last_is_labelled_in_it(
+    footfit: Footfit, foot: Path, stocked: Path
+) -> None:
+    run = footfit("match", foot, "--size-system", "us-women", "--catalogue", stocked)
+    assert run.code == 0
+    assert "size US women 9.5; beside it US women 9 and US women 10" in run.out
+    assert "no last is labelled in US women sizes" in run.err
+    document = footfit("match", foot, "--catalogue", stocked, "--json").document
+    assert document["feet"][0]["sizes"]["eu"]["words"] == "EU 40"
+
+
+def test_a_pair_has_a_fit_for_each_foot(footfit: Footfit, stocked: Path) -> None:
+    document = footfit("match", *PAIR, "--pair", "--catalogue", stocked, "--json").document
+    for candidate in document["candidates"] or document["nearest"]:
+        assert [fit["side"] for fit in candidate["fits"]] == ["left", "right"]
+        governs = [fit["zones"]["length"]["counts"] for fit in candidate["fits"]]
+        assert sorted(governs) == [False, True]
+    assert [w["code"] for w in document["warnings"]].count("pair_difference") == 1
+
+
+def test_no_last_fits_a_foot_twice_its_size(footfit: Footfit, foot: Path, stocked: Path) -> None:
+    run = footfit(
+        "match", foot, "--known-length", "360", "--catalogue", stocked, "--json", "--quiet"
+    )
+    document = run.document
+    assert run.code == 0
+    assert document["candidates"] == []
+    assert len(document["nearest"]) == 3
+    assert all("past the limit" in one["why"] for one in document["nearest"])
+    assert document["rejected"]["by_reason"] == {"too_short": 14}
