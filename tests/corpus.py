@@ -172,7 +172,7 @@ def _model_around(text: str) -> str:
     return packed.model(build=text)
 
 
-def _loose(xml: str) -> bytes:
+def loose(xml: str) -> bytes:
     """Stored as it is, so that it is no bomb by its ratio."""
     memory = io.BytesIO()
     with zipfile.ZipFile(memory, "w") as archive:
@@ -307,7 +307,7 @@ BAD = [
     Bad("blank-bomb.3mf", lambda: packed.threemf(_model_around(" " * 190_000_000)), TooLarge),
     Bad("element-bomb.3mf", lambda: packed.threemf(_model_around("<a/>" * 400_000)), TooLarge),
     Bad("nested-bomb.3mf", lambda: packed.threemf(_model_around("<a>" * 300_000)), TooLarge),
-    Bad("long-tag.3mf", lambda: _loose(_model_around(f'<a b="{_NOISE * 130_000}"/>')), TooLarge),
+    Bad("long-tag.3mf", lambda: loose(_model_around(f'<a b="{_NOISE * 130_000}"/>')), TooLarge),
     Bad("many-parts.3mf", lambda: packed.many_parts(1_200), TooLarge),
     Bad("very-many-parts.3mf", lambda: packed.many_parts(66_000), TooLarge),
     Bad("size-too-low.3mf", lambda: packed.lying_size(100), DamagedMesh),

@@ -16,6 +16,7 @@ from typing import Any, NoReturn
 import numpy as np
 
 from footfit.errors import DamagedMesh, EmptyMesh, TooLarge, UnknownFormat
+from footfit.geometry.arrays import Floats, Ints
 from footfit.meshes.limits import Limits
 from footfit.meshes.raw import RawMesh, check_counts
 from footfit.results import Notice
@@ -237,7 +238,7 @@ def _no_extensions(named: Mapping[str, Any]) -> None:
             )
 
 
-def _loaded(bare: Tree, body: bytes) -> tuple[Any, Any]:
+def _loaded(bare: Tree, body: bytes) -> tuple[Floats, Ints]:
     """Vertices (n, 3) and faces (m, 3) by trimesh, from a document that refers to nothing else."""
     import trimesh
 
@@ -246,17 +247,19 @@ def _loaded(bare: Tree, body: bytes) -> tuple[Any, Any]:
     length = _HEAD.size + 2 * _CHUNK.size + len(text) + len(body)
     head = _HEAD.pack(_MAGIC, _VERSION, length) + _CHUNK.pack(len(text), _JSON) + text
     stream = io.BytesIO(head + _CHUNK.pack(len(body), _BIN) + body)
-    scene = trimesh.load(stream, file_type="glb", process=False, skip_materials=True)
-    points, triangles, known = [], [], 0
-    for name in scene.graph.nodes_geometry:
-        placing, geometry = scene.graph[name]
-        part = scene.geometry[geometry]
-        vertices = np.asarray(part.vertices, dtype=np.float64)
-        faces = np.asarray(part.faces, dtype=np.int64)
-        if faces.size and not 0 <= faces.min() <= faces.max() < len(vertices):
-            raise DamagedMesh("a face of the GLB names a vertex that is not there: export it again")
-        with np.errstate(over="ignore", invalid="ignore"):
-            points.append(vertices @ placing[:3, :3].T + placing[:3, 3])
-        triangles.append(faces + known)
-        known += len(vertices)
-    return np.concatenate(points), np.concatenate(triangles)
+    with np.errstate(all="ignore"):  # what is not finite is refused by `sound`
+        scene = trimesh.load(stream, file_type="glb", process=False, skip_materials=True)
+        parts = [_part(scene, name) for name in scene.graph.nodes_geometry]
+    first = np.cumsum([0, *(len(vertices) for vertices, _ in parts)])
+    faces = [faces + known for (_, faces), known in zip(parts, first, strict=False)]
+    return np.concatenate([vertices for vertices, _ in parts]), np.concatenate(faces)
+
+
+def _part(scene: Any, node: str) -> tuple[Floats, Ints]:
+    """One part of the mesh where its node puts it, its indices held against its own vertices."""
+    placing, geometry = scene.graph[node]
+    vertices = np.asarray(scene.geometry[geometry].vertices, dtype=np.float64)
+    faces = np.asarray(scene.geometry[geometry].faces, dtype=np.int64)
+    if faces.size and not 0 <= faces.min() <= faces.max() < len(vertices):
+        raise DamagedMesh("a face of the GLB names a vertex that is not there: export it again")
+    return vertices @ placing[:3, :3].T + placing[:3, 3], faces
