@@ -1,0 +1,77 @@
+"""The pictures of docs/, drawn by footfit itself from the sample data.
+
+python -m tools.make_pictures [FOLDER]
+"""
+
+from __future__ import annotations
+
+import sys
+import tempfile
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+
+from footfit.meshes.read import read_scan
+from footfit.pipeline import lasts
+from footfit.pipeline.align import aligned
+from footfit.pipeline.curvature import surface_curvature
+from footfit.pipeline.demo import demonstrate
+from footfit.pipeline.flare import profiled
+from footfit.report.plots import curvature_plot, flare_plot, frames_plot
+from footfit.results import Scan
+from tests.distortions import moved, random_pose, white_noise
+
+ROOT = Path(__file__).resolve().parents[1]
+SAMPLES = ROOT / "sample_data"
+SEED = 7
+NOISE_MM = 0.3
+
+
+def pictures() -> dict[str, bytes]:
+    """Every picture by its file's name."""
+    rng = np.random.default_rng(SEED)
+    foot = read_scan(SAMPLES / "feet" / "mh007_R.stl")
+    last = read_scan(SAMPLES / "lasts" / "trainer-40.stl")
+    thrown = replace(foot, vertices_mm=moved(foot.vertices_mm, random_pose(rng)))
+    return {
+        **method_pictures(thrown),
+        "flare-foot.png": flare_plot(profiled(aligned(foot)), "png"),
+        "flare-last.png": flare_plot(profiled(aligned(last)), "png"),
+        **curvature_pictures(foot, rng),
+    }
+
+
+def method_pictures(scan: Scan) -> dict[str, bytes]:
+    """One scan in one arbitrary pose, aligned by each method."""
+    with tempfile.TemporaryDirectory() as folder:
+        catalogue = demonstrate(Path(folder)).catalogue
+        reference = lasts.alignment_reference(catalogue, "paper", None)
+    drawn = {"align-footfit.png": frames_plot(aligned(scan), "png")}
+    for method in ("paper", "paper-literal"):
+        shape = aligned(scan, method=method, reference=reference)  # type: ignore[arg-type]
+        drawn[f"align-{method}.png"] = frames_plot(shape, "png")
+    return drawn
+
+
+def curvature_pictures(foot: Scan, rng: np.random.Generator) -> dict[str, bytes]:
+    """A foot with a scanner's noise: the paper's one ring, and pooled over a radius."""
+    noisy = replace(foot, vertices_mm=white_noise(foot.vertices_mm, rng, NOISE_MM))
+    view = aligned(foot).alignment.canonical_transform
+    return {
+        "curvature-one-ring.png": curvature_plot(surface_curvature(noisy, 0.0), "png", view),
+        "curvature-pooled.png": curvature_plot(surface_curvature(noisy), "png", view),
+    }
+
+
+def main() -> None:
+    """Write the pictures."""
+    folder = Path(sys.argv[1]) if len(sys.argv) > 1 else ROOT / "docs" / "pictures"
+    folder.mkdir(parents=True, exist_ok=True)
+    for name, data in pictures().items():
+        (folder / name).write_bytes(data)
+        print(f"{folder / name}: {len(data) // 1000} kB")
+
+
+if __name__ == "__main__":
+    main()
