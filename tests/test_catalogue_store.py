@@ -80,7 +80,7 @@ def test_any_label_and_number_survives(
     with open_catalogue(tmp_path_factory.mktemp("any") / "c", write=True) as opened:
         opened.add(asked)
         found = opened.record(asked.labels.name)
-        assert opened.findings() == []
+        assert {finding.code for finding in opened.findings()} <= {"range"}
     assert records.plain(records.as_stored(found)) == records.plain(records.as_stored(asked))
 
 

@@ -26,16 +26,14 @@ def strace_missing() -> str | None:
     return None if done.returncode == 0 else f"strace may not trace here: {done.stderr.decode()!r}"
 
 
-def straced(options: list[str], log: Path, *arguments: str) -> subprocess.CompletedProcess[bytes]:
+def straced(options: list[str], log: Path, *arguments: str) -> None:
     """Run this package's worker under strace."""
     command = ["strace", "-f", "-qq", "-o", str(log), *options, sys.executable, "-B", "-m"]
-    return subprocess.run(
-        [*command, *arguments],
-        cwd=ROOT,
-        capture_output=True,
-        check=True,
-        env={**os.environ, "OMP_NUM_THREADS": "1", "OPENBLAS_NUM_THREADS": "1"},
+    environment = {**os.environ, "OMP_NUM_THREADS": "1", "OPENBLAS_NUM_THREADS": "1"}
+    done = subprocess.run(
+        [*command, *arguments], cwd=ROOT, env=environment, capture_output=True, check=False
     )
+    assert done.returncode == 0, done.stderr.decode()
 
 
 def recorded(script: Script, folder: Path, synchronous: str) -> tuple[Disk, list[Event]]:
