@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 from pathlib import Path
 
+import numpy as np
 import pytest
 
 from footfit.catalogue.store import open_catalogue
@@ -31,6 +32,27 @@ def test_profiles_of_another_definition_are_recomputed_and_marked(catalogue: Pat
     assert again.upgraded_from == "flare/0"
     assert again.flare.definition == FlareDefinition()
     assert again.flare.angle_deg == pytest.approx(record.flare.angle_deg, abs=0.1)
+    assert upgrade(catalogue).recomputed == ()
+
+
+def test_measures_of_older_definitions_are_taken_anew_and_the_profile_stays(
+    catalogue: Path,
+) -> None:
+    with open_catalogue(catalogue, write=True) as opened:
+        record, other = opened.records()[:2]
+        name = record.labels.name
+        stale = [replace(record.measures[0], definition="length/1"), *record.measures[2:]]
+        opened.update_profile(name, record.flare, measures=stale)
+    assert upgrade(catalogue).recomputed == (name,)
+    with open_catalogue(catalogue) as opened:
+        again, untouched = opened.record(name), opened.record(other.labels.name)
+    assert untouched.measures == other.measures
+    assert again.upgraded_from is None
+    np.testing.assert_array_equal(again.flare.heading_deg, record.flare.heading_deg)
+    for before, after in zip(record.measures, again.measures, strict=True):
+        assert (after.name, after.definition) == (before.name, before.definition)
+        assert before.measured.value is not None
+        assert after.measured.value == pytest.approx(before.measured.value, abs=0.6), after.name
     assert upgrade(catalogue).recomputed == ()
 
 

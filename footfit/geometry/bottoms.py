@@ -18,7 +18,7 @@ class BottomSettings:
 
     step: float = 0.015  # from section to section
     band: float = 0.10  # over the section's lowest point: the width the places are shares of
-    reach: float = 0.20  # what lies higher is no underside
+    reach: float = 0.30  # what lies higher is no underside
     bandwidth: float = 0.03
     whole: tuple[float, float] = (0.04, 0.96)
     arch: tuple[float, float] = (0.28, 0.62)

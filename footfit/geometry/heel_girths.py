@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 
@@ -17,8 +18,9 @@ class HeelSettings:
     """The search for the shortest girth, over planes ever steeper than the long girth's."""
 
     steepest_deg: float = 80.0
-    step_deg: float = 5.0
-    beyond: float = 1.0  # steps over the last whole section where the girth may turn
+    step_deg: float = 3.0
+    beyond: float = 2.0  # steps over the last whole section where the girth may turn
+    flat: float = 0.003  # of the length: a girth that falls less from there on is the least
 
 
 HEEL = HeelSettings()
@@ -49,11 +51,17 @@ def shortest_around_heel(shape: Shape, settings: HeelSettings = HEEL) -> Outline
     if shape.kind == "last":
         edge_deg = angle_to_deg(shape, shape.cone_edge)
     angles, girths = _whole_girths(shape, edge_deg, settings.step_deg)
-    least = _turning_angle_deg(angles, girths, settings.beyond)
+    turn = _turn(angles, girths)
     if shape.kind == "last":
-        return around_heel(shape, edge_deg if least is None else min(least, edge_deg))
-    section = None if least is None else around_heel(shape, least)
-    return None if section is None or shape.topped(section) else section
+        reached = turn is not None and turn.steps_beyond <= settings.beyond
+        return around_heel(shape, min(turn.angle_deg, edge_deg) if reached and turn else edge_deg)
+    if turn is None or turn.steps_beyond > settings.beyond:
+        return None
+    section = around_heel(shape, turn.angle_deg)
+    if not shape.topped(section):
+        return section
+    flat = turn.fall_mm <= settings.flat * shape.length_mm
+    return around_heel(shape, angles[-1]) if flat else None
 
 
 def _whole_girths(
@@ -75,28 +83,35 @@ def _whole_girths(
     return angles, girths
 
 
-def _turning_angle_deg(angles: list[float], girths: list[float], beyond: float) -> float | None:
-    """Where the parabola through the last three girths is lowest.
+class Turn(NamedTuple):
+    """Where girths turn from falling to growing: the angle, how many steps behind the last one
+    that was tried, and how far the girth falls from there.
+    """
 
-    None where that is more than ``beyond`` steps behind the last angle.
+    angle_deg: float
+    steps_beyond: float
+    fall_mm: float
+
+
+def _turn(angles: list[float], girths: list[float]) -> Turn | None:
+    """The least of the parabola through the last three girths; None where they only fall.
 
     Examples
     --------
-    >>> _turning_angle_deg([30.0, 35.0, 40.0], [4.0, 0.0, 4.0], 1.0)
-    35.0
-    >>> _turning_angle_deg([30.0, 35.0, 40.0], [9.0, 7.0, 5.9], 1.0)
-    43.61
-    >>> _turning_angle_deg([30.0, 35.0, 40.0], [9.0, 5.0, 2.0], 1.0)
+    >>> _turn([30.0, 35.0, 40.0], [4.0, 0.0, 4.0])
+    Turn(angle_deg=35.0, steps_beyond=-1.0, fall_mm=4.0)
+    >>> _turn([30.0, 35.0, 40.0], [9.0, 4.0, 1.0])
+    Turn(angle_deg=45.0, steps_beyond=1.0, fall_mm=1.0)
+    >>> _turn([30.0, 35.0, 40.0], [9.0, 6.0, 3.0])
     """
     if len(girths) == 2 and girths[1] > girths[0]:
-        return angles[0]
+        return Turn(angles[0], -1.0, girths[1] - girths[0])
     if len(girths) < 3:
         return None
     before, middle, after = girths[-3:]
     bend = before - 2.0 * middle + after
     if bend <= 0.0:
         return None
-    steps = 0.5 * (before - after) / bend
-    if steps > 1.0 + beyond:
-        return None
-    return round(angles[-2] + steps * (angles[-1] - angles[-2]), 2)
+    beyond = 0.5 * (before - after) / bend - 1.0
+    step_deg = angles[-1] - angles[-2]
+    return Turn(angles[-1] + beyond * step_deg, beyond, 0.5 * bend * beyond**2)

@@ -37,6 +37,9 @@ class LandmarkSettings:
     lid_crossed: float = 0.05  # a section that runs on a lid farther than that is of a cut leg
     gap: float = 0.03  # a section that is open wider than that is not measured
     calm_rounds: int = 2
+    lid_flatness: float = 0.97  # cosine to the lid's own normal, and how far from its plane
+    lid_thickness: float = 0.01
+    lid_flat_share: float = 0.7
     lid_area: float = 0.01  # over the length squared; a leg's cut has .05
 
 
@@ -126,19 +129,33 @@ class Shape:
 
     @cached_property
     def lid(self) -> Bools:
-        """The faces (m,) that close the shape at its top: a leg's cut, a last's cone top."""
-        x, _, z = self.vertices_mm.T
-        high = z > LANDMARKS.lid_height * self.length_mm
-        a, b, c = (high & (x < self.x_mm(LANDMARKS.lid_front)))[self.faces.T]
+        """The faces (m,) that close the shape at its top: a leg's cut, a last's cone top.
+
+        What looks up behind the bend of the ankle or, where that is flat, all that lies in its
+        plane.
+        """
+        lid = np.zeros(len(self.faces), dtype=bool)
+        high = self.vertices_mm[:, 2] > LANDMARKS.lid_height * self.length_mm
+        a, b, c = high[self.faces.T]
         candidates = np.flatnonzero(a & b & c)
         faces = self.faces[candidates]
         vectors = area_vectors(self.vertices_mm, faces)
         for _ in range(LANDMARKS.calm_rounds):  # else noise turns the dorsum's small faces up
             vectors = calmed(vectors, faces, len(self.vertices_mm))
         area = np.sqrt(np.einsum("ij,ij->i", vectors, vectors))
-        up = vectors[:, 2] > LANDMARKS.lid_facing * area
-        lid = np.zeros(len(self.faces), dtype=bool)
-        lid[candidates[up]] = area[up].sum() > LANDMARKS.lid_area * self.length_mm**2
+        middle = (self.vertices_mm[faces[:, 0]] + self.vertices_mm[faces[:, 1]]) / 3.0
+        middle += self.vertices_mm[faces[:, 2]] / 3.0
+        behind = middle[:, 0] < self.x_mm(LANDMARKS.lid_front)
+        behind &= vectors[:, 2] > LANDMARKS.lid_facing * area
+        total = area[behind].sum()
+        if total > LANDMARKS.lid_area * self.length_mm**2:
+            normal = vectors[behind].sum(axis=0)
+            normal /= np.linalg.norm(normal)
+            over = (middle - area[behind] @ middle[behind] / total) @ normal
+            level = vectors @ normal > LANDMARKS.lid_flatness * area
+            level &= np.abs(over) < LANDMARKS.lid_thickness * self.length_mm
+            flat = area[behind & level].sum() > LANDMARKS.lid_flat_share * total
+            lid[candidates[level if flat else behind]] = True
         return lid
 
     @cached_property
@@ -181,9 +198,9 @@ class Shape:
         """The section by the plane through ``origin`` (3,) along ``axes`` (2, 3)."""
         return outline(self.vertices_mm, self.faces, origin, axes, self.length_mm)
 
-    def opened(self, section: Outline) -> bool:
-        """Whether a section misses a piece of the surface."""
-        return not section.loops or section.gap_mm > LANDMARKS.gap * self.length_mm
+    def opened(self, section: Outline, below_mm: float = np.inf) -> bool:
+        """Whether a section misses a piece of the surface, below a height where one is given."""
+        return not section.loops or section.gap_mm(below_mm) > LANDMARKS.gap * self.length_mm
 
     def topped(self, section: Outline) -> bool:
         """Whether a section runs over the shape's lid, or out of its open top."""

@@ -21,7 +21,7 @@ class HeightSettings:
 
 HEIGHTS = HeightSettings()
 NO_SOLE = "the sole is open at the {place}"
-FLAT = "a foot stands flat: it is measured on lasts"
+FLAT = "measured on lasts: a foot stands flat"
 
 
 def arch_height(shape: Shape) -> Reading:

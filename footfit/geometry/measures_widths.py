@@ -7,9 +7,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from footfit.geometry.arrays import Floats
 from footfit.geometry.landmarks import Shape
 from footfit.geometry.measures_lengths import NO_BALL
+from footfit.geometry.outlines import Outline
 from footfit.geometry.readings import OPEN, Reading
 
 
@@ -64,25 +64,42 @@ def _bottom_width(shape: Shape, share: float, place: str) -> Reading:
 
 
 def _mean_width(
-    shape: Shape, shares: Sequence[float], place: str, width: Callable[[Floats, float], float]
+    shape: Shape, shares: Sequence[float], place: str, width: Callable[[Outline, float], float]
 ) -> Reading:
     """The mean width of the sections at some shares of the length."""
     widths = []
     for share in shares:
         section = shape.across(share)
-        if shape.opened(section):
+        below_mm = section.points[:, 1].min(initial=np.inf) + WIDTHS.height * shape.length_mm
+        if shape.opened(section, below_mm):
             return Reading(None, OPEN.format(place=place))
-        widths.append(width(section.points, shape.length_mm))
+        widths.append(width(section, shape.length_mm))
     return Reading(float(np.mean(widths)))
 
 
-def _lower_width(points: Floats, length_mm: float) -> float:
+def _lower_width(section: Outline, length_mm: float) -> float:
     """The extent across of what is not high over a section's lowest point."""
+    points = section.points
     low = points[:, 1] < points[:, 1].min() + WIDTHS.height * length_mm
     return float(np.ptp(points[low, 0]))
 
 
-def _feather_width(points: Floats, length_mm: float) -> float:  # noqa: ARG001
+def _feather_width(section: Outline, length_mm: float) -> float:  # noqa: ARG001
     """Between the points of a section that lines of 45 degrees touch from below on either side."""
-    across, up = points.T
-    return float(across[np.argmax(across - up)] - across[np.argmin(across + up)])
+    return _touched(section, 1.0) - _touched(section, -1.0)
+
+
+def _touched(section: Outline, side: float) -> float:
+    """Where across a section a line of 45 degrees touches it from below on one side.
+
+    Between the outline's points, by the parabola through the outermost and its neighbours.
+    """
+    out = [side * loop[:, 0] - loop[:, 1] for loop in section.loops]
+    index = int(np.argmax([values.max() for values in out]))
+    values, across = out[index], section.loops[index][:, 0]
+    at = int(np.argmax(values))
+    before, top, after = values[at - 1], values[at], values[(at + 1) % len(values)]
+    bend = before - 2.0 * top + after
+    shift = 0.5 * (before - after) / bend if bend < 0.0 else 0.0
+    beside = across[(at + 1) % len(values)] if shift > 0.0 else across[at - 1]
+    return float(across[at] + abs(shift) * (beside - across[at]))

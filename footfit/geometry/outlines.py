@@ -25,15 +25,20 @@ OUTLINES = OutlineSettings()
 
 @dataclass(frozen=True, slots=True)
 class Outline:
-    """One section: ``loops`` of even points (k, 2) across and up, smoothed; ``gap_mm`` is the
-    longest straight piece that closes what was open; ``face`` (m,) are the faces cut, each over
-    ``length_mm`` (m,).
+    """One section: ``loops`` of even points (k, 2) across and up, smoothed; ``gaps`` (g, 2, 2)
+    are the ends of the straight pieces that close what was open; ``face`` (m,) are the faces cut,
+    each over ``length_mm`` (m,).
     """
 
     loops: tuple[Floats, ...]
-    gap_mm: float
+    gaps: Floats
     face: Ints
     length_mm: Floats
+
+    def gap_mm(self, below_mm: float = np.inf) -> float:
+        """The longest of the straight pieces that begin below a height; 0 where there is none."""
+        low = self.gaps[self.gaps[:, :, 1].min(axis=1) < below_mm]
+        return float(np.linalg.norm(low[:, 1] - low[:, 0], axis=1).max(initial=0.0))
 
     @property
     def points(self) -> Floats:
@@ -72,7 +77,7 @@ def outline(
     cut = np.flatnonzero((a != b) | (a != c))
     planes = Planes(np.array([level]), origin[None, :], normal[None, :])
     segments = plane_sections(vertices, faces[cut], values, planes)
-    loops, gap = closed_loops(segments.points)
+    loops, gaps = closed_loops(segments.points)
     lengths = [_steps(loop).sum() for loop in loops]
     kept = [
         smoothed((loop - origin) @ axes.T, length, settings)
@@ -80,37 +85,37 @@ def outline(
         if long >= settings.speck * max(lengths)
     ]
     steps = np.linalg.norm(segments.points[:, 1] - segments.points[:, 0], axis=1)
-    return Outline(tuple(kept), gap, cut[segments.face], steps)
+    return Outline(tuple(kept), (gaps - origin) @ axes.T, cut[segments.face], steps)
 
 
-def closed_loops(points: Floats) -> tuple[list[Floats], float]:
+def closed_loops(points: Floats) -> tuple[list[Floats], Floats]:
     """Segments (m, 2, 3) joined where their ends are equal; the open pieces joined to one loop.
 
     Returns
     -------
     loops : list of (k, 3)
         Each closed: its last point is followed by its first.
-    gap : float
-        The longest straight piece that was needed to close them; 0 for a closed surface.
+    gaps : (g, 2, 3)
+        The ends of the straight pieces that were needed to close them.
 
     Examples
     --------
     >>> corners = np.array([[0.0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]])
     >>> open_square = np.stack([corners[:3], corners[1:]], axis=1)
-    >>> loops, gap = closed_loops(open_square)
-    >>> len(loops), len(loops[0]), gap
-    (1, 4, 1.0)
+    >>> loops, gaps = closed_loops(open_square)
+    >>> len(loops), len(loops[0]), gaps.tolist()
+    (1, 4, [[[0.0, 1.0, 0.0], [0.0, 0.0, 0.0]]])
     """
     if len(points) == 0:
-        return [], 0.0
+        return [], np.empty((0, 2, 3))
     place, node = _nodes(points)
     chains = _chains(node[node[:, 0] != node[:, 1]])
     closed = [place[chain[:-1]] for chain in chains if chain[0] == chain[-1]]
     pieces = [place[chain] for chain in chains if chain[0] != chain[-1]]
     if not pieces:
-        return closed, 0.0
-    joined, gap = _joined(pieces)
-    return [*closed, joined], gap
+        return closed, np.empty((0, 2, 3))
+    joined, gaps = _joined(pieces)
+    return [*closed, joined], gaps
 
 
 def _nodes(points: Floats) -> tuple[Floats, Ints]:
@@ -166,21 +171,20 @@ def _partners(ends: Ints) -> Ints:
     return partner
 
 
-def _joined(pieces: list[Floats]) -> tuple[Floats, float]:
-    """One loop of open pieces, each joined to the nearest end of another, and the longest joint."""
-    loop, rest, gap = pieces[0], pieces[1:], 0.0
+def _joined(pieces: list[Floats]) -> tuple[Floats, Floats]:
+    """One loop of open pieces, each joined to the nearest end of another, and the joints' ends."""
+    loop, rest, gaps = pieces[0], pieces[1:], []
     while rest:
-        end = loop[-1]
         reached = [
-            (float(np.linalg.norm(piece[side] - end)), index, side)
+            (float(np.linalg.norm(piece[side] - loop[-1])), index, side)
             for index, piece in enumerate(rest)
             for side in (0, -1)
         ]
-        distance, index, side = min(reached)
+        _, index, side = min(reached)
         piece = rest.pop(index)
+        gaps.append((loop[-1], piece[side]))
         loop = np.concatenate([loop, piece if side == 0 else piece[::-1]])
-        gap = max(gap, distance)
-    return loop, max(gap, float(np.linalg.norm(loop[-1] - loop[0])))
+    return loop, np.array([*gaps, (loop[-1], loop[0])])
 
 
 def _steps(loop: Floats) -> Floats:
@@ -188,7 +192,14 @@ def _steps(loop: Floats) -> Floats:
 
 
 def smoothed(loop: Floats, length: float, settings: OutlineSettings = OUTLINES) -> Floats:
-    """A closed polyline (n, 2) as even points (k, 2), smoothed along its arc."""
+    """A closed polyline (n, 2) as even points (k, 2), smoothed along its arc.
+
+    Counter-clockwise from the point farthest across, whatever the order of the mesh's faces.
+    """
+    after = np.roll(loop, -1, axis=0)
+    if loop[:, 0] @ after[:, 1] < loop[:, 1] @ after[:, 0]:
+        loop = loop[::-1]
+    loop = np.roll(loop, -int(np.argmax(loop[:, 0])), axis=0)
     steps = _steps(loop)
     arc = np.concatenate([[0.0], np.cumsum(steps)])
     count = max(16, round(arc[-1] / (settings.pitch * length)))

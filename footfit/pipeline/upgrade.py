@@ -1,19 +1,21 @@
-"""Upgrade: an older catalogue to this version's schema and flare definition."""
+"""Upgrade: an older catalogue to this version's schema, flare definition and measures."""
 
 from __future__ import annotations
 
 from pathlib import Path
 
 from footfit.catalogue.store import Catalogue, open_catalogue
-from footfit.geometry.flare import FlareDefinition, FlareProfile, flare_profile
+from footfit.geometry.flare import FlareDefinition, flare_profile
+from footfit.geometry.measures import of_kind
 from footfit.meshes.copies import expanded
-from footfit.pipeline.flare import as_right
+from footfit.pipeline.flare import as_right, measured
 from footfit.results import LastRecord, UpgradeOutcome
 
 
 def upgrade(path: Path) -> UpgradeOutcome:
-    """Bring the schema up to date (a copy of the file is kept beside it) and re-compute each
-    profile of another flare definition from the catalogue's own mesh copy, marked as such.
+    """Bring the schema up to date (a copy of the file is kept beside it), and every last whose
+    profile or measures follow other definitions than this version's: from the catalogue's own
+    mesh copy, a profile marked with the definition that it replaces.
 
     Raises
     ------
@@ -22,13 +24,9 @@ def upgrade(path: Path) -> UpgradeOutcome:
     """
     definition = FlareDefinition()
     with open_catalogue(path, write=True, create=False) as catalogue:
-        older = [r for r in catalogue.records() if r.flare.definition != definition]
+        older = [r for r in catalogue.records() if _is_older(r, definition)]
         for record in older:
-            catalogue.update_profile(
-                record.labels.name,
-                _recomputed(catalogue, record, definition),
-                upgraded_from=record.flare.definition.version,
-            )
+            _renew(catalogue, record, definition)
         revisions = catalogue.revisions
     return UpgradeOutcome(
         path=str(path),
@@ -40,9 +38,18 @@ def upgrade(path: Path) -> UpgradeOutcome:
     )
 
 
-def _recomputed(
-    catalogue: Catalogue, record: LastRecord, definition: FlareDefinition
-) -> FlareProfile:
+def _is_older(record: LastRecord, definition: FlareDefinition) -> bool:
+    """Whether the profile or a measure follows another definition, or a measure is missing."""
+    stored = {measure.definition for measure in record.measures}
+    wanted = {entry.definition_id for entry in of_kind(record.pose.kind)}
+    return record.flare.definition != definition or stored != wanted
+
+
+def _renew(catalogue: Catalogue, record: LastRecord, definition: FlareDefinition) -> None:
+    """Profile and measure a last anew; a profile of this definition stays as it is."""
     vertices_mm, faces = expanded(catalogue.mesh_copy(record.labels.name).data)
-    right = as_right(vertices_mm, faces, record.side.side)
-    return flare_profile(*right, definition, record.pose.kind)
+    right, kind = as_right(vertices_mm, faces, record.side.side), record.pose.kind
+    flare, upgraded_from = record.flare, record.upgraded_from
+    if flare.definition != definition:
+        flare, upgraded_from = flare_profile(*right, definition, kind), flare.definition.version
+    catalogue.update_profile(record.labels.name, flare, upgraded_from, measured(*right, kind))
