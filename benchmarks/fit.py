@@ -23,7 +23,7 @@ from benchmarks.tables import markdown, put
 from footfit.geometry.flare import profile_distances
 from footfit.meshes.read import read_scan
 from footfit.pipeline.align import aligned
-from footfit.pipeline.fit import _scales
+from footfit.pipeline.fit import scales
 from footfit.pipeline.flare import measured, profiled, right_shape
 from footfit.pipeline.ingest import last_record
 from footfit.pipeline.match import Library, Question, matched
@@ -122,7 +122,7 @@ def right_lengths(foot_mm: float) -> set[int]:
     and one that is not further off by more than the length's repeatability.
     """
     rule = PROFILE.zones[0]
-    below, above = _scales(rule)
+    below, above = scales(rule)
     off = grid_lengths() - foot_mm - rule.target
     score = np.abs(np.where(off < 0, off / below, off / above))
     return {int(i) for i in np.nonzero(score <= score.min() + 0.7 / below)[0]}

@@ -15,7 +15,7 @@ from footfit.pipeline.choice import choice
 from footfit.pipeline.match import Library, Question, matched, meets
 from footfit.pipeline.profile import fit_profile
 from footfit.pipeline.ranking import TIE_DISTANCE
-from footfit.pipeline.zones import pitch_gain_mm, zone_shape
+from footfit.pipeline.zones import BALL_SHARE, ball_line, pitch_gain_mm, zone_shape
 from footfit.results import Candidate, LastRecord, Match, Measure, Measured, Profiled
 from tests import answers
 
@@ -111,9 +111,27 @@ def test_the_verdict_is_the_worst_zone(girth_mm: float, verdict: str) -> None:
     assert zone(one, "length").verdict == "good"
 
 
+def test_the_length_comes_first_whatever_the_other_zones_say() -> None:
+    found = answer(last("long", 278.0), last("tight", 275.0, ball_girth=231.0))
+    assert [c.last for c in found.candidates] == ["tight", "long"]
+    assert [c.verdict for c in found.candidates] == ["poor", "acceptable"]
+
+
+@given(st.floats(-10, 10), st.floats(-15, 15))
+@settings(deadline=None, max_examples=50)
+def test_the_ball_line_is_what_the_length_does_not_explain(excess: float, ball: float) -> None:
+    shape = zone_shape(last("a", 273.0 + excess, ball_length=188.0 + ball, heel_height_mm=None))
+    one = zone_shape(last("foot", 260.0, heel_height_mm=None))
+    found = ball_line(one, shape, 13.0)
+    carried = BALL_SHARE * excess
+    inside = min(carried, 0.0) <= ball <= max(carried, 0.0)
+    off = 0.0 if inside else min(abs(ball), abs(ball - carried))
+    assert abs(found.value) == pytest.approx(100.0 * off / 260.0, abs=1e-9)
+
+
 def test_a_better_verdict_ranks_before_a_nearer_distance() -> None:
     one_bad = last("one-bad", ball_girth=231)
-    all_fair = last("fair", 269.0, ball_girth=234, ball_width=102, heel_width=70)
+    all_fair = last("fair", 270.5, ball_girth=234, ball_width=103, heel_width=71)
     found = answer(one_bad, all_fair)
     assert [c.verdict for c in found.candidates] == ["acceptable", "poor"]
     assert found.candidates[0].distance > found.candidates[1].distance

@@ -51,7 +51,7 @@ def judged(
     clearance: Floats, foot_sd: Floats, last_sd: Floats, columns: Sequence[Column]
 ) -> Judged:
     """Score and judge clearances (n, z) with their spreads (n, z) by the columns' rules."""
-    scale = np.array([_scales(column.rule) for column in columns]).reshape(-1, 2)
+    scale = np.array([scales(column.rule) for column in columns]).reshape(-1, 2)
     target = np.array([column.rule.target for column in columns])
     over = clearance >= target
     width = np.where(over, scale[:, 1], scale[:, 0])
@@ -64,7 +64,7 @@ def judged(
     )
 
 
-def _scales(rule: ZoneRule) -> tuple[float, float]:
+def scales(rule: ZoneRule) -> tuple[float, float]:
     """From the target to the edge of good, downwards and upwards; one serves both if alone."""
     below, above = rule.target - rule.good[0], rule.good[1] - rule.target
     return below or above, above or below

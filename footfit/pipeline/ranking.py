@@ -23,7 +23,7 @@ from footfit.pipeline.fit import (
     tiers,
     worst_levels,
 )
-from footfit.pipeline.zones import ZONES, Clearances, clearances
+from footfit.pipeline.zones import LENGTH_SD_MM, ZONES, Clearances, clearances
 from footfit.results import (
     FitProfile,
     FlareDifference,
@@ -35,10 +35,11 @@ from footfit.results import (
 )
 
 TIE_DISTANCE = 2.0**0.5
-"""Two profile distances closer than this are a tie: each of the two profiles carries one sigma."""
+"""Two distances by flare or shape closer than this are a tie: each carries a rescan's spread."""
 TWIN_LENGTH_MM = 2.0
 """Two lasts with the same labels and opposite sides are one pair if their lengths differ less."""
-LENGTH_SD_MM = 0.5
+INDEPENDENT = 6.0
+"""How many independent measures a shape's measures are worth in a search by shape."""
 GOVERNED = frozenset({"length", "ball_line"})
 """Zones that the longer foot of a pair decides alone."""
 
@@ -151,14 +152,15 @@ def _distance(
 
 
 def size_squares(mesh: Profiled, lasts: Sequence[LastRecord]) -> Floats:
-    """How far each last's measures are from the mesh's (n,): the mean square in standard
-    deviations of the measures that both have, times two, so that size weighs as length and width.
+    """How far each last's measures are from the mesh's (n,): the length's square and the mean
+    square of the other measures that both have, all in standard deviations of the difference.
+    Measures of one shape move together: they count as INDEPENDENT ones, however many there are.
     """
     ours = {m.name: m for m in mesh.measures}
     length = mesh.aligned.alignment.length_mm
     squares = []
     for last in lasts:
-        own = [((last.length_mm - length) / LENGTH_SD_MM) ** 2]
+        own = (last.length_mm - length) ** 2 / (2.0 * LENGTH_SD_MM**2)
         shared = []
         for measure in last.measures:
             other = ours.get(measure.name)
@@ -167,7 +169,7 @@ def size_squares(mesh: Profiled, lasts: Sequence[LastRecord]) -> Floats:
             a, b = other.measured, measure.measured
             if a.value is not None and b.value is not None and a.sd and b.sd:
                 shared.append((b.value - a.value) ** 2 / (a.sd**2 + b.sd**2))
-        squares.append(sum(own) + (sum(shared) / len(shared) if shared else 0.0))
+        squares.append(own + (INDEPENDENT * sum(shared) / len(shared) if shared else 0.0))
     return np.array(squares)
 
 
@@ -197,7 +199,9 @@ def _twins(one: LastRecord, other: LastRecord) -> bool:
 
 
 def placed(found: Field, profile: FitProfile, by: SearchBy) -> Placing:
-    """The order of the lasts: by fit those that are no reject, by verdict, then by distance."""
+    """The order of the lasts: by fit those that are no reject, length first: by the verdict on
+    the length, by the whole verdict, then by distance.
+    """
     names = [last.labels.name for last in found.lasts]
     if by != "fit":
         order = sorted(
@@ -205,10 +209,20 @@ def placed(found: Field, profile: FitProfile, by: SearchBy) -> Placing:
         )
         tier = fixed_tiers([float(found.distance[i]) for i in order], TIE_DISTANCE)
         return Placing(tuple(order), tuple(tier))
+    group = found.judged.level[:, _length_column(found)] * len(VERDICTS) + found.level
     kept = [i for i in range(len(names)) if found.level[i] < REJECT]
-    kept.sort(key=lambda i: (found.level[i], round(float(found.distance[i]), 6), names[i]))
-    tier_of = tiers(kept, found.distance, found.level, found.spread, profile.tie_sds)
+    kept.sort(key=lambda i: (group[i], round(float(found.distance[i]), 6), names[i]))
+    tier_of = tiers(kept, found.distance, group, found.spread, profile.tie_sds)
     return Placing(tuple(kept), tuple(tier_of))
+
+
+def _length_column(found: Field) -> int:
+    """The column of the governing foot's length."""
+    return next(
+        i
+        for i, column in enumerate(found.columns)
+        if column.rule.zone == "length" and column.counts
+    )
 
 
 def nearest(found: Field, count: int) -> list[int]:

@@ -107,7 +107,8 @@ def clearances(
     """The clearance of a foot in each of n lasts, in the zones of the rules."""
     one = ZoneShape(foot.aligned.alignment.length_mm, foot.flare, _by_name(foot.measures), None)
     shapes = [zone_shape(last) for last in lasts]
-    table = [[_taken(one, shape, rule) for rule in rules] for shape in shapes]
+    asked_mm = next((rule.target for rule in rules if rule.zone == "length"), 0.0)
+    table = [[_taken(one, shape, rule, asked_mm) for rule in rules] for shape in shapes]
     values = np.array([[(t.value, t.foot_sd, t.last_sd) for t in row] for row in table])
     values = values.reshape(len(lasts), len(rules), 3)
     reasons = tuple(tuple(taken.reason for taken in row) for row in table)
@@ -136,9 +137,12 @@ def _by_name(measures: Sequence[object]) -> dict[str, tuple[Measured, str]]:
     return {m.name: (m.measured, m.definition) for m in measures}  # type: ignore[attr-defined]
 
 
-def _taken(foot: ZoneShape, last: ZoneShape, rule: ZoneRule) -> Taken:
+def _taken(foot: ZoneShape, last: ZoneShape, rule: ZoneRule, asked_mm: float) -> Taken:
     special = _SPECIAL.get(rule.zone)
-    taken = special(foot, last) if special else _difference(foot, last, rule.zone)
+    if rule.zone == "ball_line":
+        taken = ball_line(foot, last, asked_mm)
+    else:
+        taken = special(foot, last) if special else _difference(foot, last, rule.zone)
     if taken.reason is not None:
         return taken
     return Taken(taken.value - rule.cavity, taken.foot_sd, taken.last_sd)
@@ -194,13 +198,20 @@ STEEPEST = 0.6
 """The sine of the steepest pitch that is believed: a heel of 110 mm."""
 
 
-def _ball_line(foot: ZoneShape, last: ZoneShape) -> Taken:
-    """How much further forward the last's ball is than the foot's, in % of the foot's length."""
+def ball_line(foot: ZoneShape, last: ZoneShape, asked_mm: float) -> Taken:
+    """How much further forward the last's ball is than the foot's, in % of the foot's length,
+    beyond what its length explains.
+
+    A last that is longer than the toe room asked for carries its ball forward in proportion; that
+    is judged as length and not once more here. A long toe with the ball in place is in place.
+    """
     taken = _difference(foot, last, "ball_length")
     if taken.reason is not None:
         return taken
+    carried = BALL_SHARE * (_length(foot, last).value - asked_mm)
+    explained = min(max(taken.value, min(carried, 0.0)), max(carried, 0.0))
     scale = 100.0 / foot.length_mm
-    return Taken(taken.value * scale, taken.foot_sd * scale, taken.last_sd * scale)
+    return Taken((taken.value - explained) * scale, taken.foot_sd * scale, taken.last_sd * scale)
 
 
 def _flare(foot: ZoneShape, last: ZoneShape) -> Taken:
@@ -222,7 +233,6 @@ def _plan(foot: ZoneShape, last: ZoneShape) -> Taken:
 
 _SPECIAL: dict[str, Callable[[ZoneShape, ZoneShape], Taken]] = {
     "length": _length,
-    "ball_line": _ball_line,
     "flare": _flare,
     "plan": _plan,
 }
