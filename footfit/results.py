@@ -11,6 +11,8 @@ from typing import TYPE_CHECKING, Literal
 
 if TYPE_CHECKING:
     from footfit.geometry.arrays import Floats, Ints
+    from footfit.geometry.clearance import ZoneClearance
+    from footfit.geometry.docking import Docking
     from footfit.geometry.flare import FlareProfile
 
 SideName = Literal["left", "right"]
@@ -205,6 +207,15 @@ class Profiled:
 
 
 @dataclass(frozen=True, slots=True)
+class MeasuredScan:
+    """A mesh aligned and measured; ``suspects`` are values that are hardly a foot's."""
+
+    alignment: Alignment
+    measures: tuple[Measure, ...]
+    suspects: tuple[Notice, ...]
+
+
+@dataclass(frozen=True, slots=True)
 class SurfaceCurvature:
     """Per-vertex curvature of a surface in 1/mm, (n,) each; NaN where it is undefined.
 
@@ -265,9 +276,12 @@ class LastRecord:
 
 @dataclass(frozen=True, slots=True)
 class IngestOutcome:
-    """What became of one file: ``status`` is added, unchanged, replaced or refused."""
+    """What became of one file: ``status`` is added, unchanged, replaced or refused.
 
-    path: str
+    ``path`` is None for standard input.
+    """
+
+    path: str | None
     status: str
     last: str | None
     side: SideName | None
@@ -419,6 +433,56 @@ class Match:
     fit_profile: FitProfile | None = None
     nearest: tuple[Candidate, ...] = ()
     size_system: str | None = None
+
+
+# ---------------------------------------------------------------- compare
+
+
+@dataclass(frozen=True, slots=True)
+class SizeDifference:
+    """One size of one section in mm: of the foot, of the last, and last minus foot."""
+
+    name: str
+    foot: Measured
+    last: Measured
+    difference: Measured
+
+
+@dataclass(frozen=True, slots=True)
+class SectionComparison:
+    """Foot and last cut by one plane at a named ``station``, ``x_mm`` from the foot's heel.
+
+    The outlines are closed loops (k, 2), across (+ is medial) and up, mm.
+    """
+
+    station: str
+    x_mm: float
+    foot_outline: tuple[Floats, ...]
+    last_outline: tuple[Floats, ...]
+    sizes: tuple[SizeDifference, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class Comparison:
+    """A foot in a last, both as right shapes in the last's frame, mm.
+
+    ``vertices_mm`` (n, 3) and ``faces`` (m, 3) are the foot as it is docked, ``room_mm`` (n,) its
+    clearance at each vertex, NaN where the shoe does not reach; ``last_vertices_mm`` and
+    ``last_faces`` are the last. ``mirrored``: the last is of the other side than the foot.
+    """
+
+    foot: Profiled
+    last: LastRecord
+    mirrored: bool
+    docking: Docking
+    vertices_mm: Floats
+    faces: Ints
+    last_vertices_mm: Floats
+    last_faces: Ints
+    room_mm: Floats
+    zones: tuple[ZoneClearance, ...]
+    sections: tuple[SectionComparison, ...]
+    warnings: tuple[Notice, ...]
 
 
 # ---------------------------------------------------------------- library

@@ -52,14 +52,15 @@ def demo(
 def demo_files(shown: Demonstration) -> dict[str, bytes | str]:
     """The demo's files by name, the report last."""
     from footfit.pipeline.export import mesh_bytes
-    from footfit.pipeline.shapes import candidate_shapes
+    from footfit.pipeline.shapes import best_comparisons, candidate_shapes
     from footfit.report.html import match_report
     from footfit.report.plots import flare_plot, frames_plot
 
-    aligned = shown.foot.aligned
+    aligned, match = shown.foot.aligned, shown.match
+    drawn = candidate_shapes(shown.catalogue, match), best_comparisons(shown.catalogue, match)
     return {
         "aligned.stl": mesh_bytes(aligned.vertices_mm, aligned.faces, Path("aligned.stl")),
         "frames.svg": frames_plot(aligned, "svg"),
         "flare.svg": flare_plot(shown.foot, "svg"),
-        "report.html": match_report(shown.match, candidate_shapes(shown.catalogue, shown.match)),
+        "report.html": match_report(match, *drawn),
     }

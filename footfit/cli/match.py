@@ -108,7 +108,7 @@ def match(
     from footfit.pipeline.choice import choice
     from footfit.pipeline.match import Question, customers
     from footfit.pipeline.profile import fit_profile
-    from footfit.pipeline.shapes import candidate_shapes
+    from footfit.pipeline.shapes import best_comparisons, candidate_shapes
     from footfit.pipeline.sources import ReadingOptions
     from footfit.report.csv import match_csv
     from footfit.report.html import match_report
@@ -129,8 +129,8 @@ def match(
     if csv is not None:
         write_or_answer(csv, match_csv(matches), force=force)
     if html is not None and matches:
-        shapes = candidate_shapes(path, matches[0])
-        write_output(html, match_report(matches[0], shapes), force=force)
+        drawn = candidate_shapes(path, matches[0]), best_comparisons(path, matches[0])
+        write_output(html, match_report(matches[0], *drawn), force=force)
     if fail_under is not None:
         code = checked(matches, fail_under, code, as_json=json)
     raise typer.Exit(code)

@@ -47,7 +47,7 @@ class OverlaySettings:
 
 
 OVERLAY = OverlaySettings()
-CUT = "the {who} is cut or open at the {place}"
+CUT = "at the {place} the section runs out of the {who}'s top, or is open"
 
 
 @dataclass(frozen=True, slots=True)

@@ -1,18 +1,34 @@
-"""The page of one match: a file that opens offline, prints on A4 and asks for no trust.
+"""The page of one match: what a customer reads first, what a fitter checks, what prints on A4.
 
-It holds no script, names no outside address and no folder of the machine; every name is escaped;
-the pictures are images inside the page, which a browser draws without running anything.
+It names no outside address and no folder of the machine, and every name is escaped; see
+``html_page`` for the policy that a browser holds it to.
 """
 
 from __future__ import annotations
 
-import base64
-from collections.abc import Iterable
-from html import escape
+from collections.abc import Iterable, Sequence
 from typing import TYPE_CHECKING
 
 from footfit import __version__
-from footfit.report.html_style import STYLE, policy
+from footfit.geometry.sizes import foot_sizes, system_named
+from footfit.report.compare_html import (
+    heat_picture,
+    room_part,
+    section_picture,
+    wide_scene,
+)
+from footfit.report.html_page import (
+    Cell,
+    facts,
+    light,
+    page,
+    picture,
+    shape_of,
+    table,
+    text,
+    together,
+    warning,
+)
 from footfit.report.parts import NOT_YET
 from footfit.report.text import (
     file_name,
@@ -25,74 +41,53 @@ from footfit.report.text import (
 )
 
 if TYPE_CHECKING:
-    from matplotlib.figure import Figure
-
     from footfit.report.match_figure import Shapes
-    from footfit.results import Candidate, Match, Notice, Profiled
+    from footfit.results import Candidate, Comparison, Match, Profiled, ZoneFit
 
 HOW = {
-    "fit": "Lasts whose length leaves the toe room that the profile asks for, nearest flare "
-    "profile first; of tied lasts the one with the best length comes first.",
+    "fit": "Lasts that leave the room that the fit profile asks for, best verdict and nearest "
+    "first; of tied lasts the one with the best length comes first.",
     "flare": "All lasts, nearest flare profile first. This search is scale-free: it compares "
     "shapes and cannot tell one size from another, so look at the length.",
     "shape": "All lasts, nearest in length and flare profile first: which last is this?",
 }
+UNITS = {"mm": " mm", "deg": "°", "percent": " %", "ratio": ""}
+SHOWN_SYSTEMS = ("eu", "uk", "us-men", "us-women", "mondopoint")
 ONLY_FEW_FEET = 2
-"""Each foot has its own pictures; a customer has at most two."""
+"""A customer has at most two feet; a pair's pictures stand side by side on paper."""
 
 
-def match_report(match: Match, shapes: Shapes | None = None) -> str:
+def match_report(
+    match: Match, shapes: Shapes | None = None, comparisons: Sequence[Comparison] = ()
+) -> str:
     """One customer's answer as a whole HTML page; the same bytes for the same match.
 
     Parameters
     ----------
     match : Match
     shapes : mapping of str to (vertices_mm, faces), optional
-        The candidates' meshes by name, canonical mm, each on its own side; the pictures draw
-        the outline of those that are there.
+        The candidates' meshes by name, canonical mm, each on its own side; the flare plot draws
+        the outlines of those that are there.
+    comparisons : sequence of Comparison
+        The feet in the best last, as ``pipeline.shapes.best_comparisons`` gives them; without any
+        the page has no surface to show.
     """
+    scene = wide_scene(comparisons)
     body = [
         "<h1>Which last fits?</h1>",
         f'<p class="lead">{text(_lead(match))}</p>',
         _best(match),
-        *(_warning(notice) for notice in match.warnings),
-        "<h2>The feet</h2>" if len(match.feet) > 1 else "<h2>The foot</h2>",
-        f'<div class="feet">{"".join(_foot(foot) for foot in match.feet)}</div>',
+        *(warning(notice) for notice in match.warnings),
+        _feet(match),
         _pair(match),
-        "<h2>The lasts, best first</h2>",
-        f"<p>{text(HOW[match.by])}</p>",
-        _table(match),
-        f"<p>{text(_left_out(match))}</p>",
-        "<h2>How to read it</h2>",
-        _legend(match),
-        "<h2>Pictures</h2>",
-        *(_pictures(match, index, shapes) for index in range(len(match.feet))),
-        f"<footer>footfit {text(__version__)}</footer>",
+        *_lasts(match),
+        *_surface(comparisons, scene),
+        together(
+            "Flare: the foot against the lasts",
+            _side_by_side([_flare(match, index, shapes) for index in range(len(match.feet))]),
+        ),
     ]
-    return _page(title=f"footfit: {_names(match)}", body="\n".join(body))
-
-
-def text(outside: str) -> str:
-    """An outside string as HTML text or an attribute's value: escaped, nothing hidden in it."""
-    return escape(visible(outside), quote=True)
-
-
-def _page(title: str, body: str) -> str:
-    return f"""<!DOCTYPE html>
-<html lang="en">
-<head>
-<meta charset="utf-8">
-<meta http-equiv="Content-Security-Policy" content="{policy()}">
-<meta name="viewport" content="width=device-width, initial-scale=1">
-<meta name="referrer" content="no-referrer">
-<title>{text(title)}</title>
-<style>{STYLE}</style>
-</head>
-<body>
-{body}
-</body>
-</html>
-"""
+    return page(f"footfit: {_names(match)}", body, scene=bool(scene))
 
 
 def _names(match: Match) -> str:
@@ -102,18 +97,22 @@ def _names(match: Match) -> str:
 def _lead(match: Match) -> str:
     noun = "last" if match.catalogue_lasts == 1 else "lasts"
     profile = f", fit profile {match.profile}" if match.by == "fit" else ""
-    return f"{_names(match)} against {match.catalogue_lasts} {noun}, by {match.by}{profile}."
+    by = f"by {match.by}{profile}. footfit {__version__}"
+    return f"{_names(match)} against {match.catalogue_lasts} {noun}, {by}"
 
 
 def _best(match: Match) -> str:
     if not match.candidates:
-        return '<div class="best"><p><b>No last fits.</b></p></div>'
+        return '<div class="best poor"><p><b>No last fits.</b></p></div>'
     best = match.candidates[0]
     labels = _labels(best)
     aside = f" <span>{text(labels)}</span>" if labels else ""
     tie = f"<p>{text(tie_words(best.tied_with))}</p>" if best.tied_with else ""
-    name = f"<p><b>{text(best.last)}</b>{aside}</p>"
-    return f'<div class="best">{name}<p>{text(best.why)}.</p>{tie}</div>'
+    verdict = light(best.verdict) if best.verdict else ""
+    return (
+        f'<div class="best {best.verdict or ""}">{verdict}<p><b>{text(best.last)}</b>{aside}</p>'
+        f"<p>{text(best.why)}.</p>{tie}</div>"
+    )
 
 
 def _labels(candidate: Candidate) -> str:
@@ -122,28 +121,51 @@ def _labels(candidate: Candidate) -> str:
     return ", ".join(part for part in (candidate.style, size, side) if part)
 
 
-def _warning(notice: Notice) -> str:
-    return f'<p class="warn"><b>Note:</b> {text(notice.message)}</p>'
+def _side_by_side(figures: Sequence[str]) -> str:
+    """Figures as they are; two of a pair share a row on paper."""
+    if len(figures) < ONLY_FEW_FEET:
+        return "".join(figures)
+    return f'<div class="two">{"".join(figures)}</div>'
 
 
 # ---------------------------------------------------------------- the feet
 
 
-def _foot(foot: Profiled) -> str:
+def _feet(match: Match) -> str:
+    kind = "feet pair" if len(match.feet) > 1 else "feet"
+    return f'<div class="{kind}">{"".join(_foot(match, foot) for foot in match.feet)}</div>'
+
+
+def _foot(match: Match, foot: Profiled) -> str:
     alignment, flare = foot.aligned.alignment, foot.flare
     side = alignment.side
     word = side.side or "side undecided"
     angle = f"{signed(flare.angle_deg)} ± {plain(flare.angle_sd_deg)} degrees"
     rows = [
         ("Side", f"{word} ({'given' if side.source == 'given' else side.confidence})"),
-        *_measures(foot),
         ("Flare", f"{angle}: {flare.flare_class}"),
+        *_measures(foot),
         ("Scan", f"{alignment.info.faces:,} faces, read in {alignment.info.units}"),
     ]
-    facts = "".join(f"<dt>{text(name)}</dt><dd>{text(value)}</dd>" for name, value in rows)
-    notes = "".join(_warning(notice) for notice in alignment.warnings)
-    name = text(file_name(alignment.info.path))
-    return f'<section class="foot"><h3>{name}</h3><dl>{facts}</dl>{notes}</section>'
+    notes = "".join(warning(notice) for notice in alignment.warnings)
+    title = f"<h3>{word.capitalize()} foot: {text(file_name(alignment.info.path))}</h3>"
+    sizes = _sizes(alignment.length_mm, match.size_system)
+    return f'<section class="foot">{title}{sizes}{facts(rows)}{_unmeasured(foot)}{notes}</section>'
+
+
+def _sizes(length_mm: float, asked: str | None) -> str:
+    """The foot's sizes; the system that was asked for comes first, with the sizes beside it."""
+    system = system_named(asked)
+    sizes = {size.system: size for size in foot_sizes(length_mm)}
+    first = [system.name] if system else []
+    names = [*first, *(name for name in SHOWN_SYSTEMS if name not in first)]
+    chips = []
+    for name in names:
+        beside = f" <small>between {' and '.join(sizes[name].beside)}</small>"
+        more = beside if name in first else ""
+        kind = ' class="asked"' if name in first else ""
+        chips.append(f"<li{kind}>{text(sizes[name].words)}{more}</li>")
+    return f'<ul class="sizes">{"".join(chips)}</ul>'
 
 
 def _measures(foot: Profiled) -> Iterable[tuple[str, str]]:
@@ -151,8 +173,22 @@ def _measures(foot: Profiled) -> Iterable[tuple[str, str]]:
     if not any(measure.name == "length" for measure in foot.measures):
         yield "Length", f"{plain(foot.aligned.alignment.length_mm)} mm"
     for measure in foot.measures:
-        name = measure.name.replace("_", " ").capitalize()
-        yield name, measured_text(measure.measured, "mm")
+        if measure.measured.value is not None:
+            yield _title(measure.name), measured_text(measure.measured, "mm")
+
+
+def _unmeasured(foot: Profiled) -> str:
+    """What could not be measured, each with its reason."""
+    lines = [
+        f"{_title(measure.name)} {measured_text(measure.measured, 'mm')}"
+        for measure in foot.measures
+        if measure.measured.value is None
+    ]
+    return f'<p class="lacking">{text("; ".join(lines))}.</p>' if lines else ""
+
+
+def _title(name: str) -> str:
+    return name.replace("_", " ").capitalize()
 
 
 def _pair(match: Match) -> str:
@@ -166,36 +202,72 @@ def _pair(match: Match) -> str:
 # ---------------------------------------------------------------- the lasts
 
 
-def _table(match: Match) -> str:
-    if not match.candidates:
-        return ""
-    judged = any(candidate.verdict for candidate in match.candidates)
-    heads = [("", "n"), ("Last", ""), ("Style, size", ""), ("Distance", "n")]
-    heads += [("Flare, degrees", "n"), ("Toe room, mm", "n")]
-    heads += [("Verdict", "")] * judged + [("Why", "")]
-    head = "".join(f'<th scope="col" class="{kind}">{text(name)}</th>' for name, kind in heads)
-    rows = "\n".join(_row(candidate, judged=judged) for candidate in match.candidates)
-    return f"<table>\n<thead><tr>{head}</tr></thead>\n<tbody>\n{rows}\n</tbody>\n</table>"
+def _lasts(match: Match) -> list[str]:
+    """The candidates and their zones; where none fits, what comes nearest."""
+    left_out = f"<p>{text(_left_out(match))}</p>"
+    if match.candidates:
+        title = "<h2>The lasts, best first</h2>"
+        how = f"<p>{text(HOW[match.by])}</p>"
+        shown = match.candidates
+        return [title, how, _table(shown), left_out, _legend(match), _zones(shown)]
+    if match.nearest:
+        title = "<h2>The nearest lasts, and what they miss by</h2>"
+        shown = match.nearest
+        return [title, _table(shown), left_out, _legend(match), _zones(shown)]
+    return [left_out]
 
 
-def _row(candidate: Candidate, *, judged: bool) -> str:
+def _judged(candidates: Sequence[Candidate]) -> bool:
+    return any(candidate.verdict for candidate in candidates)
+
+
+def _table(candidates: Sequence[Candidate]) -> str:
+    judged = _judged(candidates)
+    heads = [("", "n"), ("Last", ""), *[("Verdict", "")] * judged]
+    heads += [("Toe room, mm", "n"), ("Flare, degrees", "n"), ("Distance", "n"), ("Why", "")]
+    return table(heads, (_row(one, judged=judged) for one in candidates), kind="first")
+
+
+def _row(candidate: Candidate, *, judged: bool) -> list[Cell]:
     length = dict(candidate.clearance_mm).get("length", NOT_YET)
     spread = "" if length.sd is None else f" ± {plain(length.sd)}"
     room = "-" if length.value is None else f"{signed(length.value)}{spread}"
-    tie = f"; {tie_words(candidate.tied_with)}" if candidate.tied_with else ""
-    cells = [
+    tie = f"; {tie_words(candidate.tied_with, named=1)}" if candidate.tied_with else ""
+    return [
         (str(candidate.rank), "n"),
-        (candidate.last, "name"),
-        (_labels(candidate) or "-", "label"),
-        (plain(candidate.distance, 2), "n"),
-        (signed(candidate.flare.delta_deg), "n"),
+        (f"{text(candidate.last)} <small>{text(_labels(candidate))}</small>", "name"),
+        *[(light(candidate.verdict), "verdict")] * judged,
         (room, "n"),
-        *([(candidate.verdict or "-", "")] if judged else []),
-        (candidate.why + tie, "why"),
+        (signed(candidate.flare.delta_deg), "n"),
+        (plain(candidate.distance, 2), "n"),
+        (text(candidate.why + tie), "why"),
     ]
-    row = "".join(f'<td class="{kind}">{text(value)}</td>' for value, kind in cells)
-    kind = "first" if candidate.rank == 1 else "other"
-    return f'<tr class="{kind}">{row}</tr>'
+
+
+def _zones(candidates: Sequence[Candidate]) -> str:
+    """Zone by zone: what is asked, and the clearance of every last with a verdict's shape."""
+    shown = [candidate for candidate in candidates if candidate.fits]
+    if not shown:
+        return ""
+    sides = [fit.side or "foot" for fit in shown[0].fits]
+    feet = f", {' then '.join(sides)}" if len(sides) > 1 else ", last minus foot"
+    heads = [(f"Zone by zone{feet}", ""), ("Asked", "n")]
+    heads += [(candidate.last, "n") for candidate in shown]
+    rows = [
+        [
+            (text(zone.zone.replace("_", " ")), "name"),
+            (f"{signed(zone.target)}{UNITS[zone.unit]}", "n"),
+            *((" ".join(_zone(fit.zones[index]) for fit in one.fits), "n") for one in shown),
+        ]
+        for index, zone in enumerate(shown[0].fits[0].zones)
+    ]
+    return table(heads, rows, kind="zones")
+
+
+def _zone(zone: ZoneFit) -> str:
+    if zone.clearance.value is None:
+        return shape_of(None)
+    return f"{signed(zone.clearance.value)} {shape_of(zone.verdict)}"
 
 
 def _left_out(match: Match) -> str:
@@ -205,51 +277,61 @@ def _left_out(match: Match) -> str:
     return f"Left out: {reasons}."
 
 
-def _legend(match: Match) -> str:
-    reference = f" The reference last is {match.reference}." if match.reference else ""
-    definition = match.feet[0].flare.definition.version
-    lines = (
-        "Flare is the turn of the forefoot against the rearfoot, seen from above: + is inflare "
-        "(towards the big toe's side). In the table it is the last's flare minus the foot's.",
-        "Toe room is the last's length minus the foot's; ± is one standard deviation.",
-        f"Distance says how far two flare profiles are apart (definition {definition}); "
-        "0 is the same, and lasts that are tied are not told apart by it.",
-        f"Lasts of the other side are mirrored for comparing.{reference}",
-    )
-    return "".join(f"<p>{text(line)}</p>" for line in lines)
-
-
 # ---------------------------------------------------------------- the pictures
 
 
-def _pictures(match: Match, index: int, shapes: Shapes | None) -> str:
-    from footfit.report.flare_figure import flare_figure
+def _surface(comparisons: Sequence[Comparison], scene: str) -> list[str]:
+    """The feet in the best last: the 3D view, the room by zone, the pictures."""
+    if not comparisons:
+        return []
+    several = len(comparisons) > 1
+    rooms = [room_part(one, named=several) for one in comparisons]
+    longer = max(comparisons, key=lambda one: one.foot.aligned.alignment.length_mm)
+    strips = [
+        (section_picture(one, strip=True), "" if one is longer else ' class="screen"')
+        for one in comparisons
+    ]
+    return [
+        f"<h2>The room in {text(comparisons[0].last.labels.name)}</h2>",
+        scene,
+        _side_by_side([f"<div>{room}</div>" for room in rooms]),
+        _side_by_side([heat_picture(one) for one in comparisons]),
+        *(f"<div{kind}>{strip}</div>" for strip, kind in strips),
+    ]
+
+
+def _flare(match: Match, index: int, shapes: Shapes | None) -> str:
     from footfit.report.match_figure import SHOWN, match_figure
 
     foot = match.feet[index]
     name = file_name(foot.aligned.alignment.info.path)
     lasts = ", ".join(visible(candidate.last) for candidate in match.candidates[:SHOWN])
     against = f"{name} with the best lasts: {lasts}" if lasts else name
-    angle = f"{signed(foot.flare.angle_deg)} ± {plain(foot.flare.angle_sd_deg)} degrees"
-    return "\n".join(
-        (
-            _figure(
-                match_figure(match, shapes, index),
-                f"{against}. Sole from above, profile from the side, heading and plan curvature "
-                "along the centre line.",
-            ),
-            _figure(
-                flare_figure(foot),
-                f"{name}: flare {angle}, {foot.flare.flare_class}. The sole from above with its "
-                "centre line, the heading, and the curvature of the plan and of the bottom.",
-            ),
-        )
+    words = (
+        f"{against}. Sole from above, profile from the side, heading and plan curvature along the "
+        "centre line."
     )
+    return picture(match_figure(match, shapes, index), words, kind="flare")
 
 
-def _figure(figure: Figure, words: str) -> str:
-    from footfit.report.figures import svg_text
-
-    data = base64.b64encode(svg_text(figure).encode("utf-8")).decode("ascii")
-    image = f'<img alt="{text(words)}" src="data:image/svg+xml;base64,{data}">'
-    return f"<figure>{image}<figcaption>{text(words)}</figcaption></figure>"
+def _legend(match: Match) -> str:
+    judged = _judged(match.candidates or match.nearest)
+    reference = f" The reference last is {match.reference}." if match.reference else ""
+    definition = match.feet[0].flare.definition.version
+    lights = (
+        "● good: within what the profile asks; ▲ acceptable; ■ poor: look at the zone; ✕ reject; "
+        "– not measured, so not judged. A last's verdict is that of its worst zone that counts. "
+    )
+    lines = (
+        f"{lights if judged else ''}Toe room is the last's length minus the foot's, along the "
+        "bottom; ± is one standard deviation.",
+        "Flare is the turn of the forefoot against the rearfoot, seen from above: + is inflare "
+        "(towards the big toe's side). In the table it is the last's flare minus the foot's.",
+        f"Distance says how far a last is from what is asked (0 is the same; flare profiles by "
+        f"definition {definition}); lasts that are tied are not told apart by it.",
+        "The room is the distance from the foot's surface to the last's, the foot laid heel on "
+        "heel and tread on tread; what stands over a shoe's topline is not compared.",
+        f"Lasts of the other side are mirrored for comparing.{reference}",
+    )
+    inside = "".join(f"<p>{text(line)}</p>" for line in lines)
+    return f'<div class="read"><h2>How to read it</h2>{inside}</div>'

@@ -1,0 +1,178 @@
+"""Compare: one foot laid into one last, surface against surface and section by section."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from pathlib import Path
+
+from footfit.catalogue.store import open_catalogue
+from footfit.geometry import measures
+from footfit.geometry.arrays import Floats, Ints
+from footfit.geometry.clearance import foot_clearance, zone_clearances
+from footfit.geometry.docking import docked, docking
+from footfit.geometry.landmarks import Shape
+from footfit.geometry.overlay import SectionPair, SectionSizes, section_pairs
+from footfit.geometry.readings import Reading
+from footfit.meshes.copies import expanded
+from footfit.pipeline.flare import as_right, right_shape
+from footfit.pipeline.ingest import last_record
+from footfit.pipeline.reading import profiled_source
+from footfit.pipeline.sources import ReadingOptions, Source
+from footfit.results import (
+    Comparison,
+    LastLabels,
+    LastRecord,
+    Match,
+    Measured,
+    Notice,
+    Profiled,
+    SectionComparison,
+    SizeDifference,
+)
+
+SIZES = ("width", "medial", "lateral", "height", "girth")
+"""What is compared of each section, in this order."""
+SD_FROM = {
+    "width": "heel_width",
+    "medial": "heel_width",
+    "lateral": "heel_width",
+    "height": "instep_height",
+    "girth": "instep_girth",
+}
+"""The measure whose repeatability a section's size has: it is taken the same way."""
+
+
+@dataclass(frozen=True, slots=True)
+class LastShape:
+    """A last to compare with: what is known of it, and its mesh, canonical mm, on its own side."""
+
+    record: LastRecord
+    vertices_mm: Floats
+    faces: Ints
+
+
+def stored_last(path: Path, name: str) -> LastShape:
+    """A last of the catalogue with its mesh copy.
+
+    Raises
+    ------
+    NoCatalogue, UnknownLast, CatalogueDamaged
+        It is not there, or its copy is not sound.
+    """
+    with open_catalogue(path) as catalogue:
+        return LastShape(catalogue.record(name), *expanded(catalogue.mesh_copy(name).data))
+
+
+def scanned_last(source: Source, reading: ReadingOptions) -> LastShape:
+    """A last that stands in a file of its own; its name is the file's.
+
+    Raises
+    ------
+    InputError, GeometryRefused
+        As in reading, aligning and profiling any last.
+    """
+    shape = profiled_source(source, reading)
+    name = Path(source.path or "last").stem
+    return LastShape(
+        last_record(shape, LastLabels(name)), shape.aligned.vertices_mm, shape.aligned.faces
+    )
+
+
+def compared(foot: Profiled, last: LastShape) -> Comparison:
+    """Lay a foot into a last and measure the room around it.
+
+    Raises
+    ------
+    NoSole
+        One of the two has no bottom to rest on.
+    """
+    around = Shape(*as_right(last.vertices_mm, last.faces, last.record.side.side), "last")
+    vertices_mm, faces = right_shape(foot.aligned)
+    flat = Shape(vertices_mm, faces, "foot")
+    way = docking(flat, around)
+    inside = Shape(docked(vertices_mm, way), faces, "foot")
+    room_mm = foot_clearance(inside, around)
+    return Comparison(
+        foot=foot,
+        last=last.record,
+        mirrored=last.record.side.side != foot.aligned.alignment.side.side,
+        docking=way,
+        vertices_mm=inside.vertices_mm,
+        faces=inside.faces,
+        last_vertices_mm=around.vertices_mm,
+        last_faces=around.faces,
+        room_mm=room_mm,
+        zones=zone_clearances(inside, room_mm),
+        sections=tuple(_section(pair) for pair in section_pairs(inside, around)),
+        warnings=_warnings(foot, last.record),
+    )
+
+
+def best_comparison(path: Path, match: Match, foot: int = 0) -> Comparison | None:
+    """One foot of a match in its best last, or in the nearest where none fits; None where the
+    catalogue has no sound copy of that last, or the two have no bottom in common.
+    """
+    from footfit.errors import CatalogueDamaged, NoSole, UnknownLast
+
+    lasts = match.candidates or match.nearest
+    if not lasts:
+        return None
+    try:
+        return compared(match.feet[foot], stored_last(path, lasts[0].last))
+    except (CatalogueDamaged, NoSole, UnknownLast):
+        return None
+
+
+def _warnings(foot: Profiled, last: LastRecord) -> tuple[Notice, ...]:
+    notices = list(foot.aligned.alignment.warnings)
+    if not foot.aligned.alignment.pose.sole:
+        words = (
+            "the foot's scan has no sole: the room under it and its height are not to be trusted"
+        )
+        notices.append(Notice("no_sole", words))
+    if abs(last.length_mm - foot.aligned.alignment.length_mm) > FAR_MM:
+        words = f"the last is {last.length_mm - foot.aligned.alignment.length_mm:+.0f} mm longer"
+        notices.append(Notice("far_size", f"{words} than the foot: no shoe for it in any zone"))
+    return tuple(notices)
+
+
+FAR_MM = 40.0
+"""Six sizes: what is compared then says nothing of a fit."""
+
+
+# ---------------------------------------------------------------- sections
+
+
+def _section(pair: SectionPair) -> SectionComparison:
+    return SectionComparison(
+        station=pair.station.name,
+        x_mm=pair.x_mm,
+        foot_outline=pair.foot.loops,
+        last_outline=pair.last.loops,
+        sizes=tuple(_size(name, pair.foot_sizes, pair.last_sizes) for name in SIZES),
+    )
+
+
+def _size(name: str, foot: SectionSizes, last: SectionSizes) -> SizeDifference:
+    sd = repeatability_mm(name)
+    here, there = (_measured(getattr(sizes, name), sd) for sizes in (foot, last))
+    if here.value is None or there.value is None:
+        reason = here.reason if here.value is None else there.reason
+        return SizeDifference(name, here, there, Measured(None, reason=reason))
+    room = there.value - here.value
+    if name == "lateral":  # + is room here too: the last's edge lies further out, at -Y
+        room = -room
+    return SizeDifference(name, here, there, Measured(room, math.hypot(sd, sd)))
+
+
+def _measured(reading: Reading, sd: float) -> Measured:
+    if reading.value is None:
+        return Measured(None, reason=reading.reason)
+    return Measured(reading.value, sd)
+
+
+def repeatability_mm(size: str) -> float:
+    """The standard deviation of a section's size between two scans of one shape."""
+    known = {measure.name: measure.sd for measure in measures.MEASURES}
+    return known[SD_FROM[size]]
