@@ -2,18 +2,23 @@
 
 from __future__ import annotations
 
+import json
 import os
 import random
 import shutil
 import signal
+import subprocess
 import sys
 import time
 from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
 
-from tests.torture.scripts import Script, Truth, finished, observed, truth
+from tests.torture.scripts import Script, Truth, content, finished, observed, truth
 from tests.torture.tally import Tally
+
+ROOT = Path(__file__).resolve().parents[2]
+SAMPLES = ROOT / "sample_data" / "lasts"
 
 
 @dataclass
@@ -111,3 +116,46 @@ def _span_s(script: Script, folder: Path) -> float:
     begun = time.monotonic()
     run(script, place).wait()
     return time.monotonic() - begun
+
+
+def command_trials(folder: Path, count: int, seed: int, lasts: int = 3) -> Tally:
+    """kill -9 of the real command with two workers, on real meshes; run again, it goes on."""
+    tally = Tally("kill -9: footfit ingest-last --jobs 2")
+    scans = [str(path) for path in sorted(SAMPLES.glob("*.stl"))[:lasts]]
+    undisturbed = folder / "undisturbed"
+    begun = time.monotonic()
+    _ingesting(undisturbed, scans).communicate()
+    span_s, wanted = time.monotonic() - begun, content(undisturbed)
+    generator = random.Random(seed)
+    for trial in range(count):
+        path = folder / f"killed-{trial}"
+        process = _ingesting(path, scans)
+        time.sleep(span_s * generator.uniform(0.2, 1.0))
+        os.killpg(process.pid, signal.SIGKILL)
+        out, _ = process.communicate()
+        told = {json.loads(line)["last"] for line in out.splitlines() if line.endswith("}")}
+        tally.trials += 1
+        tally.struck += len(told) < lasts
+        again, _ = _ingesting(path, scans).communicate()
+        unchanged = {
+            line["last"]
+            for line in map(json.loads, again.splitlines())
+            if line["status"] == "unchanged"
+        }
+        if not told <= unchanged:
+            tally.breach(f"trial {trial}: {told - unchanged} was acknowledged and is not there")
+        if content(path) != wanted:
+            tally.breach(f"trial {trial}: the rerun ends elsewhere")
+    return tally
+
+
+def _ingesting(path: Path, scans: list[str]) -> subprocess.Popen[str]:
+    options = ["--catalogue", str(path), "--json", "--quiet", "--jobs", "2"]
+    return subprocess.Popen(
+        [sys.executable, "-m", "footfit", "ingest-last", *scans, *options],
+        cwd=ROOT,
+        stdout=subprocess.PIPE,
+        stderr=subprocess.DEVNULL,
+        text=True,
+        start_new_session=True,
+    )

@@ -28,7 +28,18 @@ def strace_missing() -> str | None:
 
 def straced(options: list[str], log: Path, *arguments: str) -> None:
     """Run this package's worker under strace."""
-    command = ["strace", "-f", "-qq", "-o", str(log), *options, sys.executable, "-B", "-m"]
+    command = [
+        "strace",
+        "-f",
+        "--seccomp-bpf",
+        "-qq",
+        "-o",
+        str(log),
+        *options,
+        sys.executable,
+        "-B",
+        "-m",
+    ]
     environment = {**os.environ, "OMP_NUM_THREADS": "1", "OPENBLAS_NUM_THREADS": "1"}
     done = subprocess.run(
         [*command, *arguments], cwd=ROOT, env=environment, capture_output=True, check=False

@@ -18,49 +18,51 @@ from tests.torture.power import straced
 from tests.torture.scripts import SCRIPTS, Script, mesh_copy, truth
 from tests.torture.tally import Tally
 
-FAULTS = (
-    ("pwrite64", "ENOSPC"),
-    ("pwrite64", "EIO"),
-    ("fdatasync", "EIO"),
-    ("fsync", "EIO"),
-    ("unlink", "EIO"),
-    ("ftruncate", "EIO"),
+RUNS: tuple[dict[str, str], ...] = (
+    dict.fromkeys(("fdatasync", "fsync", "unlink", "ftruncate"), "EIO") | {"pwrite64": "ENOSPC"},
+    {"pwrite64": "EIO"},
 )
+"""Which call fails how; one run of strace has one error for each call."""
 
 
 def failing_trials(folder: Path, script: Script, every: int, seed: int) -> Tally:
     """Each ``every``-th call of each kind: a documented exit code, before or after, rerun whole.
 
-    strace fails one call number, the same for every process that it follows: so each child first
-    makes as many idle calls as bring its own k-th one to that number.
+    strace fails one call number, the same for every process that it follows, and one that no
+    script reaches by itself: so each child first makes as many idle calls as bring its own k-th
+    one to that number.
     """
     tally = Tally(f"failing calls: {script.name}")
     known = truth(script, folder / "undisturbed")
     (folder / "prepared").mkdir()
     script.prepare(folder / "prepared")
-    codes: Counter[int] = Counter()
     made = _calls(script, folder)
-    for call, error in FAULTS:
-        place, log = folder / f"{call}-{error}", folder / f"log-{call}-{error}"
+    codes: Counter[int] = Counter()
+    for run, faults in enumerate(RUNS):
+        place, log = folder / f"run-{run}", folder / f"log-{run}"
         place.mkdir()
-        most = made[call] + 1
-        fault = f"inject={call}:error={error}:when={most}"
-        options = ["--seccomp-bpf", "-e", f"trace={call}", "-e", fault]
+        children = [
+            f"{call}:{made[call] + 1}:{k}"
+            for call in faults
+            for k in range(1 + seed % every, made[call] + 1, every)
+        ]
+        for child in children:
+            shutil.copytree(folder / "prepared", place / child)
+        options = ["-e", f"trace={','.join(faults)}"]
+        for call, error in faults.items():
+            options += ["-e", f"inject={call}:error={error}:when={made[call] + 1}"]
         name = script.name.split(",")[0]
-        numbers = [str(k) for k in range(1 + seed % every, most, every)]
-        for k in numbers:
-            shutil.copytree(folder / "prepared", place / k)
-        straced(options, log, "tests.torture.syscalls", name, str(place), call, str(most), *numbers)
+        straced(options, log, "tests.torture.syscalls", name, str(place), *children)
         injected = {
             int(line.split()[0]) for line in log.read_text().splitlines() if "INJECTED" in line
         }
         for child in json.loads((place / "children.json").read_text()):
-            what = f"{call} {child['k']} {error}"
+            what = f"{child['name']} {faults[child['name'].split(':')[0]]}"
             tally.trials += 1
             tally.struck += child["pid"] in injected
             codes[child["code"]] += 1
             _judge_words(tally, child, what)
-            judge(tally, known, place / str(child["k"]), child["acknowledged"], what)
+            judge(tally, known, place / child["name"], child["acknowledged"], what)
         shutil.rmtree(place)
         log.unlink()
     tally.facts |= {f"exit {code}": count for code, count in sorted(codes.items())}
@@ -72,7 +74,7 @@ def _calls(script: Script, folder: Path) -> Counter[str]:
     place, log = folder / "counted", folder / "log-counted"
     place.mkdir()
     script.prepare(place)
-    kinds = ",".join({call for call, _ in FAULTS})
+    kinds = ",".join(RUNS[0])
     name = script.name.split(",")[0]
     straced(["-e", f"trace={kinds}"], log, "tests.torture.worker", name, str(place))
     return Counter(re.findall(r"^\d+ +(\w+)\(", log.read_text(), re.M))
@@ -88,21 +90,29 @@ def _judge_words(tally: Tally, child: dict[str, Any], what: str) -> None:
 # ------------------------------------------------------------------ under strace
 
 
-def main(name: str, folder: str, call: str, most: str, *numbers: str) -> None:
-    """Fork a child for each k-th call; write what became of them to ``children.json``."""
+def main(name: str, folder: str, *children: str) -> None:
+    """Fork a child for each ``call:number:k``; write what became of them to ``children.json``."""
     script, place = SCRIPTS[name], Path(folder)
     for seed in range(2):  # made once, not in every child
         mesh_copy(seed)
-    children = [_child(script, place / k, call, int(most), int(k)) for k in numbers]
-    (place / "children.json").write_text(json.dumps(children))
+    found = [_child(script, place / child) for child in children]
+    (place / "children.json").write_text(json.dumps(found))
 
 
-def _child(script: Script, here: Path, call: str, most: int, k: int) -> dict[str, Any]:
+def _child(script: Script, here: Path) -> dict[str, Any]:
     """Run a script in a child whose k-th call is the one that fails."""
-    child = forked(lambda acknowledge: _failing(script, here, call, most - k, acknowledge))
+    call, number, k = here.name.split(":")
+    idle_calls = int(number) - int(k)
+    child = forked(lambda acknowledge: _failing(script, here, call, idle_calls, acknowledge))
     acknowledged, code = child.wait()
     said = here.with_name(f"{here.name}.said").read_text()
-    return {"k": k, "pid": child.pid, "acknowledged": acknowledged, "code": code, "said": said}
+    return {
+        "name": here.name,
+        "pid": child.pid,
+        "acknowledged": acknowledged,
+        "code": code,
+        "said": said,
+    }
 
 
 def _failing(
