@@ -419,7 +419,8 @@ class Match:
     """One customer's answer: one foot, or two with ``--pair``.
 
     ``nearest`` are the lasts that come nearest where none fits. ``size_system`` is the one that
-    was asked for.
+    was asked for. ``best_verdict`` is over every ranked last, shown or not; None by shape, and
+    where none is ranked.
     """
 
     feet: tuple[Profiled, ...]
@@ -433,6 +434,7 @@ class Match:
     fit_profile: FitProfile | None = None
     nearest: tuple[Candidate, ...] = ()
     size_system: str | None = None
+    best_verdict: Verdict | None = None
 
 
 # ---------------------------------------------------------------- compare

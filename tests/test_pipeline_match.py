@@ -322,6 +322,9 @@ def test_a_check_asks_for_the_best_of_the_candidates() -> None:
     good, fair, none = answer(last("a")), answer(last("a", 279)), answer(last("a", 300))
     assert [meets(m, "good") for m in (good, fair, none)] == [True, False, False]
     assert [meets(m, "acceptable") for m in (good, fair, none)] == [True, True, False]
+    behind = answer(last("long", 278.0), last("tight", 275.0, ball_girth=231.0), top=1)
+    assert behind.candidates[0].verdict == "poor"
+    assert meets(behind, "acceptable"), "a last that is not shown counts too"
 
 
 def test_the_profile_is_in_the_answer_with_its_hash() -> None:

@@ -92,11 +92,6 @@ def behind_sentence(zones: Sequence[ZoneFit], cost: Sequence[float], first: str)
     return f"{room}; {said(zones[worst])}, behind {first} by that"
 
 
-def tied_sentence(zones: Sequence[ZoneFit]) -> str:
-    """A last that is not told from the first of its tier."""
-    return best_sentence(zones)
-
-
 def missed_sentence(zones: Sequence[ZoneFit], rules: Sequence[ZoneRule]) -> str:
     """Why a last does not fit: each zone that rejects it, and by how much it misses."""
     words = []

@@ -36,6 +36,7 @@ from footfit.results import (
     Notice,
     Profiled,
     SearchBy,
+    Verdict,
     ZoneFit,
 )
 
@@ -103,6 +104,7 @@ def matched(feet: Sequence[Profiled], library: Library, question: Question = Que
         fit_profile=profile,
         nearest=missed,
         size_system=question.size_system,
+        best_verdict=_best_verdict(found, placing, question.by),
     )
 
 
@@ -147,10 +149,17 @@ def _answered(
     return Outcome(source, matched(shapes, library, question), None)
 
 
-def meets(match: Match, least: str) -> bool:
-    """Is there a last at least as good as ``least``, "good" or "acceptable"?"""
-    fine = VERDICTS[: VERDICTS.index(least) + 1]
-    return any(candidate.verdict in fine for candidate in match.candidates)
+def _best_verdict(found: Field, placing: Placing, by: SearchBy) -> Verdict | None:
+    """The best verdict of the ranked lasts, which need not be the first's: length comes first."""
+    if by == "shape" or not placing.order:
+        return None
+    return VERDICTS[min(int(found.level[i]) for i in placing.order)]
+
+
+def meets(match: Match, least: Verdict) -> bool:
+    """Is there a last at least as good as ``least``?"""
+    best = match.best_verdict
+    return best is not None and VERDICTS.index(best) <= VERDICTS.index(least)
 
 
 def _nothing_left(library: Library) -> str:

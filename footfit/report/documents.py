@@ -95,6 +95,7 @@ def match_document(match: Match) -> Json:
             "size_system": match.size_system,
             "catalogue": {"lasts": match.catalogue_lasts, "reference": match.reference},
             "candidates": [candidate_part(candidate) for candidate in match.candidates],
+            "best_verdict": match.best_verdict,
             "nearest": [candidate_part(candidate) for candidate in match.nearest],
             "rejected": {
                 "count": sum(count for _, count in match.rejected),
