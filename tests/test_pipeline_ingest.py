@@ -7,8 +7,8 @@ from pathlib import Path
 
 import pytest
 
-from footfit.errors import BadManifest, BadOption, NameTaken
-from footfit.pipeline.ingest import Entry, decision, entries
+from footfit.errors import BadOption, NameTaken
+from footfit.pipeline.ingest import Entry, decision, entries, unused_rows
 from footfit.pipeline.manifest import manifest_rows
 from footfit.pipeline.sources import ReadingOptions, Source
 from footfit.results import LastLabels
@@ -51,7 +51,7 @@ def test_decisions() -> None:
 
 def test_a_side_or_unit_that_contradicts_the_stored_one_is_another_reading() -> None:
     one = Entry(Source("x.stl"), STORED.labels, ReadingOptions(side="left"))
-    with pytest.raises(NameTaken):
+    with pytest.raises(NameTaken, match="read otherwise"):
         decision(STORED.info.sha256, one, BY_NAME, BY_CONTENT, False)
 
 
@@ -69,12 +69,26 @@ def test_a_manifest_alone_names_its_files_in_sorted_order() -> None:
     assert [one.source.path for one in batch] == [str(Path("shop") / n) for n in ("a.stl", "b.stl")]
 
 
+def test_rows_of_other_files_are_said_and_stop_nothing() -> None:
+    rows = manifest_rows("path,style\na.stl,derby\nc.stl,\n", Path(), "m.csv")
+    batch = entries([Source("a.stl")], rows, NOTHING, PLAIN)
+    assert [one.labels.style for one in batch] == ["derby"]
+    (notice,) = unused_rows(batch, rows)
+    assert "c.stl" in notice.message
+    assert unused_rows(batch, rows[:1]) == ()
+
+
+def test_a_known_length_is_another_reading_unless_it_is_the_stored_one() -> None:
+    sha, labels = STORED.info.sha256, STORED.labels
+    for known, expected in ((STORED.length_mm, "unchanged"), (STORED.length_mm + 1, "replaced")):
+        one = Entry(Source("x.stl"), labels, ReadingOptions(known_length_mm=known))
+        assert decision(sha, one, BY_NAME, BY_CONTENT, True) == expected
+
+
 def test_what_cannot_be_meant_is_refused() -> None:
     two = [Source("a.stl"), Source("b.stl")]
     with pytest.raises(BadOption, match="--name"):
         entries(two, [], LastLabels("one"), PLAIN)
-    with pytest.raises(BadManifest, match="not among"):
-        entries(two, manifest_rows("path\nc.stl\n", Path(), "m.csv"), NOTHING, PLAIN)
     with pytest.raises(BadOption, match="--name"):
         entries([Source(None, b"x", "stl")], [], NOTHING, PLAIN)
     with pytest.raises(BadOption, match="nothing to ingest"):

@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from footfit.errors import UnreadableFile
+from footfit.errors import BadOption, UnreadableFile
 from footfit.pipeline.sources import mesh_sources
 
 
@@ -22,7 +22,7 @@ def names(sources: list, folder: Path) -> list[str]:
 
 
 def test_a_folder_gives_its_meshes_sorted_and_nothing_else(tmp_path: Path) -> None:
-    touched(tmp_path, "b.stl", "a.OBJ", "deep/c.ply", "notes.txt", ".hidden.stl")
+    touched(tmp_path, "b.stl", "a.OBJ", "deep/c.ply", "notes.txt", ".hidden.stl", ".venv/d.stl")
     assert names(mesh_sources([str(tmp_path)]), tmp_path) == ["a.OBJ", "b.stl", "deep/c.ply"]
 
 
@@ -51,3 +51,16 @@ def test_a_folder_or_glob_without_a_mesh_is_refused(tmp_path: Path, argument: st
     touched(tmp_path, "notes.txt")
     with pytest.raises(UnreadableFile, match="holds no mesh"):
         mesh_sources([str(tmp_path / argument) if argument else str(tmp_path)])
+
+
+@pytest.mark.parametrize("argument", ["**x/*.stl", "y" * 300 + ".stl"])
+def test_what_the_system_will_not_look_up_has_its_own_line(argument: str) -> None:
+    assert [source.path for source in mesh_sources([argument, "foot.stl"])] == [
+        argument,
+        "foot.stl",
+    ]
+
+
+def test_an_empty_argument_is_not_the_current_folder() -> None:
+    with pytest.raises(BadOption, match="empty"):
+        mesh_sources([""])

@@ -83,11 +83,13 @@ def align(
     from footfit.cli.outputs import refuse_existing
     from footfit.cli.settings import catalogue_path
     from footfit.pipeline.batch import outcomes
+    from footfit.pipeline.export import MESH_KINDS, PICTURE_KINDS
     from footfit.pipeline.lasts import alignment_reference
     from footfit.pipeline.reading import aligned_source
     from footfit.pipeline.sources import ReadingOptions
 
-    refuse_existing(output, plot, force=force)
+    refuse_existing(output, force=force, kinds=MESH_KINDS)
+    refuse_existing(plot, force=force, kinds=PICTURE_KINDS)
     reading = ReadingOptions(units.value, known_length, side.value)
     sources = split_where_asked(sources_of(meshes, format), reading, split=split)
     only_one(sources, output, plot)

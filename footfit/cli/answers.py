@@ -139,9 +139,19 @@ def counted(items: Iterable[T], voice: Voice) -> Iterator[T]:
 
 
 def _behind_a_bar(items: Iterable[T], total: int) -> Iterator[T]:
+    """The bar is taken down while an item is dealt with: its answer has the screen to itself."""
     from rich.console import Console
     from rich.progress import BarColumn, MofNCompleteColumn, Progress, TimeRemainingColumn
 
     columns = (BarColumn(), MofNCompleteColumn(), TimeRemainingColumn())
-    with Progress(*columns, console=Console(stderr=True), transient=True) as bar:
-        yield from bar.track(items, total=total)
+    bar = Progress(*columns, console=Console(stderr=True), transient=True)
+    task = bar.add_task("", total=total)
+    bar.start()
+    try:
+        for item in items:
+            bar.stop()
+            yield item
+            bar.advance(task)
+            bar.start()
+    finally:
+        bar.stop()

@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 
     from footfit.results import Notice
 
-PLAIN_WIDTH = 100
+PLAIN_WIDTH = 80
 
 
 def answer(text: str) -> None:

@@ -38,10 +38,10 @@ def export_last(
     from footfit.cli.outputs import refuse_existing, write_output
     from footfit.cli.settings import catalogue_path
     from footfit.pipeline import lasts
-    from footfit.pipeline.export import copy_bytes
+    from footfit.pipeline.export import MESH_KINDS, copy_bytes
     from footfit.report.last_documents import record_text
 
-    refuse_existing(output, force=force)
+    refuse_existing(output, force=force, kinds=(*MESH_KINDS, "json"))
     path, copy = catalogue_path(catalogue), None
     if output.suffix.lower() == ".json":
         data: bytes | str = record_text(*lasts.last(path, last))

@@ -53,7 +53,8 @@ def flare(
     from footfit.report.csv import flare_csv
     from footfit.report.plots import flare_plot
 
-    refuse_existing(plot, csv, force=force)
+    refuse_existing(plot, force=force, kinds=PICTURE_KINDS)
+    refuse_existing(csv, force=force)
     reading = ReadingOptions(units.value, known_length, side.value)
     sources = split_where_asked(sources_of(meshes, format), reading, split=split)
     only_one(sources, plot)

@@ -72,19 +72,22 @@ def ingest_last(
     """
     from footfit.cli.answer_forms import INGEST_LAST
     from footfit.cli.answers import Voice, counted, sources_of, tell
+    from footfit.cli.console import say, say_notices
     from footfit.cli.settings import catalogue_path
     from footfit.cli.signals import LISTENER
+    from footfit.pipeline import manifest as manifests
     from footfit.pipeline.batch import common_code
-    from footfit.pipeline.ingest import entries, ingest
-    from footfit.pipeline.manifest import read_manifest
+    from footfit.pipeline.ingest import entries, ingest, unused_rows
     from footfit.pipeline.sources import ReadingOptions
     from footfit.results import LastLabels
 
-    given = LastLabels(name or "", style, size, size_system, width_label, heel_height)
+    heel_height_mm = manifests.heel_height_mm(heel_height)
+    given = LastLabels(name or "", style, size, size_system, width_label, heel_height_mm)
     reading = ReadingOptions(units.value, known_length, side.value)
-    rows = read_manifest(manifest) if manifest else []
+    rows = manifests.read_manifest(manifest) if manifest else []
     batch = entries(sources_of(paths or [], format), rows, given, reading)
     voice = Voice(json, quiet, len(batch))
+    say_notices(unused_rows(batch, rows), str(manifest), quiet=quiet)
     refused: list[int] = []
     ingesting = ingest(
         batch,
@@ -99,6 +102,8 @@ def ingest_last(
         if outcome.exit:
             refused.append(outcome.exit)
             say_refusal(outcome, voice)
+    if dry_run:
+        say("a dry run: nothing was stored", quiet=quiet)
     raise typer.Exit(common_code(refused))
 
 

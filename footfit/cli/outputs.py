@@ -9,27 +9,39 @@ from pathlib import Path
 from footfit.cli.console import answer
 from footfit.cli.options import STDOUT
 from footfit.errors import BadOption, OutputExists
+from footfit.pipeline.export import file_kind
 
 
-def refuse_existing(*paths: Path | None, force: bool) -> None:
+def refuse_existing(*paths: Path | None, force: bool, kinds: tuple[str, ...] | None = None) -> None:
     """Stop before any work where an output could not be written at its end.
+
+    ``kinds`` are the suffixes that the outputs may have, None any.
 
     Raises
     ------
     OutputExists
         A file is there and ``force`` is not given.
     BadOption
-        The folder does not exist, or the path is a folder.
+        The folder does not exist, the path is a folder or no path, the suffix is another.
     """
     for path in paths:
-        if path is None or path == STDOUT:
+        if path is None or (path == STDOUT and kinds is None):
             continue
-        if path.is_dir():
-            raise BadOption("is a folder; name a file in it", str(path))
-        if not path.parent.is_dir():
-            raise BadOption(f"the folder {path.parent} does not exist; make it first", str(path))
-        if path.exists() and not force:
-            raise OutputExists("exists; add --force to replace it", str(path))
+        try:
+            _refuse(path, force=force)
+        except OSError as error:  # a name too long, a folder closed to us
+            raise BadOption(f"cannot be written: {error.strerror}", str(path)) from error
+        if kinds is not None:
+            file_kind(path, kinds)
+
+
+def _refuse(path: Path, *, force: bool) -> None:
+    if path.is_dir():
+        raise BadOption("is a folder; name a file in it", str(path))
+    if not path.parent.is_dir():
+        raise BadOption(f"the folder {path.parent} does not exist; make it first", str(path))
+    if path.exists() and not force:
+        raise OutputExists("exists; add --force to replace it", str(path))
 
 
 def write_output(path: Path, data: bytes | str, *, force: bool) -> None:

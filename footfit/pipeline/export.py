@@ -3,10 +3,15 @@
 from __future__ import annotations
 
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from footfit.errors import BadOption
 from footfit.geometry.arrays import Floats, Ints
 from footfit.results import AlignedScan, MeshCopy, SurfaceCurvature
+
+if TYPE_CHECKING:
+    import numpy as np
+    from numpy.typing import NDArray
 
 MESH_KINDS = ("stl", "ply", "obj", "off")
 PICTURE_KINDS = ("svg", "png")
@@ -73,8 +78,10 @@ def method_vertices(scan: AlignedScan) -> Floats:
     return np.asarray(scan.vertices_mm @ step[:3, :3].T + step[:3, 3], dtype=np.float64)
 
 
-def curvature_bytes(curvature: SurfaceCurvature, path: Path) -> bytes:
-    """Per-vertex curvature as .ply (coloured by the mean) or .npz.
+def curvature_bytes(
+    curvature: SurfaceCurvature, path: Path, colours: NDArray[np.uint8] | None = None
+) -> bytes:
+    """Per-vertex curvature as .ply, with the colours (n, 3) where some are given, or as .npz.
 
     Raises
     ------
@@ -83,18 +90,20 @@ def curvature_bytes(curvature: SurfaceCurvature, path: Path) -> bytes:
     """
     from footfit.meshes.write import encoded_mesh
 
-    values = {
+    values: dict[str, NDArray[np.generic]] = {
         "k1": curvature.k1,
         "k2": curvature.k2,
         "mean": curvature.mean,
         "gaussian": curvature.gaussian,
     }
     if file_kind(path, CURVATURE_KINDS) == "ply":
+        if colours is not None:
+            values["colour"] = colours
         return encoded_mesh(curvature.vertices_mm, curvature.faces, "ply", values)
     return _npz_bytes({**values, **_npz_mesh(curvature)})
 
 
-def _npz_mesh(curvature: SurfaceCurvature) -> dict[str, Floats | Ints]:
+def _npz_mesh(curvature: SurfaceCurvature) -> dict[str, NDArray[np.generic]]:
     return {
         "vertices": curvature.vertices_mm,
         "faces": curvature.faces,
@@ -102,7 +111,7 @@ def _npz_mesh(curvature: SurfaceCurvature) -> dict[str, Floats | Ints]:
     }
 
 
-def _npz_bytes(arrays: dict[str, Floats | Ints]) -> bytes:
+def _npz_bytes(arrays: dict[str, NDArray[np.generic]]) -> bytes:
     """An .npz whose bytes depend on the arrays alone: NumPy's own writer stamps no time either,
     and its members come in the order given.
     """

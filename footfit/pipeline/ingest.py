@@ -11,7 +11,6 @@ from typing import Protocol
 
 from footfit.catalogue.store import open_catalogue
 from footfit.errors import (
-    BadManifest,
     BadOption,
     ExitCode,
     FootfitError,
@@ -23,6 +22,9 @@ from footfit.pipeline.manifest import ManifestRow
 from footfit.pipeline.reading import content_hash, profiled_source
 from footfit.pipeline.sources import ReadingOptions, Source
 from footfit.results import IngestOutcome, LastLabels, LastRecord, MeshCopy, Notice, Profiled
+
+SAME_LENGTH_MM = 0.01
+"""A known length is the stored one where they differ by less: a stick shows whole mm."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -73,15 +75,14 @@ def entries(
 ) -> list[Entry]:
     """Join files with their labels, in sorted path order; a manifest alone names its files.
 
-    A label in the manifest wins over one on the command line (``given``, whose ``name`` is ""
-    where none was typed).
+    A label in the manifest wins over one on the command line (``given``); a typed name
+    (``given.name``, "" where none was) wins over all. Rows of files that are not among the
+    sources are left alone: see `unused_rows`.
 
     Raises
     ------
     BadOption
-        One ``--name`` for several files.
-    BadManifest
-        A line of the manifest names a file that is not among the sources.
+        Nothing to ingest, one ``--name`` for several files, or standard input without a name.
     """
     rows = {_resolved(row.path): row for row in manifest}
     if manifest and not sources:
@@ -90,12 +91,19 @@ def entries(
         raise BadOption("nothing to ingest; name files, a folder or a --manifest")
     if given.name and len(sources) > 1:
         raise BadOption("--name names one last, and there are several files; use --manifest")
-    known = {_resolved(source.path) for source in sources if source.path}
-    for resolved, row in rows.items():
-        if resolved not in known:
-            raise BadManifest("is in the manifest and not among the files given", row.path)
     ordered = sorted(sources, key=lambda source: source.path or "")
     return [_entry(one, rows.get(_resolved(one.path or "")), given, reading) for one in ordered]
+
+
+def unused_rows(batch: Sequence[Entry], manifest: Sequence[ManifestRow]) -> tuple[Notice, ...]:
+    """Rows of the manifest whose file was not given: said, since a path may be mistyped."""
+    given = {_resolved(entry.path) for entry in batch if entry.path}
+    unused = [row.path for row in manifest if _resolved(row.path) not in given]
+    if not unused:
+        return ()
+    more = f" and {len(unused) - 1} more" if len(unused) > 1 else ""
+    words = f"the manifest also names {unused[0]}{more}, not among the files given"
+    return (Notice("manifest_rows_unused", words),)
 
 
 def _resolved(path: str) -> str:
@@ -240,7 +248,7 @@ def ingested(
 def _stored(
     outcome: Outcome[Entry, Prepared], index: _Index, shelf: Shelf | None, replace: bool
 ) -> IngestOutcome:
-    entry, path = outcome.item, outcome.item.path or ""
+    entry, path = outcome.item, outcome.item.path
     if outcome.value is None:
         assert outcome.error is not None
         return _refused(path, outcome.error)
@@ -301,21 +309,26 @@ def decision(
     old = by_name.get(labels.name)
     if old is None:
         return "added"
-    if holder == labels.name and old.labels == labels and _reads_alike(old, entry.reading):
+    same = holder == labels.name
+    if same and old.labels == labels and _reads_alike(old, entry.reading):
         return "unchanged"
     if replace:
         return "replaced"
-    what = "the same scan with other labels" if holder else "another scan"
+    what = "another scan"
+    if same:
+        what = f"the same scan {'read otherwise' if old.labels == labels else 'with other labels'}"
     raise NameTaken(f"{labels.name!r} is in the catalogue with {what}; add --replace or --name")
 
 
 def _reads_alike(old: LastRecord, reading: ReadingOptions) -> bool:
     """Would the options given read the stored scan as it was read?"""
-    side = reading.side in ("auto", old.side.side)
-    return side and reading.units in ("auto", old.info.units)
+    known = reading.known_length_mm
+    length = known is None or abs(known - old.length_mm) < SAME_LENGTH_MM
+    units = reading.units in ("auto", old.info.units)
+    return length and units and reading.side in ("auto", old.side.side)
 
 
-def _accepted(path: str, status: str, record: LastRecord, *, first: bool) -> IngestOutcome:
+def _accepted(path: str | None, status: str, record: LastRecord, *, first: bool) -> IngestOutcome:
     return IngestOutcome(
         path=path,
         status=status,
@@ -330,7 +343,7 @@ def _accepted(path: str, status: str, record: LastRecord, *, first: bool) -> Ing
     )
 
 
-def _refused(path: str, error: FootfitError) -> IngestOutcome:
+def _refused(path: str | None, error: FootfitError) -> IngestOutcome:
     return IngestOutcome(
         path=path,
         status="refused",

@@ -7,7 +7,7 @@ import io
 from dataclasses import dataclass
 from pathlib import Path
 
-from footfit.errors import BadManifest
+from footfit.errors import BadManifest, BadOption
 from footfit.pipeline.sources import ReadingOptions
 from footfit.results import LastLabels
 
@@ -23,6 +23,7 @@ COLUMNS = (
     "heel_height_mm",
 )
 LARGEST_BYTES = 16_000_000
+HEEL_HEIGHTS_MM = (0, 200)
 SIDES = ("auto", "left", "right")
 UNITS = ("auto", "mm", "cm", "m", "in")
 
@@ -44,11 +45,11 @@ def read_manifest(path: Path) -> list[ManifestRow]:
     BadManifest
         It is no file, no UTF-8 text, too large, or its content is not understood.
     """
-    if not path.is_file():
-        raise BadManifest("is no file; name the manifest's CSV", str(path))
-    if path.stat().st_size > LARGEST_BYTES:
-        raise BadManifest("is larger than 16 MB; a manifest is a small CSV", str(path))
     try:
+        if not path.is_file():
+            raise BadManifest("is no file; name the manifest's CSV", str(path))
+        if path.stat().st_size > LARGEST_BYTES:
+            raise BadManifest("is larger than 16 MB; a manifest is a small CSV", str(path))
         text = path.read_text(encoding="utf-8-sig")
     except (OSError, UnicodeDecodeError) as error:
         raise BadManifest(f"cannot be read as UTF-8 text ({error})", str(path)) from error
@@ -120,9 +121,22 @@ def _height(value: str, where: str) -> float | None:
     if not value:
         return None
     try:
-        height = float(value)
-    except ValueError:
-        height = -1.0
-    if not 0 <= height <= 200:
-        raise BadManifest(f"heel_height_mm is {value!r}; it is a number of mm from 0 to 200", where)
-    return height
+        return heel_height_mm(float(value))
+    except (ValueError, BadOption) as error:
+        low, high = HEEL_HEIGHTS_MM
+        words = f"heel_height_mm is {value!r}; it is a number of mm from {low} to {high}"
+        raise BadManifest(words, where) from error
+
+
+def heel_height_mm(value: float | None) -> float | None:
+    """A heel height as labelled, or None.
+
+    Raises
+    ------
+    BadOption
+        It is no height that a heel has.
+    """
+    low, high = HEEL_HEIGHTS_MM
+    if value is not None and not low <= value <= high:
+        raise BadOption(f"a heel height is from {low} to {high} mm, not {value}")
+    return value

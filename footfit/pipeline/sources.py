@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import BinaryIO
 
-from footfit.errors import UnreadableFile
+from footfit.errors import BadOption, UnreadableFile
 
 MESH_SUFFIXES = (".stl", ".obj", ".ply", ".off", ".glb", ".3mf")
 GLOB_CHARACTERS = frozenset("*?[")
@@ -37,8 +37,11 @@ def mesh_sources(arguments: Sequence[str]) -> list[Source]:
 
     Raises
     ------
+    BadOption
+        An empty argument.
     UnreadableFile
-        A folder or a glob that holds no mesh. A missing *file* is kept: its own line says so.
+        A folder or a glob that holds no mesh. What is missing or cannot be looked up is kept:
+        its own line says so.
 
     Examples
     --------
@@ -63,13 +66,18 @@ def stdin_source(stream: BinaryIO, mesh_format: str) -> Source:
 
 
 def _expanded(argument: str) -> list[str]:
+    if not argument:
+        raise BadOption("an empty path was given (an unset variable?); name a file or folder")
     path = Path(argument)
-    if path.is_dir():
-        found = _mesh_files(path.rglob("*"))
-    elif GLOB_CHARACTERS & set(argument) and not path.exists():
-        anchor, pattern = _anchored(path)
-        found = _mesh_files(anchor.glob(pattern))
-    else:
+    try:
+        if path.is_dir():
+            found = _mesh_files(path.rglob("*"), path)
+        elif GLOB_CHARACTERS & set(argument) and not path.exists():
+            anchor, pattern = _anchored(path)
+            found = _mesh_files(anchor.glob(pattern), anchor)
+        else:
+            return [argument]
+    except (OSError, ValueError):  # a name too long, a folder closed to us, "**x": as if missing
         return [argument]
     if not found:
         kinds = ", ".join(suffix[1:] for suffix in MESH_SUFFIXES)
@@ -84,10 +92,12 @@ def _anchored(path: Path) -> tuple[Path, str]:
     return Path(), str(path)
 
 
-def _mesh_files(paths: Iterable[Path]) -> list[str]:
-    """The regular mesh files among ``paths``, sorted, hidden ones left out."""
+def _mesh_files(paths: Iterable[Path], folder: Path) -> list[str]:
+    """The regular mesh files among ``paths``, sorted; nothing hidden below ``folder``."""
     return sorted(
-        str(p)
-        for p in paths
-        if p.suffix.lower() in MESH_SUFFIXES and not p.name.startswith(".") and p.is_file()
+        str(path)
+        for path in paths
+        if path.suffix.lower() in MESH_SUFFIXES
+        and not any(part.startswith(".") for part in path.relative_to(folder).parts)
+        and path.is_file()
     )

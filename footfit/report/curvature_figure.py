@@ -15,6 +15,7 @@ from footfit.report.text import file_name, plain
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
+    from numpy.typing import NDArray
 
     from footfit.results import SurfaceCurvature
 
@@ -82,6 +83,12 @@ def colour_reach(values: Floats) -> float:
     """The value at the end of the scale of colours; 1 where nothing is defined or all is flat."""
     known = np.abs(values[np.isfinite(values)])
     return (float(np.quantile(known, SHOWN_QUANTILE)) if len(known) else 0.0) or 1.0
+
+
+def vertex_colours(curvature: SurfaceCurvature) -> NDArray[np.uint8]:
+    """The mean curvature of each vertex as red, green, blue (n, 3), on the picture's scale."""
+    colours, _ = _colours(curvature.mean, colour_reach(curvature.mean))
+    return np.rint(np.asarray(colours)[:, :3] * 255.0).astype(np.uint8)
 
 
 def _title(curvature: SurfaceCurvature, quantity: Quantity) -> str:

@@ -7,6 +7,9 @@ from typing import TYPE_CHECKING
 from footfit.report.figures import picture_bytes
 
 if TYPE_CHECKING:
+    import numpy as np
+    from numpy.typing import NDArray
+
     from footfit.geometry.arrays import Floats
     from footfit.report.curvature_figure import Quantity
     from footfit.report.match_figure import Shapes
@@ -37,6 +40,13 @@ def curvature_plot(
     from footfit.report.curvature_figure import curvature_figure
 
     return picture_bytes(curvature_figure(curvature, canonical_transform, quantity), kind)
+
+
+def curvature_colours(curvature: SurfaceCurvature) -> NDArray[np.uint8]:
+    """The colours (n, 3) of that picture, for a file of the mesh."""
+    from footfit.report.curvature_figure import vertex_colours
+
+    return vertex_colours(curvature)
 
 
 def match_plot(match: Match, kind: str, shapes: Shapes | None = None, foot: int = 0) -> bytes:
