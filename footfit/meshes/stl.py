@@ -28,7 +28,7 @@ _GRAMMAR = (
     *("endloop", "endfacet"),
 )
 _KEYWORDS = tuple((place, word.encode()) for place, word in enumerate(_GRAMMAR) if word)
-_POINTS, _AFTER_POINTS = (8, 12, 16), (11, 15, 19)
+_POINT_BOUNDS = (8, 11, 12, 15, 16, 19)  # a point's first word, and the one after its last
 _LAST_FACET = re.compile(rb"endfacet\s", re.IGNORECASE)
 _END = re.compile(rb"end[ \t]*solid", re.IGNORECASE)
 _UNENDED = Notice("end_missing", "the ASCII STL has no endsolid line: its end may be missing")
@@ -136,10 +136,9 @@ def _facet_corners(text: bytes) -> Floats:
     facets = words.reshape(-1, len(_GRAMMAR))
     for place, keyword in _KEYWORDS:
         _check_keyword(buffer, facets[:, place], keyword)
-    change = np.zeros(len(buffer), dtype=np.int8)  # +1 where a point begins, -1 where it ends
-    change[facets[:, _POINTS]] = 1
-    change[facets[:, _AFTER_POINTS]] = -1
-    inside = np.cumsum(change, dtype=np.int8).astype(bool)
+    bounds = facets[:, _POINT_BOUNDS].ravel()
+    spans = np.diff(bounds, prepend=0, append=len(buffer))
+    inside = np.repeat(np.arange(len(spans)) % 2 == 1, spans)  # from each point to after it
     return floats(buffer[inside].tobytes(), 9 * len(facets)).reshape(-1, 3)
 
 
