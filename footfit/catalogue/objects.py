@@ -39,10 +39,10 @@ def _plain(sql: object) -> str:
     Examples
     --------
     >>> _plain('CREATE TABLE "last" (\n\tid INTEGER NOT NULL, \n\tCHECK (id > 1)\n)')
-    'create table last | check ( id > 1 ) | id integer not null'
+    'CREATE TABLE last | CHECK ( id > 1 ) | id INTEGER NOT NULL'
     """
-    words = re.findall(r"\w+|[^\w\s\"`\[\]]", str(sql).lower())
-    if words[:2] != ["create", "table"]:
+    words = re.findall(r"\w+|[^\w\s\"`\[\]]", str(sql))
+    if words[:2] != ["CREATE", "TABLE"]:
         return " ".join(words)
     clauses: list[list[str]] = [[]]
     depth = 0

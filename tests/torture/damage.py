@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import random
+import re
 import sqlite3
 from collections.abc import Callable
 from contextlib import closing
@@ -113,11 +114,13 @@ def _changed(path: Path, truth: list[object]) -> bool:
 
 
 def _schema(path: Path) -> list[object]:
+    """Every object and mark; how the words of the SQL are spaced is no value."""
     with closing(sqlite3.connect(f"{path.absolute().as_uri()}?mode=ro", uri=True)) as connection:
         connection.text_factory = bytes
         rows = connection.execute("SELECT type, name, tbl_name, sql FROM sqlite_schema").fetchall()
         marks = [connection.execute(f"PRAGMA {mark}").fetchall() for mark in MARKS]
-        return [*rows, *marks]
+        spaced = [[re.sub(rb"\s+", b" ", word or b"") for word in row] for row in rows]
+        return [*spaced, *marks]
 
 
 MARKS = ("application_id", "user_version")

@@ -39,6 +39,9 @@ class Script:
     work: Work
     prepare: Callable[[Path], None] = Path.touch
 
+    def __str__(self) -> str:
+        return self.name.partition(",")[0]
+
 
 @dataclass(frozen=True)
 class Truth:
