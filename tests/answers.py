@@ -18,6 +18,7 @@ from footfit.results import (
     Match,
     Measure,
     Measured,
+    MeasuredScan,
     MeshInfo,
     Notice,
     PoseQuality,
@@ -137,6 +138,16 @@ def foot(path="feet/anna.stl", left=False, length_mm=260.0, turn_deg=10.0, **mor
     measures = (Measure("length", Measured(length_mm, 0.4), "length/1"),)
     aligned = AlignedScan(alignment(path, left, length_mm, **more), vertices, faces)
     return Profiled(aligned, profile(turn_deg), measures)
+
+
+def measured_scan(path="feet/anna.stl"):
+    """A foot with one measure, and one that could not be taken."""
+    none = Measured(None, None, "the leg is cut below the instep")
+    measures = (
+        Measure("length", Measured(260.0, 0.25), "length/2"),
+        Measure("instep_girth", none, "instep_girth/1"),
+    )
+    return MeasuredScan(alignment(path), measures, (Notice("suspect_measure", "unusual"),))
 
 
 def record(name="derby-42", turn_deg=8.0, length_mm=273.0, left=False, **labels):

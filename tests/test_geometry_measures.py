@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from dataclasses import replace
 from functools import cache
 
@@ -16,7 +17,7 @@ from footfit.geometry.measures import BOTH, MEASURES, of_kind, unusual
 from footfit.meshes.read import read_scan
 from footfit.pipeline.align import aligned
 from footfit.pipeline.flare import right_shape
-from tests.conftest import SAMPLES
+from tests.conftest import ROOT, SAMPLES
 from tests.distortions import axis_rotation, half_subdivided, leg_cut, moved, plane_cut, white_noise
 from tests.strategies import seeds
 from tools.lasts import LastSpec, half_width_mm, last_mesh, true_heading_deg
@@ -258,3 +259,11 @@ def test_what_is_outside_a_surveys_range_is_said_in_words() -> None:
     assert "1.20 of the length" in (unusual(girth, 300.0, 250.0) or "")
     length = MEASURES[0]
     assert unusual(length, 199.0, 199.0) == "length 199.0 mm is unusual; feet have 200-310 mm"
+
+
+def test_the_page_defines_every_measure() -> None:
+    page = (ROOT / "docs" / "measures.md").read_text(encoding="utf-8")
+    definitions = page.split("## Definitions")[1].split("## Landmarks")[0]
+    cells = [line.split("|")[1] for line in definitions.splitlines() if line.startswith("| `")]
+    listed = [name for cell in cells for name in re.findall(r"`(\w+)`", cell)]
+    assert listed == [entry.name for entry in MEASURES]

@@ -18,7 +18,7 @@ from hypothesis import strategies as st
 from footfit import __version__
 from footfit.errors import SeveralFeet
 from footfit.pipeline.match import Library, matched
-from footfit.report import documents, last_documents, upkeep
+from footfit.report import documents, last_documents, measure_documents, upkeep
 from footfit.report.lines import failure_document
 from footfit.report.numbers import nested, rounded
 from footfit.report.parts import finite, paper_frame_angle_deg
@@ -49,6 +49,7 @@ def every_document():
         documents.align_document(warned),
         documents.flare_document(answers.foot()),
         documents.match_document(answers.match()),
+        measure_documents.measure_document(answers.measured_scan()),
         documents.ingest_document(answers.outcome()),
         documents.curvature_document(answers.curvature()),
         documents.error_document(SeveralFeet("two feet; take them apart", "a.stl")),

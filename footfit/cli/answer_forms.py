@@ -11,7 +11,16 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, Generic, TypeVar
 
 from footfit.pipeline.match import Library
-from footfit.report import documents, last_documents, last_tables, match_tables, tables, upkeep
+from footfit.report import (
+    documents,
+    last_documents,
+    last_tables,
+    match_tables,
+    measure_documents,
+    measure_tables,
+    tables,
+    upkeep,
+)
 from footfit.results import (
     AlignedScan,
     BackupOutcome,
@@ -21,6 +30,7 @@ from footfit.results import (
     IngestOutcome,
     LastRecord,
     Match,
+    MeasuredScan,
     MeshCopy,
     Notice,
     Profiled,
@@ -64,6 +74,11 @@ CURVATURE: Answer[SurfaceCurvature] = Answer(
     documents.curvature_document,
     tables.curvature_table,
     lambda values: (values.info.path, values.warnings),
+)
+MEASURE: Answer[MeasuredScan] = Answer(
+    measure_documents.measure_document,
+    measure_tables.measure_table,
+    lambda scan: (scan.alignment.info.path, (*scan.alignment.warnings, *scan.suspects)),
 )
 MATCH: Answer[Match] = Answer(
     documents.match_document,

@@ -20,6 +20,7 @@ from footfit.cli.flare import flare
 from footfit.cli.ingest_last import ingest_last
 from footfit.cli.list_lasts import list_lasts
 from footfit.cli.match import match
+from footfit.cli.measure import measure
 from footfit.cli.remove_last import remove_last
 from footfit.cli.rename_last import rename_last
 from footfit.cli.restore_catalogue import restore_catalogue
@@ -37,6 +38,7 @@ COMMANDS = (
     ("align", align, PAPER),
     ("flare", flare, PAPER),
     ("curvature", curvature, PAPER),
+    ("measure", measure, PAPER),
     ("match", match, PAPER),
     ("list-lasts", list_lasts, LIBRARY),
     ("show-last", show_last, LIBRARY),

@@ -98,9 +98,9 @@ MEASURES: tuple[Measure, ...] = (
             toe_spring),
     Measure("heel_height", 1, 0.9, "how high a last's heel stands when its tread lies level",
             heel_height),
-    Measure("bottom_width_ball", 1, 0.5, "feather edge to feather edge at .66 of the length",
+    Measure("bottom_width_ball", 1, 0.4, "feather edge to feather edge at .66 of the length",
             bottom_width_ball, LAST),
-    Measure("bottom_width_heel", 1, 0.45, "feather edge to feather edge at 1/6 of the length",
+    Measure("bottom_width_heel", 1, 0.2, "feather edge to feather edge at 1/6 of the length",
             bottom_width_heel, LAST),
     Measure("tape_length", 1, 0.25, "along the middle of the bottom", tape_length, LAST),
 )

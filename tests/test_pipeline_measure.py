@@ -1,0 +1,147 @@
+"""From a scan in any pose to its measures: repeatable, mirrored alike, near the truth, in words."""
+
+from __future__ import annotations
+
+import csv
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from footfit.errors import SideUndecided
+from footfit.meshes.read import read_scan
+from footfit.pipeline.align import aligned
+from footfit.pipeline.measure import measured_scan, suspects
+from footfit.results import Measure, Measured
+from tests.conftest import SAMPLES, Footfit
+from tests.distortions import decimated, in_metres, mirrored, moved, random_pose, white_noise
+
+BOUNDS_MM = {"length": 0.5, "width": 1.0, "girth": 2.0}
+
+
+def moved_scan(scan, vertices, faces):
+    info = replace(scan.info, vertices=len(vertices), faces=len(faces))
+    return replace(scan, info=info, vertices_mm=vertices, faces=faces, source_to_vertex=None)
+
+
+def values(scan, side):
+    found = measured_scan(aligned(scan, side=side))
+    return {measure.name: measure.measured.value for measure in found.measures}
+
+
+@pytest.mark.parametrize("name", ["feet/mh007_R.stl", "lasts/derby-40.stl"])
+def test_measures_come_back_in_any_pose_with_noise_and_from_a_quarter_of_the_faces(name):
+    scan, rng = read_scan(SAMPLES / name), np.random.default_rng(11)
+    before = values(scan, "right")
+    noisy = white_noise(scan.vertices_mm, rng, 0.3), scan.faces
+    for mesh in ((scan.vertices_mm, scan.faces), noisy, decimated(scan.vertices_mm, scan.faces, 4)):
+        vertices = moved(mesh[0], random_pose(rng))
+        after = values(moved_scan(scan, vertices, mesh[1]), "right")
+        for measure, value in before.items():
+            bound = next((b for word, b in BOUNDS_MM.items() if word in measure), 3.0)
+            if value is not None and measure != "ball_length":
+                assert after[measure] == pytest.approx(value, abs=bound), measure
+
+
+def test_a_left_foot_and_its_mirror_image_are_identical_to_rounding():
+    scan = read_scan(SAMPLES / "feet" / "mh007_L.stl")
+    right = moved_scan(scan, *mirrored(scan.vertices_mm, scan.faces))
+    one, other = values(scan, "left"), values(right, "right")
+    for name, value in one.items():  # the frames of the two differ by up to .003 mm
+        assert value is None or other[name] == pytest.approx(value, abs=0.01), name
+
+
+def test_in_one_frame_the_mirror_image_measures_the_same_whatever_the_faces_order():
+    scan = aligned(read_scan(SAMPLES / "feet" / "mh007_L.stl"), side="left")
+    vertices, faces = mirrored(scan.vertices_mm, scan.faces)
+    right = replace(scan.alignment, side=replace(scan.alignment.side, side="right"))
+    order = np.random.default_rng(2).permutation(len(faces))
+    twin = replace(scan, alignment=right, vertices_mm=vertices, faces=faces[order][:, [1, 2, 0]])
+    pairs = zip(measured_scan(scan).measures, measured_scan(twin).measures, strict=True)
+    for one, other in pairs:
+        assert one.measured.reason == other.measured.reason
+        if one.measured.value is not None:
+            assert other.measured.value == pytest.approx(one.measured.value, abs=1e-9), one.name
+
+
+def test_the_generated_feet_have_their_true_length_and_breadth(scans: Path):
+    rng, errors = np.random.default_rng(4), {"length": [], "ball_width_orthogonal": []}
+    with (scans / "makehuman" / "truth.csv").open() as file:
+        rows = list(csv.DictReader(file))[::4]
+    for row in rows:
+        scan = read_scan(scans / "makehuman" / row["file"])
+        posed = moved_scan(scan, moved(scan.vertices_mm, random_pose(rng)), scan.faces)
+        found = values(posed, "left" if row["side"] == "L" else "right")
+        errors["length"].append(found["length"] - float(row["length"]))
+        errors["ball_width_orthogonal"].append(
+            found["ball_width_orthogonal"] - float(row["ball_width"])
+        )
+    assert np.mean(np.abs(errors["length"])) <= 1.0
+    assert np.mean(np.abs(errors["ball_width_orthogonal"])) <= 1.5
+
+
+def test_without_a_side_nothing_is_measured():
+    scan = aligned(read_scan(SAMPLES / "feet" / "mh007_L.stl"))
+    undecided = replace(
+        scan,
+        alignment=replace(scan.alignment, side=replace(scan.alignment.side, side=None)),
+    )
+    with pytest.raises(SideUndecided, match="--side left"):
+        measured_scan(undecided)
+
+
+def test_a_value_that_is_hardly_a_foots_stays_and_is_said():
+    rows = [("length", 250.0), ("ball_girth", 290.0), ("heel_width", 66.0), ("ball_width", None)]
+    measures = [Measure(name, Measured(value), f"{name}/1") for name, value in rows]
+    (found,) = suspects(measures, "foot")
+    assert found.code == "suspect_measure"
+    assert "ball girth 290.0 mm is 1.16 of the length" in found.message
+    assert suspects(measures, "last") == ()
+    assert suspects(measures[1:], "foot") == ()
+
+
+# ------------------------------------------------------------------ the command
+
+
+def test_the_command_says_every_measure(footfit: Footfit, foot: Path, tmp_path: Path) -> None:
+    run = footfit("measure", foot, "--json")
+    assert run.code == 0
+    document = run.document
+    assert document["kind"] == "foot"
+    assert document["measures"]["ball_girth"]["value"] > 180.0
+    heel = document["measures"]["heel_height"]
+    assert heel["value"] is None
+    assert "lasts" in heel["reason"]
+    assert set(document["definitions"]) == set(document["measures"])
+    table = footfit("measure", foot).out
+    assert "ball girth" in table
+    assert max(len(line) for line in table.splitlines()) <= 80
+
+
+def test_many_meshes_make_one_csv_and_a_bad_one_stops_nothing(
+    footfit: Footfit, foot: Path, tmp_path: Path
+) -> None:
+    bad = tmp_path / "bad.stl"
+    bad.write_bytes(b"solid no\n")
+    last = SAMPLES / "lasts" / "derby-40.stl"
+    out = tmp_path / "measures.csv"
+    run = footfit("measure", foot, bad, last, "--csv", out)
+    assert run.code == 3
+    rows = list(csv.DictReader(out.open(encoding="utf-8")))
+    assert {row["kind"] for row in rows} == {"foot", "last"}
+    assert sum(row["measure"] == "ball_girth" for row in rows) == 2
+    assert all((row["value_mm"] == "") != (row["reason"] == "") for row in rows)
+
+
+def test_metres_measure_as_millimetres(footfit: Footfit, foot: Path, tmp_path: Path) -> None:
+    scan = read_scan(foot)
+    from footfit.meshes.write import encoded_mesh
+
+    metres = tmp_path / "metres.ply"
+    metres.write_bytes(encoded_mesh(in_metres(scan.vertices_mm), scan.faces, "ply"))
+    one = footfit("measure", foot, "--json").document["measures"]
+    other = footfit("measure", metres, "--json").document["measures"]
+    for name, measured in one.items():
+        if measured["value"] is not None:
+            assert other[name]["value"] == pytest.approx(measured["value"], abs=0.02), name
