@@ -61,3 +61,12 @@ def test_a_file_that_cannot_be_read_has_its_own_line(
         "footfit.align/1",
         "footfit.align/1",
     ]
+
+
+def test_two_feet_in_one_file_can_be_one_customer(
+    footfit: Footfit, both: Path, stocked: Path
+) -> None:
+    document = footfit(
+        "match", both, "--split", "--pair", "--catalogue", stocked, "--json"
+    ).document
+    assert sorted(foot["side"] for foot in document["feet"]) == ["left", "right"]

@@ -65,8 +65,8 @@ def split_where_asked(
     return split_sources(sources, reading)
 
 
-def only_one(sources: Sequence[Source], *outputs: Path | None) -> None:
-    """Refuse an output file for several meshes.
+def only_one(sources: Sequence[Source], *outputs: Path | None, unless: str = "") -> None:
+    """Refuse an output file for several meshes; ``unless`` names another way out.
 
     Raises
     ------
@@ -75,7 +75,8 @@ def only_one(sources: Sequence[Source], *outputs: Path | None) -> None:
     """
     named = [str(path) for path in outputs if path is not None]
     if named and len(sources) != 1:
-        raise BadOption(f"is one file and there are {len(sources)} meshes; give one mesh", named[0])
+        words = f"is one file and there are {len(sources)} meshes; give one mesh"
+        raise BadOption(f"{words}, or {unless}" if unless else words, named[0])
 
 
 def told(

@@ -45,7 +45,7 @@ def flare(
 
     from footfit.cli.answer_forms import FLARE
     from footfit.cli.answers import Voice, only_one, sources_of, split_where_asked, told
-    from footfit.cli.outputs import refuse_existing, write_or_answer, write_output
+    from footfit.cli.outputs import one_answer, refuse_existing, write_or_answer, write_output
     from footfit.pipeline.batch import outcomes
     from footfit.pipeline.export import PICTURE_KINDS, file_kind
     from footfit.pipeline.reading import profiled_source
@@ -55,6 +55,7 @@ def flare(
 
     refuse_existing(plot, force=force, kinds=PICTURE_KINDS)
     refuse_existing(csv, force=force)
+    one_answer(csv, as_json=json)
     reading = ReadingOptions(units.value, known_length, side.value)
     sources = split_where_asked(sources_of(meshes, format), reading, split=split)
     only_one(sources, plot)

@@ -19,12 +19,13 @@ def list_lasts(
     """
     from footfit.cli.answer_forms import LIST_LASTS
     from footfit.cli.answers import Voice, tell
-    from footfit.cli.outputs import refuse_existing, write_or_answer
+    from footfit.cli.outputs import one_answer, refuse_existing, write_or_answer
     from footfit.cli.settings import catalogue_path
     from footfit.pipeline import lasts
     from footfit.report.csv import lasts_csv
 
     refuse_existing(csv, force=force)
+    one_answer(csv, as_json=json)
     found = lasts.listed(catalogue_path(catalogue))
     if csv is not None:
         write_or_answer(csv, lasts_csv(found.lasts, found.reference), force=force)

@@ -90,6 +90,7 @@ def match(
     units: options.Units = options.UnitName.auto,
     known_length: options.Known = None,
     format: options.Format = None,
+    split: options.Split = False,
     jobs: options.Jobs = 1,
     catalogue: options.Catalogue = None,
     force: options.Force = False,
@@ -102,26 +103,25 @@ def match(
     Example: footfit match left.stl right.stl --pair --html report.html
     """
     from footfit.cli.answer_forms import MATCH
-    from footfit.cli.answers import Voice, only_one, sources_of, told
-    from footfit.cli.outputs import refuse_existing, write_or_answer, write_output
+    from footfit.cli.answers import Voice, only_one, sources_of, split_where_asked, told
+    from footfit.cli.outputs import one_answer, refuse_existing, write_or_answer
     from footfit.cli.settings import catalogue_path
     from footfit.pipeline.choice import choice
     from footfit.pipeline.match import Question, customers
     from footfit.pipeline.profile import fit_profile
-    from footfit.pipeline.shapes import best_comparisons, candidate_shapes
     from footfit.pipeline.sources import ReadingOptions
     from footfit.report.csv import match_csv
-    from footfit.report.html import match_report
 
     refuse_check(by, fail_under)
-    sources = sources_of(feet, format)
-    only_one(sources[:1] if pair else sources, html)
-    refuse_existing(html, csv, force=force)
-    path = catalogue_path(catalogue)
-    asked = fit_profile(profile)
-    found = choice(path, style, size_system)
+    refuse_existing(html, force=force, kinds=("html", "htm"))
+    refuse_existing(csv, force=force)
+    one_answer(csv, as_json=json)
     reading = ReadingOptions(units.value, known_length, side.value)
-    question = Question(by.value, top, asked, size_system)
+    sources = split_where_asked(sources_of(feet, format), reading, split=split)
+    only_one(sources[:1] if pair else sources, html, unless="--pair for one customer's two feet")
+    path = catalogue_path(catalogue)
+    question = Question(by.value, top, fit_profile(profile), size_system)
+    found = choice(path, style, size_system)
     answers = customers(sources, reading, found, question, pair=pair, jobs=jobs)
     voice = Voice(json, quiet, 1 if pair else len(sources), answers=csv != options.STDOUT)
     matches: list[Match] = []
@@ -129,11 +129,20 @@ def match(
     if csv is not None:
         write_or_answer(csv, match_csv(matches), force=force)
     if html is not None and matches:
-        drawn = candidate_shapes(path, matches[0]), best_comparisons(path, matches[0])
-        write_output(html, match_report(matches[0], *drawn), force=force)
+        write_report(html, matches[0], path, force=force)
     if fail_under is not None:
         code = checked(matches, fail_under, code, as_json=json)
     raise typer.Exit(code)
+
+
+def write_report(html: Path, match: Match, catalogue: Path, *, force: bool) -> None:
+    """Write one customer's page, with the best lasts drawn."""
+    from footfit.cli.outputs import write_output
+    from footfit.pipeline.shapes import best_comparisons, candidate_shapes
+    from footfit.report.html import match_report
+
+    drawn = candidate_shapes(catalogue, match), best_comparisons(catalogue, match)
+    write_output(html, match_report(match, *drawn), force=force)
 
 
 def refuse_check(by: ByName, least: Least | None) -> None:

@@ -93,7 +93,7 @@ Quiet = Annotated[
 ]
 Verbose = Annotated[
     bool,
-    typer.Option("--verbose", rich_help_panel=ANSWER, help="Say more; show a bug's traceback."),
+    typer.Option("--verbose", rich_help_panel=ANSWER, help="Show the traceback of a bug."),
 ]
 Units = Annotated[
     UnitName,

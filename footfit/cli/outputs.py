@@ -77,6 +77,18 @@ def write_output(path: Path, data: bytes | str, *, force: bool) -> None:
         beside.unlink(missing_ok=True)
 
 
+def one_answer(csv: Path | None, *, as_json: bool) -> None:
+    """Refuse two answers on one stdout.
+
+    Raises
+    ------
+    BadOption
+        ``--csv -`` together with ``--json``.
+    """
+    if csv == STDOUT and as_json:
+        raise BadOption("--csv - and --json both write to stdout; give --csv a file")
+
+
 def write_or_answer(path: Path, text: str, *, force: bool) -> None:
     """Write ``text`` to the file, or to stdout where the path is ``-``.
 

@@ -125,7 +125,7 @@ def customers(
         A pair of other than two scans.
     """
     if pair and len(sources) != 2:
-        raise BadOption(f"--pair takes the two scans of one customer, not {len(sources)}")
+        raise BadOption(f"--pair takes two different scans of one customer, not {len(sources)}")
     feet = outcomes(partial(profiled_source, reading=reading), sources, jobs)
     if not pair:
         for foot in feet:
