@@ -102,7 +102,10 @@ def test_curvature_writes_what_it_counts(footfit: Footfit, foot: Path, tmp_path:
         defined = np.isfinite(arrays["mean"])
         assert (arrays["k1"][defined] <= arrays["k2"][defined] + 1e-12).all()
     assert footfit("curvature", foot, "-o", tmp_path / "c.ply", "--radius", 0).code == 0
-    assert (tmp_path / "c.ply").read_bytes().startswith(b"ply")
+    ply = (tmp_path / "c.ply").read_bytes()
+    assert ply.startswith(b"ply")
+    assert b"property uchar red" in ply
+    assert document["output"] == str(output)
 
 
 def test_match_ranks_with_every_key_of_the_contract(
@@ -207,7 +210,9 @@ def test_outputs_are_refused_before_any_work(
     assert there.read_text() == "mine"
     two = (foot, SAMPLES / "feet")
     assert footfit("align", *two, "-o", tmp_path / "one.stl").code == 2
-    assert footfit("align", foot, "-o", tmp_path / "one.xyz").code == 2
+    late = footfit("align", foot, "-o", tmp_path / "one.xyz")
+    assert (late.code, late.out) == (2, "")
+    assert footfit("flare", foot, "--csv", "-", "--json").code == 2
     assert [path.name for path in tmp_path.iterdir()] == ["there.svg"]
 
 

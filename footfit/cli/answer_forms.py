@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Any, Generic, TypeVar
 
 from footfit.pipeline.match import Library
 from footfit.report import (
+    compare,
     documents,
     last_documents,
     last_tables,
@@ -26,6 +27,7 @@ from footfit.results import (
     BackupOutcome,
     CatalogueFacts,
     CheckOutcome,
+    Comparison,
     DemoOutcome,
     IngestOutcome,
     LastRecord,
@@ -70,11 +72,6 @@ FLARE: Answer[Profiled] = Answer(
     tables.flare_table,
     lambda shape: (shape.aligned.alignment.info.path, shape.aligned.alignment.warnings),
 )
-CURVATURE: Answer[SurfaceCurvature] = Answer(
-    documents.curvature_document,
-    tables.curvature_table,
-    lambda values: (values.info.path, values.warnings),
-)
 MEASURE: Answer[MeasuredScan] = Answer(
     measure_documents.measure_document,
     measure_tables.measure_table,
@@ -84,6 +81,11 @@ MATCH: Answer[Match] = Answer(
     documents.match_document,
     match_tables.match_table,
     lambda match: (None, _match_notices(match)),
+)
+COMPARE: Answer[Comparison] = Answer(
+    compare.compare_document,
+    compare.compare_table,
+    lambda comparison: (comparison.foot.aligned.alignment.info.path, comparison.warnings),
 )
 INGEST_LAST: Answer[IngestOutcome] = Answer(
     documents.ingest_document,
@@ -139,6 +141,15 @@ DEMO: Answer[DemoOutcome] = Answer(
     lambda demo: last_documents.demo_document(demo.folder, demo.lasts, demo.best, demo.outputs),
     last_tables.demo_table,
 )
+
+
+def curvature_answer(output: str | None) -> Answer[SurfaceCurvature]:
+    """The answer of ``curvature``, which names the file it writes."""
+    return Answer(
+        lambda values: documents.curvature_document(values, output=output),
+        tables.curvature_table,
+        lambda values: (values.info.path, values.warnings),
+    )
 
 
 def _match_notices(match: Match) -> list[Notice]:

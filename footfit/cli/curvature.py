@@ -47,6 +47,7 @@ def curvature(
         ),
     ] = None,
     units: options.Units = options.UnitName.auto,
+    known_length: options.Known = None,
     format: options.Format = None,
     jobs: options.Jobs = 1,
     force: options.Force = False,
@@ -60,20 +61,23 @@ def curvature(
     """
     from functools import partial
 
-    from footfit.cli.answer_forms import CURVATURE
+    from footfit.cli.answer_forms import curvature_answer
     from footfit.cli.answers import Voice, only_one, sources_of, told
     from footfit.cli.outputs import refuse_existing
     from footfit.pipeline.batch import outcomes
+    from footfit.pipeline.export import CURVATURE_KINDS, PICTURE_KINDS
     from footfit.pipeline.reading import curvature_source
     from footfit.pipeline.sources import ReadingOptions
 
     sources = sources_of(meshes, format)
     only_one(sources, output, plot)
-    refuse_existing(output, plot, force=force)
-    work = partial(curvature_source, reading=ReadingOptions(units.value), radius_mm=radius)
+    refuse_existing(output, force=force, kinds=CURVATURE_KINDS)
+    refuse_existing(plot, force=force, kinds=PICTURE_KINDS)
+    reading = ReadingOptions(units.value, known_length)
+    work = partial(curvature_source, reading=reading, radius_mm=radius)
     code = told(
         outcomes(work, sources, jobs),
-        CURVATURE,
+        curvature_answer(None if output is None else str(output)),
         Voice(json, quiet, len(sources)),
         then=lambda values: write_curvature(values, output, plot, force=force),
     )
@@ -87,10 +91,12 @@ def write_curvature(
     from footfit.cli.outputs import write_output
     from footfit.pipeline.export import PICTURE_KINDS, curvature_bytes, file_kind
     from footfit.pipeline.shapes import canonical_view
-    from footfit.report.plots import curvature_plot
+    from footfit.report.plots import curvature_colours, curvature_plot
 
     if output is not None:
-        write_output(output, curvature_bytes(values, output), force=force)
+        is_ply = output.suffix.lower() == ".ply"
+        colours = curvature_colours(values) if is_ply else None
+        write_output(output, curvature_bytes(values, output, colours), force=force)
     if plot is not None:
         data = curvature_plot(values, file_kind(plot, PICTURE_KINDS), canonical_view(values))
         write_output(plot, data, force=force)
