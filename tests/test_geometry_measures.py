@@ -222,10 +222,14 @@ def test_a_small_hole_changes_no_girth() -> None:
     assert found["instep_girth"] == pytest.approx(whole["instep_girth"], abs=0.5)
 
 
-def test_half_a_foot_measures_without_a_bug() -> None:
-    vertices, faces = foot()
-    for normal in ([1.0, 0.0, 0.0], [-1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, -1.0]):
-        taken(*plane_cut(vertices, faces, np.array([120.0, 0.0, 40.0]), np.array(normal)))
+@pytest.mark.parametrize("kind", ["foot", "last"])
+def test_a_piece_of_a_shape_measures_without_a_bug(kind: str) -> None:
+    vertices, faces = foot() if kind == "foot" else last_of()
+    normals = ([1.0, 0, 0], [-1.0, 0, 0], [0, 1.0, 0], [0, -1.0, 0], [0, 0, 1.0], [0, 0, -1.0])
+    for x_mm, z_mm in ((120.0, 40.0), (60.0, 15.0), (180.0, 60.0)):
+        for normal in normals:
+            origin = np.array([x_mm, 0.0, z_mm])
+            taken(*plane_cut(vertices, faces, origin, np.array(normal)), kind)
 
 
 def capped(vertices, faces):

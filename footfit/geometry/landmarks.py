@@ -61,9 +61,10 @@ class Shape:
 
     @cached_property
     def low(self) -> Ints:
-        """The faces (k, 3) that are no leg."""
+        """The faces (k, 3) that are no leg; all of them where none is low."""
         height_mm = LANDMARKS.length_height * self._rough_length_mm
-        return self._faces_of(self.vertices_mm[:, 2] < height_mm)
+        low = self._faces_of(self.vertices_mm[:, 2] < height_mm)
+        return low if len(low) else self.faces
 
     def under(self, height: float) -> Ints:
         """The faces (k, 3) lower than a height over the length."""
