@@ -14,7 +14,6 @@ from footfit.geometry.curvature import (
     concentrated_curvature_one_ring,
     one_ring_curvature,
     pooled_curvature,
-    pooled_mean_curvature,
 )
 from footfit.geometry.polylines import curvature_density
 from footfit.geometry.topology import boundary_loops, boundary_vertices, welded
@@ -394,16 +393,6 @@ def test_a_subset_has_the_values_of_the_whole(mesh, height, radius):
     whole, part = (pooled_curvature(vertices, faces, radius, s) for s in (None, subset))
     assert np.isnan(part.mean[~subset]).all()
     np.testing.assert_allclose(part.mean[subset], whole.mean[subset], atol=1e-7)
-    mean = pooled_mean_curvature(vertices, faces, radius)
-    part_mean = pooled_mean_curvature(vertices, faces, radius, subset)
-    np.testing.assert_allclose(part_mean[subset], mean[subset], atol=1e-7)
-
-
-def test_the_short_way_to_the_mean_agrees_with_half_the_sum():
-    for vertices, faces in (_uneven_sphere(), shapes.torus(60.0, 20.0, 192, 96)):
-        short = pooled_mean_curvature(vertices, faces, 8.0)
-        full = pooled_curvature(vertices, faces, 8.0).mean
-        assert np.median(np.abs(short / full - 1.0)) < 0.03
 
 
 def test_sections_of_a_torus_bend_as_its_surface_says():

@@ -31,8 +31,13 @@ class PoolingSettings:
     """The constants of :func:`pooled_curvature`.
 
     radius_over_deviation
-        The radius in standard deviations of the pooling weights; 95 % of the weight lies inside
-        the radius at 2.45, 97 % at 2.7.
+        The radius in standard deviations of the narrower pooling weights.
+    wider
+        The wider weights' variance over the narrower ones': what changes between the two is
+        taken on to no width at all.
+    widening_least
+        Where a mesh lets the weights widen by less than this share of what was asked, they count
+        as that much wider.
     side_over_radius
         Sides longer than this share of the radius are split where they lie in a flat facet: it
         has no vertices of its own to pool.
@@ -44,7 +49,9 @@ class PoolingSettings:
         than this, one curvature cannot be told: NaN.
     """
 
-    radius_over_deviation: float = 2.7
+    radius_over_deviation: float = 2.2
+    wider: float = 1.3
+    widening_least: float = 0.5
     side_over_radius: float = 0.5
     rounds: int = 2
     arc_most: float = 0.2
@@ -234,29 +241,9 @@ def pooled_curvature(
     centres, normals, operator = _pooling(vertices, faces, radius, subset)
     pooled = diffused(operator, _moment_fields(centres, normals))
     whole = np.full((2, len(vertices)), np.nan)
-    whole[:, chosen] = _principal(*_covariances(pooled[:, : len(chosen)][:, chosen]))
+    whole[:, chosen] = _principal(*_unsmoothed(pooled[:, :, : len(chosen)][:, :, chosen]))
     k1, k2 = whole
     return PrincipalCurvatures(k1, k2, 0.5 * (k1 + k2), k1 * k2)
-
-
-def pooled_mean_curvature(
-    vertices: Floats, faces: Ints, radius: float, subset: Bools | None = None
-) -> Floats:
-    """The mean curvature at the scale ``radius``, (n,) in 1/length, without its two parts.
-
-    The least-squares factor between the turning and the way, E[(n_q - n).(q - c)] / E[|q - c|^2]:
-    eight pooled fields in place of :func:`pooled_curvature`'s 21. The same on a sphere; elsewhere
-    it is half the sum of k1 and k2 as far as the neighbourhood is round. Arguments, NaN and Raises
-    as there.
-    """
-    centres, normals, operator = _pooling(vertices, faces, radius, subset)
-    x, n = centres.T - centres.mean(axis=0)[:, None], normals.T
-    fields = np.concatenate([x, n, [np.sum(n * x, axis=0), np.sum(x * x, axis=0)]])
-    pooled = diffused(operator, fields)[:, : len(vertices)]
-    turning = pooled[6] - np.sum(pooled[:3] * pooled[3:6], axis=0)
-    way = pooled[7] - np.sum(pooled[:3] ** 2, axis=0)
-    mean: Floats = turning / np.where(way > _least_variance(x), way, np.nan)
-    return mean if subset is None else np.where(subset, mean, np.nan)
 
 
 def _pooling(
@@ -269,8 +256,9 @@ def _pooling(
     vertices, faces = with_flat_facets_split(vertices, faces, POOLING.side_over_radius * radius)
     if subset is not None:
         subset = np.append(subset, np.zeros(len(vertices) - given, dtype=bool))
-    deviation = radius / POOLING.radius_over_deviation
-    return *_stars(vertices, faces), diffusion(vertices, faces, deviation, subset)
+    narrow = radius / POOLING.radius_over_deviation
+    deviations = (narrow, narrow * POOLING.wider**0.5)
+    return *_stars(vertices, faces), diffusion(vertices, faces, deviations, subset)
 
 
 def _stars(vertices: Floats, faces: Ints) -> tuple[Floats, Floats]:
@@ -319,22 +307,64 @@ _SQUARE = np.array([[0, 1, 2], [1, 3, 4], [2, 4, 5]])  # where in them each entr
 
 
 def _moment_fields(centres: Floats, normals: Floats) -> Floats:
-    """What is pooled, (21, n): x (3), x x' (6), n (3), n x' (9)."""
+    """What is pooled, (18, n): x (3), x x' (6), n (3), the symmetric part of n x' (6)."""
     x, n = centres.T - centres.mean(axis=0)[:, None], normals.T
-    products = (n[:, None] * x[None, :]).reshape(9, -1)
-    return np.concatenate([x, x[_UPPER[0]] * x[_UPPER[1]], n, products])
+    row, column = _UPPER
+    turns = 0.5 * (n[row] * x[column] + n[column] * x[row])
+    return np.concatenate([x, x[row] * x[column], n, turns])
 
 
-def _covariances(pooled: Floats) -> tuple[Floats, Floats, Floats]:
-    """Cov(x, x) and Cov(n, x) (k, 3, 3) each, and the pooled unit normals (k, 3)."""
+def _unsmoothed(pooled: Floats) -> tuple[Floats, Floats, Floats]:
+    """S = [[a, b], [b, c]] in the tangent planes without what pooling smooths away, (k,) each.
+
+    Pooled S is off by a multiple of the weights' variance, and by its square and so on: the two
+    scales (2, 18, k) give S = narrow + (narrow - wide) / (wide's variance / narrow's - 1) with
+    nothing of the first kind. The variances are those found, since a mesh may not let the weights
+    spread as they were asked to.
+    """
+    narrow, wide = pooled
+    basis = _tangent_bases(unit(narrow[9:12].T))
+    (s, variance), (s_wide, variance_wide) = _turning(narrow, basis), _turning(wide, basis)
+    least = POOLING.widening_least * (POOLING.wider - 1.0)
+    widening = np.maximum(variance_wide / variance - 1.0, least)
+    a, b, c = s + (s - s_wide) / widening
+    return a, b, c
+
+
+def _turning(pooled: Floats, basis: Floats) -> tuple[Floats, Floats]:
+    """The S (3, k) that best makes turns = S ways, and the ways' variance (k,); NaN on a line.
+
+    The normal equations of min |turn - S way|^2 in S = [[a, b], [b, c]] are, with the tangent
+    covariances [[p, q], [q, r]] of the ways and [[u, v/2], [v/2, w]] of the turns (symmetric
+    part)::
+
+        p a + q b             = u
+        q a + (p + r) b + q c = v
+                  q b + r c   = w
+    """
     x, n = pooled[:3], pooled[9:12]
-    ways = pooled[3:9][_SQUARE] - x[:, None] * x[None, :]
-    turns = pooled[12:].reshape(3, 3, -1) - n[:, None] * x[None, :]
-    return np.moveaxis(ways, -1, 0), np.moveaxis(turns, -1, 0), unit(n.T)
+    row, column = _UPPER
+    ways = _tangent_part(pooled[3:9] - x[row] * x[column], basis)
+    turns = _tangent_part(pooled[12:] - 0.5 * (n[row] * x[column] + n[column] * x[row]), basis)
+    (p, q, r), (u, v, w) = ways, turns * np.array([[1.0], [2.0], [1.0]])
+    both, area = p + r, p * r - q * q
+    known = (area > POOLING.flattest * both * both) & (np.abs(n).max(axis=0) > 0.0)
+    determinant = np.where(known, both * area, np.nan)
+    a = ((both * r - q * q) * u - q * r * v + q * q * w) / determinant
+    b = (p * r * v - q * r * u - p * q * w) / determinant
+    c = ((both * p - q * q) * w - p * q * v + q * q * u) / determinant
+    return np.stack([a, b, c]), np.where(known, both, np.nan)
+
+
+def _tangent_part(upper: Floats, basis: Floats) -> Floats:
+    """The entries 11, 12, 22 (3, k) in the tangent planes of symmetric matrices (6, k)."""
+    matrices = np.moveaxis(upper[_SQUARE], -1, 0)
+    tangent = basis @ matrices @ basis.transpose(0, 2, 1)
+    return np.stack([tangent[:, 0, 0], tangent[:, 0, 1], tangent[:, 1, 1]])
 
 
 def _tangent_bases(normals: Floats) -> Floats:
-    """Two orthonormal tangents of each unit normal, (k, 2, 3), after Duff et al. 2017, Eq. 2."""
+    """Two orthonormal tangents of each unit normal, (k, 2, 3) [duff2017], Eq. 2."""
     x, y, z = normals.T
     sign = np.where(z >= 0.0, 1.0, -1.0)
     a = -1.0 / (sign + z)
@@ -343,32 +373,7 @@ def _tangent_bases(normals: Floats) -> Floats:
     return np.stack([first, np.stack([b, sign + y * y * a, -y], axis=1)], axis=1)
 
 
-def _principal(ways: Floats, turns: Floats, normals: Floats) -> tuple[Floats, Floats]:
-    """Eigenvalues of the symmetric S that best makes turns = S ways in the tangent planes.
-
-    The normal equations of min |turn - S way|^2 in S = [[a, b], [b, c]] are, with the tangent
-    covariances [[p, q], [q, r]] of the ways and [[u, .], [., w]] of the turns, v = u_12 + u_21::
-
-        p a + q b             = u
-        q a + (p + r) b + q c = v
-                  q b + r c   = w
-    """
-    basis = _tangent_bases(normals)
-    tangent_ways = basis @ ways @ basis.transpose(0, 2, 1)
-    tangent_turns = basis @ turns @ basis.transpose(0, 2, 1)
-    p, q, r = tangent_ways[:, 0, 0], tangent_ways[:, 0, 1], tangent_ways[:, 1, 1]
-    u, w = tangent_turns[:, 0, 0], tangent_turns[:, 1, 1]
-    v = tangent_turns[:, 0, 1] + tangent_turns[:, 1, 0]
-    both, area = p + r, p * r - q * q
-    flat = ~(area > POOLING.flattest * both * both) | (np.abs(normals).max(axis=1) == 0.0)
-    determinant = np.where(flat, np.nan, both * area)
-    a = ((both * r - q * q) * u - q * r * v + q * q * w) / determinant
-    b = (p * r * v - q * r * u - p * q * w) / determinant
-    c = ((both * p - q * q) * w - p * q * v + q * q * u) / determinant
+def _principal(a: Floats, b: Floats, c: Floats) -> tuple[Floats, Floats]:
+    """The eigenvalues of [[a, b], [b, c]], the smaller first."""
     mean, half = 0.5 * (a + c), np.hypot(0.5 * (a - c), b)
     return mean - half, mean + half
-
-
-def _least_variance(x: Floats) -> float:
-    """Below this a variance is rounding."""
-    return float(np.finfo(np.float64).eps * 64.0 * np.max(x * x, initial=0.0))

@@ -24,7 +24,7 @@ class DiffusionSettings:
     tolerance
         Chebyshev coefficients below it are left out; the weights still sum to 1.
     degree_most
-        The longest polynomial. A radius of more than about 25 edges is cut to it.
+        The longest polynomial: what spreads faster than it follows is slowed to it.
     nodes
         Chebyshev nodes from which the coefficients are taken.
     crowding_quantile, crowding
@@ -39,8 +39,8 @@ class DiffusionSettings:
     """
 
     tolerance: float = 3e-3
-    degree_most: int = 64
-    nodes: int = 160
+    degree_most: int = 80
+    nodes: int = 200
     crowding_quantile: float = 0.9
     crowding: float = 1.2
     reach_least: float = 0.25
@@ -53,13 +53,13 @@ SETTINGS = DiffusionSettings()
 
 @dataclass(frozen=True, slots=True)
 class Diffusion:
-    """A polynomial in the Laplacian of one mesh, ready for :func:`diffused`.
+    """Polynomials in the Laplacian of one mesh, one per deviation, ready for :func:`diffused`.
 
     The k vertices it works on are taken in the order ``order``, those with the most neighbours
     first. Slot j holds the j-th neighbour of the first ``len(columns[j])`` of them and its weight;
     the many neighbours of a few vertices (the hub of a fan) stand in ``rest_*``, entry by entry.
-    ``centre`` (k,) is the weight of the vertex itself, ``coefficients`` (degree + 1,) are of
-    Chebyshev polynomials.
+    ``centre`` (k,) is the weight of the vertex itself. ``coefficients`` are those of Chebyshev
+    polynomials, (degree + 1,) for each deviation.
     """
 
     order: Ints
@@ -69,20 +69,20 @@ class Diffusion:
     rest_row: Ints
     rest_column: Ints
     rest_weight: Floats
-    coefficients: Floats
+    coefficients: tuple[Floats, ...]
 
 
 def diffusion(
-    vertices: Floats, faces: Ints, deviation: float, subset: Bools | None = None
+    vertices: Floats, faces: Ints, deviations: tuple[float, ...], subset: Bools | None = None
 ) -> Diffusion:
-    """The operator that pools with standard deviation ``deviation`` along the surface.
+    """The operator that pools with each of some standard deviations along the surface.
 
     Parameters
     ----------
     vertices : (n, 3) float64
     faces : (m, 3) int64
         Welded and consistently wound; open meshes are welcome.
-    deviation : float
+    deviations : tuple of float
         In the coordinates' unit, > 0.
     subset : (n,) bool, optional
         Where pooled values are wanted. A polynomial of degree k reaches k rings: the operator
@@ -94,17 +94,17 @@ def diffusion(
     polynomial is in Y = 2 L / bound - 1, whose eigenvalues lie in [-1, 1].
     """
     n = len(vertices)
-    time = 0.5 * deviation * deviation
+    times = [0.5 * deviation * deviation for deviation in deviations]
     row, column, weight = _cotangent_entries(vertices, faces)
     degree: Floats = np.bincount(row, weights=weight, minlength=n).astype(np.float64)
-    rate = _exchange_rates(degree, _projected_areas(vertices, faces), time)
+    rate = _exchange_rates(degree, _projected_areas(vertices, faces), max(times))
     bound = 2.0 * float(rate.max(initial=0.0)) or 1.0
     scale = 2.0 * rate / bound
     weight *= -(scale / np.where(degree > 0.0, degree, 1.0))[row]
-    coefficients = _heat_coefficients(time * bound)
+    coefficients = tuple(_heat_coefficients(time * bound) for time in times)
     kept = np.ones(n, dtype=bool)
     if subset is not None:
-        kept = dilated(subset, faces, len(coefficients) - 1)
+        kept = dilated(subset, faces, max(map(len, coefficients)) - 1)
         inside = kept[row] & kept[column]
         row, column, weight = row[inside], column[inside], weight[inside]
     order, slots, rest = _slots(row, kept)
@@ -123,29 +123,37 @@ def diffusion(
 
 
 def diffused(operator: Diffusion, fields: Floats) -> Floats:
-    """Pool fields (c, n) over the surface; (c, n) out, NaN where the operator does not work.
+    """Pool fields (c, n) over the surface; (deviations, c, n), NaN where nothing was asked.
 
     Each value is a weighted mean over its neighbourhood with weights that sum to 1.
     """
-    pooled = np.full_like(fields, np.nan)
-    for field, result in zip(fields, pooled, strict=True):
+    pooled = np.full((len(operator.coefficients), *fields.shape), np.nan)
+    degree = max(map(len, operator.coefficients)) - 1
+    scratch = np.empty(len(operator.order))
+    for number, field in enumerate(fields):
         before, now = np.empty(0), field[operator.order]
-        total = operator.coefficients[0] * now
-        for k, coefficient in enumerate(operator.coefficients[1:]):
-            following = _product(operator, now)
-            if k > 0:  # T_k+1 = 2 Y T_k - T_k-1
+        totals = [coefficients[0] * now for coefficients in operator.coefficients]
+        for k in range(1, degree + 1):
+            following = _product(operator, now, scratch)
+            if k > 1:  # T_k = 2 Y T_k-1 - T_k-2
                 following *= 2.0
                 following -= before
             before, now = now, following
-            total += coefficient * now
-        result[operator.order] = total
+            for total, coefficients in zip(totals, operator.coefficients, strict=True):
+                if k < len(coefficients):
+                    total += np.multiply(now, coefficients[k], out=scratch)
+        pooled[:, number, operator.order] = totals
     return pooled
 
 
-def _product(operator: Diffusion, field: Floats) -> Floats:
+def _product(operator: Diffusion, field: Floats, scratch: Floats) -> Floats:
     product = operator.centre * field
     for column, weight in zip(operator.columns, operator.weights, strict=True):
-        product[: len(column)] += weight * field[column]
+        part = scratch[: len(column)]
+        # "clip" takes straight into the scratch; the places are inside anyway.
+        np.take(field, column, out=part, mode="clip")
+        part *= weight
+        product[: len(column)] += part
     if len(operator.rest_row):
         rest = operator.rest_weight * field[operator.rest_column]
         product += np.bincount(operator.rest_row, weights=rest, minlength=len(field))
