@@ -19,6 +19,7 @@ from footfit import __version__
 from footfit.errors import SeveralFeet
 from footfit.pipeline.match import Library, matched
 from footfit.report import documents, last_documents, measure_documents, upkeep
+from footfit.report.compare import compare_document
 from footfit.report.lines import failure_document
 from footfit.report.numbers import nested, rounded
 from footfit.report.parts import finite, paper_frame_angle_deg
@@ -33,6 +34,7 @@ from footfit.results import (
     UpgradeOutcome,
 )
 from tests import answers
+from tests.comparisons import comparison
 
 PAGE = Path(__file__).resolve().parents[1] / "docs" / "json.md"
 
@@ -50,6 +52,7 @@ def every_document():
         documents.flare_document(answers.foot()),
         documents.match_document(answers.match()),
         measure_documents.measure_document(answers.measured_scan()),
+        compare_document(comparison()),
         documents.ingest_document(answers.outcome()),
         documents.curvature_document(answers.curvature()),
         documents.error_document(SeveralFeet("two feet; take them apart", "a.stl")),
@@ -125,6 +128,15 @@ def test_the_page_lists_the_keys_of_a_fit() -> None:
     documents.json_line(match)
     checked = upkeep.check_catalogue_document(CheckOutcome("a.footfit", 1, 1, (FINDING,)))
     assert set(checked["findings"][0]) == listed["finding"]
+
+
+def test_the_page_lists_the_keys_of_a_comparison() -> None:
+    listed, document = listed_keys(), compare_document(comparison())
+    assert {key for zone in document["zones"].values() for key in zone} == listed["zone room"]
+    section = document["sections"][0]
+    assert set(section) == listed["section"]
+    assert set(section["sizes"]["width"]) == listed["size difference"]
+    assert set(section["sizes"]["width"]["foot"]) == listed["measured value"]
 
 
 def test_an_error_says_the_same_by_its_class_and_by_its_words() -> None:

@@ -1,26 +1,26 @@
-"""The page: one file, a strict policy, every name escaped, the same bytes; and in a browser."""
+"""The page of a match: one file, a strict policy, every name escaped; in a browser and on paper."""
 
 from __future__ import annotations
 
 import base64
 import hashlib
 import re
-import shutil
-import subprocess
 from dataclasses import replace
 from functools import cache
 from html.parser import HTMLParser
-from pathlib import Path
 
+import numpy as np
 import pytest
 
-from footfit.report import documents, html
+from footfit.pipeline.match import Library, matched
+from footfit.report import compare_html, documents, html
 from footfit.report.html import match_report
-from footfit.results import Measured, Notice
-from tests import answers
+from footfit.results import LastRecord, Measured, Notice
+from tests import answers, browsing
+from tests.comparisons import comparison
 
 HOSTILE = "<script>alert(1)</script>\" onload='x' & \x1b\n"
-BROWSER = shutil.which("chromium") or shutil.which("chromium-browser")
+NAMES = ("derby-42", "oxford-42", "trainer-42", "boot-42", "derby-43")
 
 
 class Page(HTMLParser):
@@ -47,41 +47,68 @@ def pair(**more):
     return answers.match(feet, **more)
 
 
+def lasts() -> tuple[LastRecord, ...]:
+    return tuple(answers.record(name, 8.0 + i, 271.5 + i) for i, name in enumerate(NAMES))
+
+
+def judged_match(feet=None):
+    """An answer that the pipeline judged zone by zone."""
+    feet = (answers.foot(),) if feet is None else feet
+    return matched(feet, Library(lasts(), 12, "derby-42", (("too_long", 3), ("too_short", 4))))
+
+
 @cache
 def drawn(feet: int = 1) -> str:
     """The page of one foot, or of two, with its pictures."""
-    return match_report(answers.match() if feet == 1 else pair(), {"derby-42": answers.tube(271.5)})
+    sides = ((False, True),) if feet == 1 else ((True, True), (False, True))
+    rooms = [comparison(*side, path=("r.stl", "l.stl")[side[0]]) for side in sides]
+    match = judged_match() if feet == 1 else judged_match(pair().feet)
+    return match_report(match, {"derby-42": answers.tube(271.5)}, rooms)
 
 
 @pytest.fixture
 def unpictured(monkeypatch) -> None:
     """Pages without pictures, for tests of the words alone."""
-    monkeypatch.setattr(html, "_pictures", lambda *_: "")
+    monkeypatch.setattr(html, "picture", lambda *_, **__: "")
+    monkeypatch.setattr(compare_html, "picture", lambda *_, **__: "")
 
 
 def test_the_page_is_the_same_twice() -> None:
-    again = match_report(answers.match(), {"derby-42": answers.tube(271.5)})
-    assert drawn() == again
+    first = drawn()
+    assert drawn.__wrapped__() == first
+    assert len(first.encode()) < 6_000_000
 
 
-def test_the_policy_allows_the_pages_own_style_and_nothing_else() -> None:
+def test_the_policy_allows_the_pages_own_style_and_script_and_nothing_else() -> None:
     page = drawn()
     policy = next(
         a["content"]
         for tag, a in Page(page).tags
         if tag == "meta" and a.get("http-equiv") == "Content-Security-Policy"
     )
-    style = re.search("<style>(.*?)</style>", page, re.DOTALL)[1]
-    digest = base64.b64encode(hashlib.sha256(style.encode()).digest()).decode()
-    assert f"style-src 'sha256-{digest}'" in policy
+    for name in ("style", "script"):
+        inside = re.search(f"<{name}>(.*?)</{name}>", page, re.DOTALL)[1]
+        digest = base64.b64encode(hashlib.sha256(inside.encode()).digest()).decode()
+        assert f"{name}-src 'sha256-{digest}'" in policy
     assert "default-src 'none'" in policy
     assert "unsafe" not in policy
+    assert "http" not in policy
 
 
-def test_nothing_comes_from_outside_and_nothing_runs() -> None:
+def test_a_page_without_a_view_runs_nothing() -> None:
+    page = match_report(answers.match())
+    assert "<script" not in page
+    assert "script-src" not in page
+    assert "<canvas" not in page
+
+
+def test_nothing_comes_from_outside_and_one_script_runs() -> None:
     page = drawn(2)
-    for tag, attributes in Page(page).tags:
-        assert tag not in {"script", "iframe", "link", "object", "embed", "form", "a"}
+    tags = Page(page).tags
+    assert [tag for tag, _ in tags].count("script") == 1
+    assert [tag for tag, _ in tags].count("canvas") == 1
+    for tag, attributes in tags:
+        assert tag not in {"iframe", "link", "object", "embed", "form", "a"}
         assert not {name for name in attributes if name.startswith("on") or name == "style"}
         assert attributes.get("src", "data:").startswith("data:image/svg+xml;base64,") or not (
             attributes.get("src")
@@ -93,9 +120,9 @@ def test_nothing_comes_from_outside_and_nothing_runs() -> None:
 def test_the_page_names_no_folder_of_the_machine() -> None:
     page = drawn(2)
     pictures = [
-        base64.b64decode(found).decode("utf-8") for found in re.findall(r"base64,([^\"]+)", page)
+        base64.b64decode(found).decode("utf-8") for found in re.findall(r'base64,([^"]+)', page)
     ]
-    assert len(pictures) == 4
+    assert len(pictures) == 6
     for text in (page, *pictures):
         assert "someone" not in text
         assert "C:" not in text
@@ -114,15 +141,17 @@ def test_every_outside_string_is_escaped() -> None:
         profile=HOSTILE,
         warnings=(Notice("x", HOSTILE),),
     )
-    page = Page(match_report(match))
-    assert "script" not in {tag for tag, _ in page.tags}
+    last = comparison().last
+    named = replace(last, labels=replace(last.labels, name=HOSTILE))
+    page = Page(match_report(match, None, [replace(comparison(), last=named)]))
+    assert [tag for tag, _ in page.tags].count("script") == 1
     assert not [a for _, attributes in page.tags for a in attributes if a.startswith("on")]
     assert page.text().count("<script>alert(1)</script>") >= 6
     assert "\x1b" not in page.text()
 
 
 def test_the_page_says_what_the_json_says() -> None:
-    match = answers.match()
+    match = judged_match()
     text = Page(drawn()).text()
     for candidate in documents.match_document(match)["candidates"]:
         assert candidate["last"] in text
@@ -131,9 +160,39 @@ def test_the_page_says_what_the_json_says() -> None:
         room = candidate["clearance_mm"]["length"]
         assert f"{room['value']:+.1f} ± {room['sd']:.1f}" in text
         assert candidate["why"] in text
+        for zone in candidate["fits"][0]["zones"].values():
+            value = zone["clearance"]["value"]
+            assert value is None or f"{value:+.1f}" in text
     assert "260.0 ± 0.4 mm" in text
     assert "+10.0 ± 0.2 degrees: straight" in text
-    assert "Left out: 3 too long; 4 too short." in text
+    assert "3 too long; 4 too short." in text
+    for zone in comparison().zones:
+        assert f"{zone.mean_mm:+.1f}" in text
+
+
+@pytest.mark.usefixtures("unpictured")
+def test_every_verdict_is_a_word_and_a_shape_beside_its_colour() -> None:
+    lights = {"good": "●", "acceptable": "▲", "poor": "■", "reject": "✕"}
+    match = judged_match()
+    for verdict, shape in lights.items():
+        shown = [replace(one, verdict=verdict) for one in match.candidates]
+        page = match_report(replace(match, candidates=tuple(shown)))
+        assert page.count(f"<i>{shape}</i> {verdict}") == len(shown) + 1  # the best one twice
+    zones = [zone for fit in match.candidates[0].fits for zone in fit.zones]
+    page = match_report(match)
+    for zone in zones:
+        mark = lights.get(zone.verdict or "", "–")
+        assert f'title="{zone.verdict or "not judged"}">{mark}</i>' in page
+
+
+@pytest.mark.usefixtures("unpictured")
+def test_the_customers_sizes_come_first_and_the_asked_one_with_its_neighbours() -> None:
+    text = Page(match_report(judged_match())).text()
+    assert text.index("EU 41") < text.index("The lasts")
+    asked = replace(judged_match(), size_system="uk")
+    words = Page(match_report(asked)).text()
+    assert "UK 7.5 between UK 7 and UK 8" in words
+    assert words.index("UK 7.5") < words.index("EU 41")
 
 
 @pytest.mark.usefixtures("unpictured")
@@ -151,6 +210,8 @@ def test_nothing_fits_is_an_answer() -> None:
     )
     text = Page(match_report(nothing)).text()
     assert "No last fits." in text
+    near = replace(nothing, nearest=answers.match().candidates[:3])
+    assert "what they miss by" in Page(match_report(near)).text()
     assert "no last has the length" in text
 
 
@@ -171,40 +232,26 @@ def test_what_is_not_measured_says_why() -> None:
 
 def test_every_picture_says_what_it_shows() -> None:
     images = [a for tag, a in Page(drawn(2)).tags if tag == "img"]
-    assert len(images) == 4
+    assert len(images) == 6
     assert all(len(image["alt"]) > 40 for image in images)
 
 
-def browse(page: str, folder: Path) -> str:
-    """Show a page in a headless browser, with a picture of it; return what it complained of."""
-    folder.mkdir()
-    (folder / "page.html").write_text(page, encoding="utf-8")
-    options = ["--headless", "--no-sandbox", "--disable-gpu", "--enable-logging=stderr"]
-    run = subprocess.run(
-        [
-            BROWSER,
-            *options,
-            f"--user-data-dir={folder / 'profile'}",
-            "--window-size=1100,3600",
-            f"--screenshot={folder / 'page.png'}",
-            f"file://{folder / 'page.html'}",
-        ],
-        capture_output=True,
-        text=True,
-        check=False,
-    )
-    return "\n".join(line for line in run.stderr.splitlines() if "CONSOLE" in line)
+needs_browser = pytest.mark.skipif(browsing.BROWSER is None, reason=browsing.MISSING)
 
 
-@pytest.mark.skipif(BROWSER is None, reason="no Chromium on this machine")
+@needs_browser
 def test_a_browser_draws_the_page_and_complains_of_nothing(tmp_path) -> None:
-    from matplotlib.image import imread
-
-    assert browse(drawn(2), tmp_path / "good") == ""
-    picture = imread(tmp_path / "good" / "page.png")[..., :3]
-    blue = (picture[..., 2] - picture[..., 0] > 0.08) & (picture[..., 2] > 0.85)
-    orange = (picture[..., 0] - picture[..., 2] > 0.1) & (picture[..., 0] > 0.9)
-    assert blue.mean() > 0.01, "the rear windows of the plots are not drawn"
-    assert orange.mean() > 0.01, "the fore windows of the plots are not drawn"
+    good = browsing.browse(drawn(2), tmp_path / "good")
+    assert good.console == ""
+    assert good.requests == []
+    coloured = np.abs(good.picture[..., 0] - good.picture[..., 2]) > 0.15
+    assert coloured.mean() > 0.02, "the pictures are not drawn"
     spoilt = drawn().replace("<h1>", "<h1 style='color:red' onclick='alert(1)'>")
-    assert "Content Security Policy" in browse(spoilt, tmp_path / "bad")
+    bad = browsing.browse(spoilt, tmp_path / "bad")
+    assert "Content Security Policy" in bad.console
+
+
+@needs_browser
+def test_a_customer_prints_on_two_sheets(tmp_path) -> None:
+    assert browsing.printed_sheets(drawn(), tmp_path / "one") in (1, 2)
+    assert browsing.printed_sheets(drawn(2), tmp_path / "two") in (1, 2)

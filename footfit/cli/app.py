@@ -13,6 +13,7 @@ from footfit.cli.backup_catalogue import backup_catalogue
 from footfit.cli.boundary import guarded
 from footfit.cli.catalogue_info import catalogue_info
 from footfit.cli.check_catalogue import check_catalogue
+from footfit.cli.compare import compare
 from footfit.cli.curvature import curvature
 from footfit.cli.demo import demo
 from footfit.cli.export_last import export_last
@@ -29,7 +30,8 @@ from footfit.cli.settings import one_blas_thread
 from footfit.cli.show_last import show_last
 from footfit.cli.upgrade_catalogue import upgrade_catalogue
 
-PAPER, LIBRARY, START = "The paper's commands", "The library of lasts", "Start here"
+PAPER, FIT = "The paper's commands", "Fit"
+LIBRARY, START = "The library of lasts", "Start here"
 
 COMMANDS = (
     ("demo", demo, START),
@@ -40,6 +42,7 @@ COMMANDS = (
     ("curvature", curvature, PAPER),
     ("measure", measure, PAPER),
     ("match", match, PAPER),
+    ("compare", compare, FIT),
     ("list-lasts", list_lasts, LIBRARY),
     ("show-last", show_last, LIBRARY),
     ("rename-last", rename_last, LIBRARY),

@@ -53,6 +53,7 @@ HOW = {
 }
 UNITS = {"mm": " mm", "deg": "°", "percent": " %", "ratio": ""}
 SHOWN_SYSTEMS = ("eu", "uk", "us-men", "us-women", "mondopoint")
+PAIR_NOTICES = {"pair_difference", "feet_differ_by_a_size"}
 ONLY_FEW_FEET = 2
 """A customer has at most two feet; a pair's pictures stand side by side on paper."""
 
@@ -192,8 +193,10 @@ def _title(name: str) -> str:
 
 
 def _pair(match: Match) -> str:
+    """How two feet differ, where no notice says it."""
     lengths = [foot.aligned.alignment.length_mm for foot in match.feet]
-    if len(lengths) != ONLY_FEW_FEET:
+    told = {notice.code for notice in match.warnings} & PAIR_NOTICES
+    if told or len(lengths) != ONLY_FEW_FEET:
         return ""
     difference = plain(abs(lengths[0] - lengths[1]))
     return f"<p>The feet differ by {difference} mm in length; the longer one governs.</p>"

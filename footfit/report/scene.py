@@ -30,8 +30,8 @@ MOST_VERTICES = 65_536
 UNKNOWN = -32_768
 """The room where nothing is compared, in hundredths of a mm."""
 LARGEST_MM = 300.0
-MARGIN = 1.04
-START = {"right": (130.0, 22.0), "left": (-130.0, 22.0)}
+MARGIN = 1.12
+START = {"right": (58.0, 24.0), "left": (-58.0, 24.0)}
 """Azimuth and elevation at first: from the front of the medial side, where it mostly presses."""
 
 
@@ -109,7 +109,8 @@ def _scene_data(
     low, high = np.minimum(low, shown.min(axis=0)), np.maximum(high, shown.max(axis=0))
     length, height = float(np.linalg.norm((high - low)[:2])), float(high[2] - low[2])
     side = comparison.foot.aligned.alignment.side.side or "right"
-    lean = np.radians(START[side][1])
+    turn, lean = np.radians(START[side])
+    deep = length * abs(np.cos(turn)) * np.sin(lean)
     scene = {
         "foot": packed_mesh(*foot) | {"room": packed_room(comparison.room_mm)},
         "last": packed_mesh(*last),
@@ -119,7 +120,7 @@ def _scene_data(
         "centre": [round(float(value), 3) for value in 0.5 * (low + high)],
         "size": [
             round(MARGIN * length, 1),
-            round(MARGIN * float(height * np.cos(lean) + length * np.sin(lean)), 1),
+            round(MARGIN * float(height * np.cos(lean) + deep), 1),
         ],
         "view": START[side],
     }

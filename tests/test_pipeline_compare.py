@@ -1,0 +1,147 @@
+"""From files to a comparison: poses, sides, files against the catalogue, and the command."""
+
+from __future__ import annotations
+
+import json
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from footfit.errors import NoSole
+from footfit.geometry.clearance import ZONES, zone_of
+from footfit.geometry.landmarks import Shape
+from footfit.geometry.surface import vertex_areas, vertex_normals
+from footfit.meshes.write import encoded_mesh
+from footfit.pipeline.compare import best_comparison, compared, repeatability_mm, stored_last
+from footfit.pipeline.lasts import library
+from footfit.pipeline.match import matched
+from footfit.pipeline.reading import profiled_source
+from footfit.pipeline.shapes import best_comparisons
+from footfit.pipeline.sources import ReadingOptions, Source
+from tests.answers import turned
+from tests.comparisons import comparison, last
+from tools.lasts import LastSpec, last_mesh
+
+LAST = "loafer-40"
+
+
+@pytest.fixture(scope="module")
+def scan(foot):
+    return profiled_source(Source(str(foot)), ReadingOptions())
+
+
+def test_a_turned_scan_has_the_same_room(scan, stocked, tmp_path):
+    aligned = scan.aligned
+    vertices = aligned.vertices_mm @ turned(2.1).T + [300.0, -40.0, 90.0]
+    path = tmp_path / "turned.stl"
+    path.write_bytes(encoded_mesh(vertices, aligned.faces, "stl"))
+    again = profiled_source(Source(str(path)), ReadingOptions())
+    one, other = (compared(foot, stored_last(stocked, LAST)) for foot in (scan, again))
+    for here, there in zip(one.zones, other.zones, strict=True):
+        assert here.mean_mm == pytest.approx(there.mean_mm, abs=0.15)
+        assert here.area_cm2 == pytest.approx(there.area_cm2, abs=2.0)
+    for here, there in zip(one.sections, other.sections, strict=True):
+        for a, b in zip(here.sizes, there.sizes, strict=True):
+            assert (a.difference.value is None) == (b.difference.value is None)
+            if a.difference.value is not None:
+                assert a.difference.value == pytest.approx(b.difference.value, abs=0.8)
+    assert one.docking.swing_mm == pytest.approx(other.docking.swing_mm, abs=0.5)
+
+
+def test_the_room_in_a_wider_copy_is_what_was_added_along_the_normals():
+    """To first order a wall that moves by d across gives d times the Y part of its normal."""
+    spec = LastSpec(length_mm=272.0, flare_deg=8.0, rings=60, segments=48)
+    vertices, faces = last_mesh(spec)
+    foot = comparison().foot
+    inside = replace(foot, aligned=replace(foot.aligned, vertices_mm=vertices, faces=faces))
+    found = compared(inside, replace(last(), vertices_mm=vertices * [1.0, 1.06, 1.0]))
+    normals, areas = vertex_normals(vertices, faces), vertex_areas(vertices, faces)
+    added = 0.06 * vertices[:, 1] * normals[:, 1]
+    zone = zone_of(Shape(vertices, faces))
+    known = np.isfinite(found.room_mm)
+    for side in found.zones:
+        here = known & (zone == ZONES.index(side.zone))
+        expected = added[here] @ areas[here] / areas[here].sum()
+        assert side.mean_mm == pytest.approx(expected, abs=0.25), side.zone
+    for section in found.sections:
+        width = section.sizes[0]
+        assert width.difference.value == pytest.approx(0.06 * width.foot.value, abs=0.8)
+
+
+def test_edges_add_up_to_the_width():
+    for section in comparison().sections:
+        sizes = {size.name: size.difference.value for size in section.sizes}
+        assert sizes["medial"] + sizes["lateral"] == pytest.approx(sizes["width"], abs=1e-9)
+    assert repeatability_mm("girth") >= repeatability_mm("width") > 0.0
+
+
+def test_a_foot_in_a_last_far_too_short_is_said(stocked):
+    foot = comparison().foot
+    short = replace(last(), record=replace(last().record, length_mm=200.0))
+    codes = {notice.code for notice in compared(foot, short).warnings}
+    assert "far_size" in codes
+
+
+def test_a_last_without_a_bottom_is_refused():
+    vertices, faces = last().vertices_mm, last().faces
+    front = faces[(vertices[faces][:, :, 0] < 60.0).all(axis=1)]
+    with pytest.raises(NoSole):
+        compared(comparison().foot, replace(last(), faces=front))
+
+
+def test_a_match_is_shown_in_its_best_last(scan, stocked):
+    match = matched([scan], library(stocked))
+    best = best_comparison(stocked, match)
+    shown = match.candidates or match.nearest
+    assert best.last.labels.name == shown[0].last
+    assert len(best_comparisons(stocked, match)) == 1
+    assert best_comparison(stocked, replace(match, candidates=(), nearest=())) is None
+    gone = replace(shown[0], last="no such last")
+    assert best_comparison(stocked, replace(match, candidates=(gone,))) is None
+
+
+# ---------------------------------------------------------------- the command
+
+
+def test_the_command_writes_every_file_and_says_what_they_say(footfit, foot, stocked, tmp_path):
+    names = ("heat.ply", "sections.svg", "page.html", "table.csv")
+    heat, sections, page, table = (tmp_path / name for name in names)
+    files = ("-o", heat, "--plot", sections, "--html", page, "--csv", table)
+    run = footfit("compare", foot, LAST, "--json", "--catalogue", stocked, *files)
+    assert run.code == 0, run.err
+    document = run.document
+    assert document["schema"] == "footfit.compare/1"
+    assert document["last"] == LAST
+    assert heat.read_bytes().startswith(b"ply\n")
+    assert sections.read_bytes().startswith(b"<?xml")
+    assert f"{document['zones']['toe']['mean_mm']:+.1f}" in page.read_text(encoding="utf-8")
+    assert str(document["sections"][0]["sizes"]["width"]["difference"]["value"]) in (
+        table.read_text(encoding="utf-8")
+    )
+    again = footfit("compare", foot, LAST, "--catalogue", stocked, "-o", heat)
+    assert again.code == 2
+    assert "--force" in again.err
+
+
+def test_a_last_can_be_a_file(footfit, foot, stocked):
+    from tests.conftest import SAMPLES
+
+    path = SAMPLES / "lasts" / f"{LAST}.stl"
+    by_file = footfit("compare", foot, path, "--json").document
+    by_name = footfit("compare", foot, LAST, "--json", "--catalogue", stocked).document
+    assert by_file["last"] == LAST
+    for zone, figures in by_name["zones"].items():
+        assert by_file["zones"][zone]["mean_mm"] == pytest.approx(figures["mean_mm"], abs=0.1)
+
+
+def test_an_unknown_last_and_a_wrong_suffix_are_refused(footfit, foot, stocked, tmp_path):
+    unknown = footfit("compare", foot, "no-such-last", "--catalogue", stocked)
+    assert unknown.code == 4
+    wrong = footfit(
+        "compare", foot, LAST, "--catalogue", stocked, "-o", tmp_path / "heat.stl", "--json"
+    )
+    assert wrong.code == 2
+    assert json.loads(wrong.last_error)["code"] == "bad_option"
+    assert not (tmp_path / "heat.stl").exists()
+    assert wrong.out == ""

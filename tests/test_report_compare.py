@@ -1,0 +1,151 @@
+"""A comparison's document, tables, files and page: they say the same, and nothing hidden."""
+
+from __future__ import annotations
+
+import csv
+import io
+import re
+from dataclasses import replace
+from functools import cache
+
+import numpy as np
+import pytest
+
+from footfit.meshes.read import scan_from_bytes
+from footfit.report import compare_html
+from footfit.report.compare import (
+    CSV_COLUMNS,
+    compare_csv,
+    compare_document,
+    compare_table,
+)
+from footfit.report.compare_html import compare_report
+from footfit.report.compare_pictures import heat_bytes, sections_plot
+from footfit.report.heat import heat_colours
+from footfit.report.heat_figure import heat_image, own_side
+from footfit.report.lines import json_line
+from footfit.report.shading import VIEWS, Frame
+from footfit.report.tables import terminal_text
+from footfit.results import Notice
+from tests import browsing, shapes
+from tests.comparisons import comparison
+
+
+@cache
+def page_of() -> str:
+    return compare_report(comparison())
+
+
+@pytest.fixture
+def unpictured(monkeypatch) -> None:
+    """Pages without pictures, for tests of the words alone."""
+    monkeypatch.setattr(compare_html, "picture", lambda *_, **__: "")
+
+
+needs_browser = pytest.mark.skipif(browsing.BROWSER is None, reason=browsing.MISSING)
+
+
+def test_the_terminal_says_what_the_json_says_within_80_columns():
+    document, text = compare_document(comparison()), terminal_text(compare_table(comparison()))
+    assert max(len(line) for line in text.splitlines()) <= 80
+    for name, zone in document["zones"].items():
+        line = next(line for line in text.splitlines() if line.strip().startswith(name))
+        assert f"{zone['mean_mm']:+.1f}" in line
+        assert f"{zone['p05_mm']:+.1f}" in line
+    for section in document["sections"]:
+        lines = text.split("Sections", 1)[1].splitlines()
+        line = next(x for x in lines if x.strip().startswith(section["station"] + " "))
+        for size in section["sizes"].values():
+            value = size["difference"]["value"]
+            assert (f"{value:+.1f}" if value is not None else "-") in line
+    assert json_line(document)
+
+
+def test_the_csv_has_a_row_for_every_size_and_every_zones_figure():
+    rows = list(csv.DictReader(io.StringIO(compare_csv([comparison()]))))
+    assert tuple(rows[0]) == CSV_COLUMNS
+    document = compare_document(comparison())
+    assert len(rows) == sum(len(s["sizes"]) for s in document["sections"]) + 6 * len(
+        document["zones"]
+    )
+    for row in rows:
+        assert (row["difference"] == "") == bool(row["reason"])
+
+
+@pytest.mark.usefixtures("unpictured")
+def test_a_hostile_name_stays_a_name():
+    name = "=cmd|'x'!A1<script>\x1b[31m"
+    last = comparison().last
+    hostile = replace(comparison(), last=replace(last, labels=replace(last.labels, name=name)))
+    assert "\x1b" not in terminal_text(compare_table(hostile))
+    assert next(iter(csv.DictReader(io.StringIO(compare_csv([hostile])))))["last"].startswith("'=")
+    page = compare_report(hostile)
+    assert page.count("<script>") == 1
+    assert "&lt;script&gt;" in page
+
+
+def test_the_coloured_mesh_reads_back_with_its_room():
+    data = heat_bytes(comparison(), "ply")
+    header = data[: data.index(b"end_header")].decode()
+    assert "property float room_mm" in header
+    assert "property uchar red" in header
+    scan = scan_from_bytes(data, path=None, format="ply", units="mm")
+    assert len(scan.faces) == len(comparison().faces)
+
+
+def test_a_left_foots_files_are_of_the_left():
+    right, left = (own_side(comparison(side, side))[0][0] for side in (False, True))
+    assert np.allclose(right * [1.0, -1.0, 1.0], left)
+
+
+def test_mirrored_pairs_have_the_same_room_and_a_mirrored_last_too():
+    first = comparison()
+    for other in (comparison(True, True), comparison(False, True), comparison(True, False)):
+        assert np.allclose(first.room_mm, other.room_mm, atol=1e-6, equal_nan=True)
+        assert other.zones == pytest.approx(first.zones) or all(
+            abs(a.mean_mm - b.mean_mm) < 1e-6 for a, b in zip(first.zones, other.zones, strict=True)
+        )
+    assert not first.mirrored
+    assert comparison(False, True).mirrored
+
+
+def test_the_heat_picture_has_the_colour_of_each_place():
+    vertices, faces = shapes.sphere(50.0, 3)
+    room = np.where(vertices[:, 0] < 0.0, -9.0, 9.0)
+    frame = Frame(-60.0, 60.0, -60.0, 60.0)
+    image = heat_image(vertices @ VIEWS["from_above"].T, faces, room, frame, 120)
+    tight, loose = (heat_colours(np.array([value]))[0] for value in (-9.0, 9.0))
+    assert np.abs(image[60, 30, :3] / image[60, 30, :3].max() - tight / tight.max()).max() < 0.02
+    assert np.abs(image[60, 90, :3] / image[60, 90, :3].max() - loose / loose.max()).max() < 0.02
+    assert image[0, 0, 3] == 0.0
+    area = image[..., 3].mean() * 120.0**2
+    assert area == pytest.approx(np.pi * 50.0**2, rel=0.02)
+
+
+def test_pictures_are_the_same_twice():
+    assert sections_plot(comparison(), "svg") == sections_plot(comparison(), "svg")
+    assert heat_bytes(comparison(), "png") == heat_bytes(comparison(), "png")
+
+
+def test_the_page_is_the_same_twice_small_and_has_no_outside_address():
+    page = page_of()
+    assert page == compare_report(comparison())
+    assert len(page.encode()) < 6_000_000
+    assert "http://" not in page
+    assert "https://" not in page
+    assert len(re.findall("<img alt=", page)) == 3
+
+
+@pytest.mark.usefixtures("unpictured")
+def test_a_warning_is_on_the_page():
+    warned = replace(comparison(), warnings=(Notice("far_size", "no shoe for it"),))
+    assert "no shoe for it" in compare_report(warned)
+
+
+@needs_browser
+def test_the_page_is_drawn_and_prints_on_two_sheets(tmp_path):
+    page = page_of()
+    seen = browsing.browse(page, tmp_path / "page")
+    assert seen.console == ""
+    assert seen.requests == []
+    assert browsing.printed_sheets(page, tmp_path / "paper") in (1, 2)
