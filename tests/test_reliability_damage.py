@@ -8,13 +8,14 @@ from pathlib import Path
 
 import pytest
 
+from footfit.catalogue.migrate import Schema
 from footfit.catalogue.ranges import implausible
 from footfit.catalogue.reading import StoredLast, stored_lasts
 from footfit.catalogue.store import open_catalogue
 from tests import records
 from tests.conftest import Footfit
 from tests.torture.damage import HARMS, column_trials, damage_trials
-from tests.torture.migrations import OLD_FILE, later_schema
+from tests.torture.migrations import OLD_FILES, later_schema
 from tests.torture.scripts import values
 
 COUNTS = dict(zip(HARMS, (100, 20, 20, 10), strict=True))
@@ -141,18 +142,23 @@ def test_a_value_that_cannot_be_is_found_though_its_hash_is_right(
     assert any(column in words or "curves" in words for words in implausible(wrong))
 
 
-def test_the_first_released_file_is_read_checked_and_upgraded(tmp_path: Path) -> None:
-    """What the first schema stored is what every later one reads: value by value."""
-    path = Path(shutil.copy(OLD_FILE, tmp_path / "lasts.footfit"))
+def test_every_schema_has_a_stored_file() -> None:
+    assert [file.stem.partition("-")[2] for file in OLD_FILES] == list(Schema().revisions)
+
+
+@pytest.mark.parametrize("stored", OLD_FILES, ids=lambda file: file.stem)
+def test_a_stored_file_is_read_checked_and_upgraded(tmp_path: Path, stored: Path) -> None:
+    """What a released schema stored is what every later one reads: value by value."""
+    path = Path(shutil.copy(stored, tmp_path / "lasts.footfit"))
     with open_catalogue(path, older=True) as catalogue:
         assert [finding for finding in catalogue.findings() if finding.damage] == []
         names = catalogue.names()
-    old = {name: rows for name, rows in values(path) if name != b"alembic_version"}  # type: ignore[misc]
+    old = dict(values(path))  # type: ignore[arg-type]
     with open_catalogue(path, write=True, schema=later_schema()) as catalogue:
         assert [finding for finding in catalogue.findings() if finding.damage] == []
         assert catalogue.names() == names
         assert [record.labels.name for record in catalogue.records()] == list(names)
     new = dict(values(path))  # type: ignore[arg-type]
-    for table, rows in old.items():
-        width = len(rows[0])
-        assert [row[:width] for row in new[table]] == rows or table == "alembic_version"
+    for table in old.keys() - {"alembic_version"}:
+        width = len(old[table][0])
+        assert [row[:width] for row in new[table]] == old[table], table

@@ -17,7 +17,7 @@ from pathlib import Path
 
 from tests.torture import crowd, damage, full, kills, power, signals, syscalls, upgrades
 from tests.torture.scripts import EDIT, INGEST, MIGRATE
-from tests.torture.tally import Tally
+from tests.torture.tally import Tally, memory
 
 Trial = tuple[str, Callable[[Path], Tally]]
 ALL = (INGEST, EDIT, MIGRATE)
@@ -91,7 +91,10 @@ def main() -> int:
     for kind, trial in trials(asked.scale, asked.seed):
         if not kind.startswith(asked.only):
             continue
-        folder, begun = Path(tempfile.mkdtemp(prefix="footfit-torture-")), time.monotonic()
+        folder, begun = (
+            Path(tempfile.mkdtemp(prefix="footfit-torture-", dir=memory())),
+            time.monotonic(),
+        )
         try:
             tally = trial(folder)
         finally:

@@ -10,8 +10,10 @@ from pathlib import Path
 
 from footfit.catalogue.migrate import Schema, migrations_folder
 
-OLD_FILE = Path(__file__).resolve().parents[1] / "data" / "catalogue-0001.footfit"
-"""A catalogue of four lasts as the first released schema has it; never made anew."""
+DATA = Path(__file__).resolve().parents[1] / "data"
+OLD_FILES = tuple(sorted(DATA.glob("catalogue-*.footfit")))
+"""A catalogue of four lasts as each released schema has it (``old_file.py``)."""
+OLD_FILE = OLD_FILES[0]
 HEAD = Schema().head
 
 _BODIES = (

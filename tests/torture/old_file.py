@@ -1,0 +1,32 @@
+"""``python -m tests.torture.old_file``: store a catalogue as the newest schema has it.
+
+Run once when a schema is released, never again for it: ``tests/data/catalogue-NNNN.footfit`` is
+what footfit of that day wrote, and what every later one must read and upgrade.
+"""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from footfit.catalogue.store import open_catalogue
+from footfit.meshes.copies import compact_copy
+from tests import answers, records
+from tests.torture.migrations import DATA, HEAD
+
+LASTS = 4
+
+
+def store(path: Path) -> None:
+    """Write a small catalogue with both sides, a parent, notices, measures and mesh copies."""
+    copy = compact_copy(*answers.tube(260.0, rings=24, sides=16))
+    with open_catalogue(path, write=True) as catalogue:
+        for seed in range(LASTS):
+            side, parent = ("right", "left")[seed % 2], "last-0" if seed == 3 else None
+            catalogue.add(records.last(f"last-{seed}", seed, side=side, parent=parent), copy)
+
+
+if __name__ == "__main__":
+    target = DATA / f"catalogue-{HEAD}.footfit"
+    target.unlink(missing_ok=True)
+    store(target)
+    print(target)
