@@ -44,6 +44,10 @@ bench: $(STAMP)  ## the benchmarks' tables (make bench WRITE=--write puts them i
 	$(BIN)/python -m pip install --quiet --editable '.[bench]'
 	@set -e; for b in $(BENCHMARKS); do $(BIN)/python -m benchmarks.$$b $(WRITE); done
 
+torture: $(STAMP)  ## the long trials of docs/reliability.md (make torture SCALE=0.1 SEED=2)
+	$(BIN)/python -m tests.torture --seed $(or $(SEED),1) --scale $(or $(SCALE),1)
+	$(BIN)/python -m tools.fuzz --count 20000 --seed $(or $(SEED),1)
+
 clean:           ## remove what make made
 	rm -rf $(VENV) demo dist build .pytest_cache .mypy_cache .ruff_cache .hypothesis .import_linter_cache
 	find . -name __pycache__ -type d -prune -exec rm -rf {} +

@@ -3,23 +3,18 @@
 from __future__ import annotations
 
 import os
-import random
-import signal
 import sqlite3
 import subprocess
 import sys
-import time
 from pathlib import Path
 
 import pytest
 
 from footfit.catalogue.store import open_catalogue
-from footfit.errors import NoCatalogue
 from tests import records
 
 ROOT = Path(__file__).resolve().parents[1]
-WRITERS, LASTS_EACH = 4, 6
-KILLS = 8
+LASTS_EACH = 6
 PAGE = 4_096
 
 FILL = """
@@ -51,75 +46,12 @@ def filling(path: Path, first: int, count: int) -> subprocess.Popen[str]:
     )
 
 
-def test_processes_that_create_and_fill_one_catalogue_at_once(tmp_path: Path) -> None:
-    """None meets a lock error or a half-made schema, and readers meanwhile see whole lasts."""
-    path = tmp_path / "lasts.footfit"
-    writers = [filling(path, i * LASTS_EACH, LASTS_EACH) for i in range(WRITERS)]
-    seen = 0
-    while any(writer.poll() is None for writer in writers):
-        try:
-            with open_catalogue(path) as catalogue:
-                rows = catalogue.rows_for_search()
-                assert rows.damaged == ()
-                assert all(record.paper_transform is not None for record in rows.records)
-                assert len(rows.records) >= seen
-                seen = len(rows.records)
-        except NoCatalogue:
-            assert seen == 0
-        time.sleep(0.02)
-    for writer in writers:
-        out, err = writer.communicate()
-        assert writer.returncode == 0, err
-        assert len(out.splitlines()) == LASTS_EACH
-    with open_catalogue(path) as catalogue:
-        assert len(catalogue.names()) == WRITERS * LASTS_EACH
-        assert catalogue.findings() == []
-        reference = catalogue.reference()
-        assert reference is not None
-        assert (
-            reference.last
-            == min(
-                catalogue.file.connection.execute("SELECT name, id FROM last").fetchall(),
-                key=lambda row: row[1],
-            )[0]
-        )
-
-
 def test_the_same_lasts_from_two_processes_are_stored_once(tmp_path: Path) -> None:
     path = tmp_path / "lasts.footfit"
     writers = [filling(path, 0, LASTS_EACH) for _ in range(2)]
     names = [name for writer in writers for name in writer.communicate()[0].splitlines()]
     assert [writer.returncode for writer in writers] == [0, 0]
     assert sorted(names) == [f"last-{seed:03d}" for seed in range(LASTS_EACH)]
-
-
-def test_kills_at_random_moments_lose_nothing_acknowledged(tmp_path: Path) -> None:
-    """kill -9 while a catalogue is made and filled; then the rerun equals an undisturbed run."""
-    generator = random.Random(6)
-    undisturbed = tmp_path / "undisturbed"
-    begun = time.monotonic()
-    assert filling(undisturbed, 0, LASTS_EACH).wait() == 0
-    whole_run_s = time.monotonic() - begun
-    truth, interrupted = content(undisturbed), 0
-    for trial in range(KILLS):
-        path = tmp_path / f"killed-{trial}"
-        writer = filling(path, 0, LASTS_EACH)
-        time.sleep(whole_run_s * generator.uniform(0.3, 1.0))
-        os.killpg(writer.pid, signal.SIGKILL)
-        acknowledged = writer.communicate()[0].splitlines()
-        interrupted += len(acknowledged) < LASTS_EACH
-        try:
-            with open_catalogue(path) as catalogue:
-                assert catalogue.findings() == []
-                assert set(acknowledged) <= set(catalogue.names())
-                assert len(catalogue.names()) <= len(acknowledged) + 1
-        except NoCatalogue:
-            assert acknowledged == []
-        rerun = filling(path, 0, LASTS_EACH)
-        assert rerun.wait() == 0
-        rerun.communicate()
-        assert content(path) == truth
-    assert interrupted > KILLS / 3, "the kills must fall inside the work"
 
 
 def content(path: Path) -> object:
