@@ -23,7 +23,8 @@ from footfit.geometry import wpca
 from footfit.geometry.rotations import angle_deg
 from footfit.geometry.topology import boundary_loops
 from footfit.meshes.read import read_scan
-from footfit.pipeline.align import MM_PER_UNIT, aligned
+from footfit.meshes.units import UNIT_SCALES
+from footfit.pipeline.align import aligned
 from footfit.results import MeshInfo, Reference, Scan
 from tests import distortions, shapes
 from tools.lasts import LastSpec, last_mesh, true_flare_deg
@@ -61,7 +62,7 @@ class Shape:
 def scan_of(vertices, faces, unit="mm", source="detected"):
     """A scan as the reader would hand it over: the file is in ``unit``, and that was detected."""
     info = MeshInfo(
-        None, "", "stl", len(vertices), len(faces), True, unit, source, MM_PER_UNIT[unit]
+        None, "", "stl", len(vertices), len(faces), True, unit, source, UNIT_SCALES[unit]
     )
     fields = {"info": info, "vertices_mm": vertices, "faces": faces, "warnings": ()}
     if "source_to_vertex" in Scan.__dataclass_fields__:
@@ -172,7 +173,7 @@ def one_run(shape, distortion, rng):
         flip = np.diag([1.0, -1.0, 1.0, 1.0])
         expected = flip @ expected @ flip
     pose = distortions.random_pose(rng)
-    unit = rng.choice(list(MM_PER_UNIT))
+    unit = rng.choice(list(UNIT_SCALES))
     started = time.perf_counter()
     try:
         answer = aligned(scan_of(distortions.moved(vertices, pose), faces, unit)).alignment
@@ -180,7 +181,7 @@ def one_run(shape, distortion, rng):
         return {"refused": error.code, "pose": False}
     elapsed = time.perf_counter() - started
     # from the undistorted shape's mm, through the pose and the file's unit, to canonical mm
-    found = answer.canonical_transform @ in_unit(pose, MM_PER_UNIT[unit])
+    found = answer.canonical_transform @ in_unit(pose, UNIT_SCALES[unit])
     turn = found[:3, :3]
     origin, there = (np.linalg.solve(t[:3, :3], -t[:3, 3]) for t in (found, expected))
     return {
@@ -321,7 +322,7 @@ def method_table(shapes_found, rng, poses=12):
     """What each method leaves: the distance between a posed shape and the same shape at home."""
     first = next(shape for shape in shapes_found if shape.family == "lasts")
     home = aligned(scan_of(first.vertices, first.faces)).alignment
-    frame = home.eigenframe
+    frame = home.printed_frame
     reference = Reference(
         "first",
         wpca.om_e(frame.eigenvectors, home.canonical_transform),

@@ -139,8 +139,9 @@ class Eigenframe:
     """The paper's frame of one mesh (Eq. 1-5), signs and order settled by the canonical frame.
 
     ``centroid_mm`` (3,) in the file's axes; ``eigenvectors`` (3, 3) as rows in the file's
-    axes, a rotation; ``eigenvalues_mm2`` (3,), descending. A left shape is mirrored before
-    Eq. 1 where it is compared (``paper_transform``); the frame itself is of the mesh as it is.
+    axes, a rotation, each nearest to X, Y, Z in turn; ``eigenvalues_mm2`` (3,) paired with the
+    rows, so not always descending. A left shape is mirrored before Eq. 1 where it is compared
+    (``paper_transform``); the frame itself is of the mesh as it is.
     """
 
     centroid_mm: Floats
@@ -150,9 +151,10 @@ class Eigenframe:
 
 @dataclass(frozen=True, slots=True)
 class Reference:
-    """The reference last: its name, OM_E (Eq. 6) and its centroid in its canonical frame.
+    """The reference last: its name, OM_E (Eq. 6) and its P_c (Eq. 1) in its canonical frame.
 
-    ``om_e`` (3, 3) has the eigenvectors as columns in the canonical frame.
+    ``om_e`` (3, 3) has the eigenvectors as columns in the canonical frame. Both come from the
+    last's printed frame: only so does Eq. 8 put the reference on itself.
     """
 
     last: str
@@ -166,8 +168,11 @@ class Alignment:
 
     ``transform`` (4, 4) takes the file's coordinates to aligned mm (rotation, translation and
     the unit's scale, never a mirror). ``canonical_transform`` (4, 4) is the same for method
-    "footfit"; for the paper's methods it is still footfit's. ``reference`` is the last whose
-    OM_E was used, None for method "footfit" without one.
+    "footfit"; for the paper's methods it is still footfit's. ``eigenframe`` is the method's own:
+    of the exact moments for "footfit", by Eq. 1-4 as printed for the paper's; "paper-literal"
+    orders its rows by eigenvalue and makes the largest entry of each positive.
+    ``printed_frame`` is by Eq. 1-4 as printed and settled, whatever the method. ``reference`` is
+    the last whose OM_E was used, None for method "footfit" without one.
     """
 
     info: MeshInfo
@@ -176,6 +181,7 @@ class Alignment:
     transform: Floats
     canonical_transform: Floats
     eigenframe: Eigenframe
+    printed_frame: Eigenframe
     pose: PoseQuality
     reference: Reference | None
     length_mm: float
@@ -255,8 +261,10 @@ class LastLabels:
 class LastRecord:
     """A last as the catalogue holds it, without its mesh.
 
+    ``eigenframe`` is of the exact moments, ``printed_frame`` by Eq. 1-4 as printed.
     ``paper_transform`` (4, 4) takes the file's coordinates (mirrored in its first axis for a
-    left last) to the reference's frame by the paper's Eq. 8; None while there is no reference.
+    left last) to the reference's frame by the paper's Eq. 8, from the printed frames; None while
+    there is no reference.
     ``upgraded_from`` names the older flare definition that this profile replaces.
     """
 
@@ -265,6 +273,7 @@ class LastRecord:
     side: SideVerdict
     pose: PoseQuality
     eigenframe: Eigenframe
+    printed_frame: Eigenframe
     canonical_transform: Floats
     paper_transform: Floats | None
     length_mm: float
@@ -278,7 +287,7 @@ class LastRecord:
 class IngestOutcome:
     """What became of one file: ``status`` is added, unchanged, replaced or refused.
 
-    ``path`` is None for standard input.
+    ``path`` is None for standard input. ``notes`` are told to people, and warn of nothing.
     """
 
     path: str | None
@@ -291,6 +300,7 @@ class IngestOutcome:
     code: str | None
     warnings: tuple[Notice, ...] = ()
     reference: bool = False
+    notes: tuple[Notice, ...] = ()
 
 
 @dataclass(frozen=True, slots=True)

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 
 from footfit.geometry.flare import CHANNELS, FlareDefinition, FlareProfile
@@ -116,16 +118,19 @@ def alignment(path="feet/anna.stl", left=False, length_mm=260.0, warnings=(), re
     vertices, _ = tube(length_mm, left=left)
     centred = vertices - vertices.mean(0)
     values, columns = np.linalg.eigh(centred.T @ centred / len(vertices))
-    rows = columns[:, ::-1].T * np.sign(np.linalg.det(columns[:, ::-1]))
+    order = [2, 0, 1]  # along X, Y, Z: an unsorted row of values shows what pairs them wrongly
+    rows = columns[:, order].T * np.sign(np.linalg.det(columns[:, order]))
     inverse = np.linalg.inv(transform)
     centroid = inverse[:3, :3] @ vertices.mean(0) + inverse[:3, 3]
+    frame = Eigenframe(centroid, rows @ transform[:3, :3], values[order])
     return Alignment(
         info=info(path),
         method="footfit",
         side=SideVerdict("left" if left else "right", "sure", -4.1 if left else 4.1, "detected"),
         transform=transform,
         canonical_transform=transform,
-        eigenframe=Eigenframe(centroid, rows @ transform[:3, :3], values[::-1]),
+        eigenframe=frame,
+        printed_frame=replace(frame, centroid_mm=centroid + 1.0),
         pose=PoseQuality(0.21, 0.18, 0.15, True, "foot"),
         reference=reference,
         length_mm=length_mm,
@@ -159,6 +164,7 @@ def record(name="derby-42", turn_deg=8.0, length_mm=273.0, left=False, **labels)
         side=known.side,
         pose=known.pose,
         eigenframe=known.eigenframe,
+        printed_frame=known.printed_frame,
         canonical_transform=known.canonical_transform,
         paper_transform=known.canonical_transform,
         length_mm=length_mm,

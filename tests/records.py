@@ -96,7 +96,12 @@ def last(
         eigenframe=Eigenframe(
             centroid_mm=generator.normal(size=3) * 50,
             eigenvectors=u @ np.diag([1, 1, np.linalg.det(u @ vt)]) @ vt,
-            eigenvalues_mm2=np.array([5200.0, 610.0, 480.0]) + generator.normal(size=3),
+            eigenvalues_mm2=np.array([5200.0, 480.0, 610.0]) + generator.normal(size=3),
+        ),
+        printed_frame=Eigenframe(
+            centroid_mm=generator.normal(size=3) * 50,
+            eigenvectors=turn @ rotation(generator),
+            eigenvalues_mm2=np.array([5300.0, 620.0, 470.0]) + generator.normal(size=3),
         ),
         canonical_transform=canonical,
         paper_transform=None,

@@ -103,7 +103,7 @@ def test_the_first_last_is_the_reference(path: Path) -> None:
         reference = opened.reference()
         assert reference is not None
         assert reference.last == "first"
-        # Its own eigenframe turned by its own OM_E is its canonical frame: a rotation apart.
+        # Its own printed frame turned by its own OM_E is its canonical frame: a rotation apart.
         found = opened.record("first")
         assert found.paper_transform is not None
         np.testing.assert_allclose(found.paper_transform, found.canonical_transform, atol=1e-9)
@@ -119,7 +119,7 @@ def test_set_reference_expresses_every_last_by_it(catalogue: Catalogue, name: st
     for record in catalogue.records():
         transform = record.paper_transform
         assert transform is not None
-        frame, scale = record.eigenframe, record.info.unit_scale
+        frame, scale = record.printed_frame, record.info.unit_scale
         left = record.side.side == "left"
         mirror = np.diag([-1.0, 1.0, 1.0]) if left else np.eye(3)
         centroid = mirror @ frame.centroid_mm / scale

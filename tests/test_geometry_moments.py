@@ -8,6 +8,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from footfit.geometry.moments import (
+    moments_along,
     principal_axes,
     printed_covariance,
     surface_centroid,
@@ -78,6 +79,17 @@ def test_principal_axes_are_rows_in_descending_order():
     assert values.tolist() == sorted(values.tolist(), reverse=True)
     np.testing.assert_allclose(np.abs(rows), np.eye(3), atol=1e-12)
     np.testing.assert_allclose(rows @ box_moment() @ rows.T, np.diag(values), atol=1e-9)
+
+
+@settings(max_examples=20, deadline=None)
+@given(seed=st.integers(0, 2**32 - 1))
+def test_moments_stay_with_their_rows_in_any_order_and_with_any_signs(seed):
+    rng = np.random.default_rng(seed)
+    R = distortions.random_rotation(rng)
+    order, signs = rng.permutation(3), rng.choice([-1.0, 1.0], 3)
+    rows = (np.eye(3)[order] * signs[:, None]) @ R.T
+    expected = box_moment().diagonal()[order]
+    np.testing.assert_allclose(moments_along(R @ box_moment() @ R.T, rows), expected, atol=1e-9)
 
 
 @pytest.mark.parametrize("vertices", [np.zeros((1, 3)), np.ones((4, 3))])

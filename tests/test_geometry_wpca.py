@@ -8,8 +8,13 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from footfit.geometry import wpca
-from footfit.geometry.moments import principal_axes, printed_covariance, vertex_mean
-from footfit.geometry.rotations import angle_deg, applied, turned_by
+from footfit.geometry.moments import (
+    moments_along,
+    principal_axes,
+    printed_covariance,
+    vertex_mean,
+)
+from footfit.geometry.rotations import angle_deg, applied, transform, turned_by
 from tests import distortions
 from tools.lasts import LastSpec, last_mesh
 
@@ -32,15 +37,20 @@ def posed_frame(last, rng):
 
 
 @settings(max_examples=15, deadline=None)
-@given(seed=SEEDS)
-def test_the_literal_reading_equals_om_e_v_prime(last, seed):
+@given(seed=SEEDS, left=st.booleans())
+def test_the_literal_reading_equals_om_e_v_prime(last, seed, left):
+    """Whatever eigenvectors steps 1-4 gave: Eq. 7 as printed cancels them."""
     rng = np.random.default_rng(seed)
-    vertices, faces = last
+    vertices, faces = distortions.mirrored(*last) if left else last
     moved = distortions.moved(vertices, distortions.random_pose(rng))
     OM_E = distortions.random_rotation(rng)
-    aligned = wpca.aligned_by_wpca(moved, faces, OM_E, literal=True)
+    P_c, _C_M, R = wpca.printed_axes(moved, faces)
+    if left:
+        moved = moved @ wpca.FILE_MIRROR
+        P_c, R = wpca.mirrored_frame(P_c, R)
+    found = wpca.paper_transform(P_c, R, OM_E, np.zeros(3), 1.0, literal=True)
     expected = (moved - vertex_mean(moved)) @ OM_E.T
-    assert np.abs(aligned - expected).max() < 1e-9
+    assert np.abs(applied(found, moved) - expected).max() < 1e-9
 
 
 def test_what_the_literal_reading_costs(last):
@@ -53,8 +63,8 @@ def test_what_the_literal_reading_costs(last):
     literal, consistent = [], []
     for _ in range(25):
         moved, centroid, axes, _ = posed_frame(last, rng)
-        wrong = wpca.literal_transform(centroid, 1.0, OM_E, reference)
-        right = wpca.paper_transform(centroid, axes, 1.0, OM_E, reference)
+        wrong = wpca.paper_transform(centroid, axes, OM_E, reference, 1.0, literal=True)
+        right = wpca.paper_transform(centroid, axes, OM_E, reference, 1.0)
         for found, displacement in ((wrong, literal), (right, consistent)):
             away = np.linalg.norm(applied(found, moved) - vertices, axis=1)
             displacement.append(np.median(away))
@@ -64,13 +74,30 @@ def test_what_the_literal_reading_costs(last):
 
 @settings(max_examples=15, deadline=None)
 @given(seed=SEEDS)
-def test_the_steps_and_the_stored_transform_agree_up_to_signs(last, seed):
-    moved, centroid, axes, canonical = posed_frame(last, np.random.default_rng(seed))
-    OM_E = wpca.om_e(axes, canonical)
-    stored = applied(wpca.paper_transform(centroid, axes, 1.0, OM_E, np.zeros(3)), moved)
-    steps = wpca.aligned_by_wpca(moved, last[1], np.eye(3), literal=False)
-    closeness = np.abs(np.corrcoef((stored @ OM_E).T, steps.T)[:3, 3:])
-    assert closeness.max(axis=0).min() > 1 - 1e-9
+def test_step_5_turns_the_covariance_diagonal(last, seed):
+    """In its own frame (OM_E = 1) the aligned mesh has the printed covariance of its values."""
+    moved, centroid, axes, _ = posed_frame(last, np.random.default_rng(seed))
+    found = wpca.paper_transform(centroid, axes, np.eye(3), np.zeros(3), 1.0)
+    C_M = printed_covariance(applied(found, moved), last[1])
+    values = moments_along(printed_covariance(moved, last[1]), axes)
+    np.testing.assert_allclose(C_M, np.diag(values), atol=1e-8)
+    assert np.abs(applied(found, moved).mean(axis=0)).max() < 1e-9
+
+
+@settings(max_examples=15, deadline=None)
+@given(seed=SEEDS)
+def test_the_frames_angle_is_the_planted_turn(seed):
+    """Whatever the scales; for a left shape the paper's frame is that of its mirror image."""
+    rng = np.random.default_rng(seed)
+    canonical, angle = distortions.random_rotation(rng), rng.uniform(0.01, 3.1)
+    axis = rng.normal(size=3)
+    turn = turned_by(angle * axis[None] / np.linalg.norm(axis))[0]
+    paper = turn @ canonical
+    of_mirrored = wpca.CANONICAL_MIRROR @ paper @ wpca.FILE_MIRROR
+    for found, mirrored in ((paper, False), (of_mirrored, True)):
+        transforms = transform(found, rng.normal(size=3), 25.4), transform(canonical, np.ones(3))
+        found_deg = wpca.paper_frame_angle_deg(*transforms, mirrored=mirrored)
+        assert found_deg == pytest.approx(np.degrees(angle), abs=1e-9)
 
 
 @settings(max_examples=15, deadline=None)
@@ -83,7 +110,8 @@ def test_a_left_last_lands_on_its_right_twin(last, seed, scale):
     reference = wpca.canonical_centroid_mm(centroid, canonical, 1.0)
     twin = distortions.mirrored(*last)
     left, left_centroid, left_axes, left_canonical = posed_frame(twin, rng)
-    found = wpca.paper_transform(left_centroid, left_axes, scale, OM_E, reference, mirrored=True)
+    as_right = wpca.mirrored_frame(left_centroid, left_axes)
+    found = wpca.paper_transform(*as_right, OM_E, reference, scale)
     file = left / scale * [-1.0, 1.0, 1.0]
     assert np.abs(applied(found, file) - last[0]).max() < 1e-6
     direct = wpca.unmirrored(found, mirrored=True)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from itertools import permutations, product
 from pathlib import Path
 
 import numpy as np
@@ -21,9 +22,12 @@ from footfit.errors import (
     UnknownUnits,
 )
 from footfit.geometry import wpca
+from footfit.geometry.moments import printed_covariance, surface_second_moment
 from footfit.geometry.rotations import angle_deg, applied
 from footfit.meshes.read import read_scan
-from footfit.pipeline.align import MM_PER_UNIT, aligned
+from footfit.meshes.units import UNIT_NAMES, UNIT_SCALES
+from footfit.pipeline.align import aligned
+from footfit.pipeline.units import unit_notes
 from footfit.results import MeshInfo, Notice, Reference, Scan
 from tests import distortions, shapes
 from tools.lasts import LastSpec, last_mesh
@@ -46,14 +50,14 @@ def home(last):
 
 def scan_of(vertices_mm, faces, *, units="mm", source="detected", scale=None):
     """A scan as the reader hands it over: the file's unit is ``units``, or provisional."""
-    scale = MM_PER_UNIT[units] if scale is None else scale
+    scale = UNIT_SCALES[units] if scale is None else scale
     info = MeshInfo(None, "0" * 64, "stl", len(vertices_mm), len(faces), True, units, source, scale)
     return Scan(info, vertices_mm, faces, (), np.arange(len(vertices_mm)))
 
 
 def reference_of(alignment):
     """The reference that a right last makes."""
-    frame, unit = alignment.eigenframe, alignment.info.unit_scale
+    frame, unit = alignment.printed_frame, alignment.info.unit_scale
     return Reference(
         "first",
         wpca.om_e(frame.eigenvectors, alignment.canonical_transform),
@@ -69,7 +73,7 @@ def codes(alignment):
 
 
 @settings(max_examples=12, deadline=None)
-@given(seed=SEEDS, left=st.booleans(), units=st.sampled_from(sorted(MM_PER_UNIT)))
+@given(seed=SEEDS, left=st.booleans(), units=st.sampled_from(sorted(UNIT_SCALES)))
 def test_any_pose_side_and_unit_give_the_same_canonical_last(last, home, seed, left, units):
     rng = np.random.default_rng(seed)
     vertices, faces = distortions.mirrored(*last) if left else last
@@ -82,7 +86,7 @@ def test_any_pose_side_and_unit_give_the_same_canonical_last(last, home, seed, l
     assert found.alignment.side.side == ("left" if left else "right")
     assert found.alignment.info.units == units
     assert found.alignment.length_mm == pytest.approx(home.length_mm, abs=0.1)
-    in_file = posed / MM_PER_UNIT[units]
+    in_file = posed / UNIT_SCALES[units]
     by_transform = applied(found.alignment.transform, in_file)
     assert np.abs(by_transform - found.vertices_mm).max() < 1e-6
     linear = found.alignment.transform[:3, :3] / found.alignment.info.unit_scale
@@ -123,7 +127,7 @@ def test_lengths_are_exact_along_x(last):
 def test_a_provisional_unit_is_corrected_by_the_length(last, taken_for, truly):
     """The reader saw a long leg, say, and took the file's numbers in another unit."""
     vertices, faces = last
-    wrong = vertices / MM_PER_UNIT[truly] * MM_PER_UNIT[taken_for]
+    wrong = vertices / UNIT_SCALES[truly] * UNIT_SCALES[taken_for]
     scan = replace(
         scan_of(wrong, faces, units=taken_for),
         warnings=(Notice("units_detected", "too early"), Notice("open_mesh", "open")),
@@ -131,7 +135,11 @@ def test_a_provisional_unit_is_corrected_by_the_length(last, taken_for, truly):
     found = aligned(scan).alignment
     assert found.info.units == truly
     said = {notice.code: notice.message for notice in found.warnings}
-    assert truly in said["units_detected"]
+    notes = unit_notes(found.info, found.length_mm)
+    assert ("units_detected" in said) == (truly != "mm") == (notes == ())
+    for notice in notes:
+        said[notice.code] = notice.message
+    assert UNIT_NAMES[truly] in said["units_detected"]
     assert said["open_mesh"] == "open"
     assert found.length_mm == pytest.approx(LENGTH_MM, abs=1.0)
 
@@ -145,8 +153,19 @@ def test_no_unit_fits(last):
 @pytest.mark.parametrize("factor", [0.1, 0.4, 1.5, 25.4, 1000.0])
 def test_a_declared_unit_with_an_implausible_length_is_refused(last, factor):
     vertices, faces = last
-    with pytest.raises(ImplausibleSize, match="--units"):
+    with pytest.raises(ImplausibleSize, match=r"taken as millimetres, .*--units"):
         aligned(scan_of(vertices * factor, faces, source="declared"))
+
+
+@pytest.mark.parametrize("unit", ["mm", "in"])
+def test_a_detected_unit_is_said_once(last, unit):
+    found = aligned(scan_of(*last, units=unit)).alignment
+    said = [*unit_notes(found.info, found.length_mm), *found.warnings]
+    (notice,) = (notice for notice in said if notice.code == "units_detected")
+    assert f"taken as {UNIT_NAMES[unit]}, the length is 268 mm" in notice.message
+    declared = aligned(scan_of(*last, units=unit, source="declared")).alignment
+    assert not unit_notes(declared.info)
+    assert "units_detected" not in codes(declared)
 
 
 def test_a_declared_unit_with_an_unusual_length_is_said(last):
@@ -273,9 +292,8 @@ def test_the_paper_methods_need_a_reference(last):
 
 
 @pytest.mark.parametrize("left", [False, True])
-def test_the_paper_method_puts_a_last_on_itself(last, left):
+def test_the_paper_method_puts_a_last_on_itself(last, home, left):
     """With its own OM_E the consistent reading gives the canonical frame back."""
-    home = aligned(scan_of(*last), method="paper", reference=NOWHERE).alignment
     vertices, faces = distortions.mirrored(*last) if left else last
     pose = distortions.random_pose(np.random.default_rng(9))
     posed = distortions.moved(vertices, pose)
@@ -288,23 +306,57 @@ def test_the_paper_method_puts_a_last_on_itself(last, left):
 NOWHERE = Reference("nowhere", np.eye(3), np.zeros(3))
 
 
-def test_the_literal_method_is_om_e_v_prime(last):
+@pytest.mark.parametrize("left", [False, True])
+def test_the_literal_method_is_om_e_v_prime(last, left):
+    """A left shape is mirrored before Eq. 1 and back after Eq. 8."""
     OM_E = distortions.random_rotation(np.random.default_rng(3))
     reference = replace(NOWHERE, om_e=OM_E)
-    pose = distortions.random_pose(np.random.default_rng(4))
-    posed = distortions.moved(last[0], pose)
-    found = aligned(scan_of(posed, last[1]), method="paper-literal", reference=reference)
-    expected = (posed - posed.mean(axis=0)) @ OM_E.T
+    vertices, faces = distortions.mirrored(*last) if left else last
+    posed = distortions.moved(vertices, distortions.random_pose(np.random.default_rng(4)))
+    found = aligned(scan_of(posed, faces), method="paper-literal", reference=reference)
+    assert found.alignment.side.side == ("left" if left else "right")
+    before = [-1.0, 1.0, 1.0] if left else [1.0, 1.0, 1.0]
+    after = [1.0, -1.0, 1.0] if left else [1.0, 1.0, 1.0]
+    expected = ((posed - posed.mean(axis=0)) * before) @ OM_E.T * after
     assert np.abs(applied(found.alignment.transform, posed) - expected).max() < 1e-9
 
 
-def test_the_eigenframe_is_a_rotation_near_the_canonical_axes(home):
-    frame = home.eigenframe
-    np.testing.assert_allclose(frame.eigenvectors @ frame.eigenvectors.T, np.eye(3), atol=1e-12)
-    assert np.linalg.det(frame.eigenvectors) == pytest.approx(1.0)
-    assert frame.eigenvalues_mm2.tolist() == sorted(frame.eigenvalues_mm2.tolist(), reverse=True)
-    rotation = home.canonical_transform[:3, :3]
-    assert np.diag(frame.eigenvectors @ rotation.T).min() > np.cos(np.radians(45))
+def signed_orders():
+    """Every order and every choice of signs of three rows, as matrices (3, 3)."""
+    for order in permutations(range(3)):
+        for signs in product((-1.0, 1.0), repeat=3):
+            yield np.diag(signs) @ np.eye(3)[list(order)]
+
+
+@pytest.mark.parametrize("method", ["footfit", "paper", "paper-literal"])
+def test_eigenvectors_are_a_rotation_with_their_own_values(last, home, method):
+    """The rows follow X, Y, Z (literally: the eigenvalues), and each value is its row's."""
+    vertices, faces = last
+    found = aligned(scan_of(*last), method=method, reference=NOWHERE).alignment
+    frame, R = found.eigenframe, found.eigenframe.eigenvectors
+    np.testing.assert_allclose(R @ R.T, np.eye(3), atol=1e-12)
+    assert np.linalg.det(R) == pytest.approx(1.0)
+    moment = surface_second_moment if method == "footfit" else printed_covariance
+    own = R @ moment(vertices, faces) @ R.T
+    np.testing.assert_allclose(own, np.diag(frame.eigenvalues_mm2), atol=1e-6)
+    rotation = found.canonical_transform[:3, :3]
+    if method == "paper-literal":
+        assert frame.eigenvalues_mm2.tolist() == sorted(frame.eigenvalues_mm2, reverse=True)
+    else:
+        ways = [q for q in signed_orders() if np.linalg.det(q) > 0]
+        assert len(ways) == 24
+        assert np.trace(R @ rotation.T) >= max(np.trace(q @ R @ rotation.T) for q in ways)
+    printed = found.printed_frame
+    np.testing.assert_array_equal(printed.centroid_mm, vertices.mean(axis=0))
+    np.testing.assert_array_equal(printed.eigenvectors, home.printed_frame.eigenvectors)
+
+
+def test_the_rows_order_is_not_always_that_of_the_values():
+    """A last as high as it is wide: its second eigenvalue belongs to Z, and so it is said."""
+    vertices, faces = last_mesh(LastSpec(length_mm=LENGTH_MM, rings=60, segments=40))
+    high = np.array([1.0, 0.9, 1.6])
+    frame = aligned(scan_of(vertices * high, faces)).alignment.eigenframe
+    assert frame.eigenvalues_mm2[0] > frame.eigenvalues_mm2[2] > frame.eigenvalues_mm2[1]
 
 
 # ---------------------------------------------------------------- real scans

@@ -100,9 +100,12 @@ def implausible(stored: StoredLast) -> Iterator[str]:
     for row in stored.measures:
         yield from _broken("measure", row, MEASURE)
     for words, sound in (
-        ("frame.eigenvectors is no rotation", lambda: _rotation(frame)),
-        ("frame.eigenvalues_mm2 is not descending", lambda: _eigenvalues(frame)),
-        ("frame.centroid_mm is no point", lambda: _finite(array_of(frame["centroid_mm"], 3))),
+        ("frame.eigenvectors is no rotation", lambda: _rotation(frame, "")),
+        ("frame.eigenvalues_mm2 are no moments", lambda: _moments(frame, "")),
+        ("frame.centroid_mm is no point", lambda: _point(frame, "")),
+        ("frame.printed_eigenvectors is no rotation", lambda: _rotation(frame, "printed_")),
+        ("frame.printed_eigenvalues_mm2 are no moments", lambda: _moments(frame, "printed_")),
+        ("frame.printed_centroid_mm is no point", lambda: _point(frame, "printed_")),
         (
             "frame.canonical_transform is no rigid motion with the unit's scale",
             lambda: _similarity(frame, stored.last),
@@ -137,13 +140,17 @@ def _is_rotation(matrix: Floats) -> bool:
     return bool(off <= LIMITS.orthonormal and np.linalg.det(matrix) > 0)
 
 
-def _rotation(frame: Fields) -> bool:
-    return _is_rotation(array_of(frame["eigenvectors"], 3, 3))
+def _rotation(frame: Fields, which: str) -> bool:
+    return _is_rotation(array_of(frame[f"{which}eigenvectors"], 3, 3))
 
 
-def _eigenvalues(frame: Fields) -> bool:
-    values = array_of(frame["eigenvalues_mm2"], 3)
-    return _finite(values) and bool(values[-1] >= 0 and (np.diff(values) <= 0).all())
+def _moments(frame: Fields, which: str) -> bool:
+    values = array_of(frame[f"{which}eigenvalues_mm2"], 3)
+    return _finite(values) and bool((values >= 0).all())
+
+
+def _point(frame: Fields, which: str) -> bool:
+    return _finite(array_of(frame[f"{which}centroid_mm"], 3))
 
 
 def _similarity(frame: Fields, last: Fields) -> bool:

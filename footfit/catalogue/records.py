@@ -53,6 +53,7 @@ def _record(stored: StoredLast, names: Mapping[int, str]) -> LastRecord:
         ),
         pose=_pose(frame),
         eigenframe=eigenframe_of(frame),
+        printed_frame=printed_frame_of(frame),
         canonical_transform=array_of(frame["canonical_transform"], 4, 4),
         paper_transform=(
             None if frame["paper_transform"] is None else array_of(frame["paper_transform"], 4, 4)
@@ -71,11 +72,20 @@ def definition_of_rows(stored: StoredLast) -> str:
 
 
 def eigenframe_of(frame: Fields) -> Eigenframe:
-    """The paper's frame of a ``frame`` row."""
+    """The frame of the exact moments of a ``frame`` row."""
     return Eigenframe(
         centroid_mm=array_of(frame["centroid_mm"]),
         eigenvectors=array_of(frame["eigenvectors"], 3, 3),
         eigenvalues_mm2=array_of(frame["eigenvalues_mm2"]),
+    )
+
+
+def printed_frame_of(frame: Fields) -> Eigenframe:
+    """The frame by Eq. 1-4 as printed of a ``frame`` row."""
+    return Eigenframe(
+        centroid_mm=array_of(frame["printed_centroid_mm"]),
+        eigenvectors=array_of(frame["printed_eigenvectors"], 3, 3),
+        eigenvalues_mm2=array_of(frame["printed_eigenvalues_mm2"]),
     )
 
 

@@ -17,10 +17,15 @@ from footfit.catalogue.reading import (
     rows,
     stored_lasts,
 )
-from footfit.catalogue.records import eigenframe_of
+from footfit.catalogue.records import printed_frame_of
 from footfit.errors import CatalogueDamaged
 from footfit.geometry.arrays import Floats
-from footfit.geometry.wpca import canonical_centroid_mm, om_e, paper_transform
+from footfit.geometry.wpca import (
+    canonical_centroid_mm,
+    mirrored_frame,
+    om_e,
+    paper_transform,
+)
 from footfit.results import Reference
 
 if TYPE_CHECKING:
@@ -58,28 +63,25 @@ def reference_id(connection: sqlite3.Connection) -> int | None:
 def reference_of(stored: StoredLast) -> Reference:
     """What a last would be as the reference; a left one is mirrored to a right one first."""
     frame, mirrored = _frame(stored), stored.last["side"] == "left"
-    eigenframe = eigenframe_of(frame)
+    printed = printed_frame_of(frame)
     canonical = array_of(frame["canonical_transform"], 4, 4)
     return Reference(
         last=stored.last["name"],
-        om_e=om_e(eigenframe.eigenvectors, canonical, mirrored=mirrored),  # Eq. 6
+        om_e=om_e(printed.eigenvectors, canonical, mirrored=mirrored),  # Eq. 6
         centroid_mm=canonical_centroid_mm(
-            eigenframe.centroid_mm, canonical, stored.last["unit_scale"], mirrored=mirrored
+            printed.centroid_mm, canonical, stored.last["unit_scale"], mirrored=mirrored
         ),
     )
 
 
 def expressed(stored: StoredLast, reference: Reference) -> Floats:
     """A last's ``paper_transform`` (4, 4) by a reference (Eq. 8), from stored values only."""
-    eigenframe = eigenframe_of(_frame(stored))
-    return paper_transform(
-        eigenframe.centroid_mm,
-        eigenframe.eigenvectors,
-        stored.last["unit_scale"],
-        reference.om_e,
-        reference.centroid_mm,
-        mirrored=stored.last["side"] == "left",
-    )
+    printed = printed_frame_of(_frame(stored))
+    P_c, R = printed.centroid_mm, printed.eigenvectors
+    if stored.last["side"] == "left":
+        P_c, R = mirrored_frame(P_c, R)
+    scale = stored.last["unit_scale"]
+    return paper_transform(P_c, R, reference.om_e, reference.centroid_mm, scale)
 
 
 def _frame(stored: StoredLast) -> Fields:

@@ -74,7 +74,7 @@ class Last(Base):
 
 
 class Frame(Base):
-    """Where the last lies: the paper's eigenframe and both transforms; arrays are blobs."""
+    """Where the last lies: its exact and its printed eigenframe, both transforms; blobs."""
 
     __tablename__ = "frame"
 
@@ -82,6 +82,9 @@ class Frame(Base):
     centroid_mm: Mapped[bytes]
     eigenvectors: Mapped[bytes]
     eigenvalues_mm2: Mapped[bytes]
+    printed_centroid_mm: Mapped[bytes]
+    printed_eigenvectors: Mapped[bytes]
+    printed_eigenvalues_mm2: Mapped[bytes]
     canonical_transform: Mapped[bytes]
     paper_transform: Mapped[bytes | None]
     pose_cost: Mapped[float]

@@ -135,12 +135,15 @@ def _last_fields(record: LastRecord, parent_id: int | None) -> Fields:
 
 
 def _frame_fields(key: int, record: LastRecord) -> Fields:
-    frame, pose = record.eigenframe, record.pose
+    frame, printed, pose = record.eigenframe, record.printed_frame, record.pose
     return {
         "last_id": key,
         "centroid_mm": blob(frame.centroid_mm),
         "eigenvectors": blob(frame.eigenvectors),
         "eigenvalues_mm2": blob(frame.eigenvalues_mm2),
+        "printed_centroid_mm": blob(printed.centroid_mm),
+        "printed_eigenvectors": blob(printed.eigenvectors),
+        "printed_eigenvalues_mm2": blob(printed.eigenvalues_mm2),
         "canonical_transform": blob(record.canonical_transform),
         "paper_transform": None,
         "pose_cost": float(pose.cost),

@@ -11,6 +11,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, Generic, TypeVar
 
 from footfit.pipeline.match import Library
+from footfit.pipeline.units import unit_notes
 from footfit.report import (
     compare,
     documents,
@@ -24,6 +25,7 @@ from footfit.report import (
 )
 from footfit.results import (
     AlignedScan,
+    Alignment,
     BackupOutcome,
     CatalogueFacts,
     CheckOutcome,
@@ -53,6 +55,11 @@ def _nothing(_value: object) -> Warned:
     return None, ()
 
 
+def _said(alignment: Alignment) -> list[Notice]:
+    """A guess at mm, which is no warning, and the warnings."""
+    return [*unit_notes(alignment.info, alignment.length_mm), *alignment.warnings]
+
+
 @dataclass(frozen=True, slots=True)
 class Answer(Generic[T]):
     """One command's way to say a value of type ``T``."""
@@ -65,17 +72,17 @@ class Answer(Generic[T]):
 ALIGN: Answer[AlignedScan] = Answer(
     lambda scan: documents.align_document(scan.alignment),
     lambda scan: tables.align_table(scan.alignment),
-    lambda scan: (scan.alignment.info.path, scan.alignment.warnings),
+    lambda scan: (scan.alignment.info.path, _said(scan.alignment)),
 )
 FLARE: Answer[Profiled] = Answer(
     documents.flare_document,
     tables.flare_table,
-    lambda shape: (shape.aligned.alignment.info.path, shape.aligned.alignment.warnings),
+    lambda shape: (shape.aligned.alignment.info.path, _said(shape.aligned.alignment)),
 )
 MEASURE: Answer[MeasuredScan] = Answer(
     measure_documents.measure_document,
     measure_tables.measure_table,
-    lambda scan: (scan.alignment.info.path, (*scan.alignment.warnings, *scan.suspects)),
+    lambda scan: (scan.alignment.info.path, (*_said(scan.alignment), *scan.suspects)),
 )
 MATCH: Answer[Match] = Answer(
     documents.match_document,
@@ -85,12 +92,12 @@ MATCH: Answer[Match] = Answer(
 COMPARE: Answer[Comparison] = Answer(
     compare.compare_document,
     compare.compare_table,
-    lambda comparison: (comparison.foot.aligned.alignment.info.path, comparison.warnings),
+    lambda compared: _comparison_said(compared),
 )
 INGEST_LAST: Answer[IngestOutcome] = Answer(
     documents.ingest_document,
     tables.ingest_line,
-    lambda outcome: (outcome.path, outcome.warnings),
+    lambda outcome: (outcome.path, (*outcome.notes, *outcome.warnings)),
 )
 SET_REFERENCE: Answer[tuple[Reference, int]] = Answer(
     lambda changed: last_documents.set_reference_document(*changed),
@@ -148,8 +155,14 @@ def curvature_answer(output: str | None) -> Answer[SurfaceCurvature]:
     return Answer(
         lambda values: documents.curvature_document(values, output=output),
         tables.curvature_table,
-        lambda values: (values.info.path, values.warnings),
+        lambda values: (values.info.path, (*unit_notes(values.info), *values.warnings)),
     )
+
+
+def _comparison_said(comparison: Comparison) -> Warned:
+    alignment = comparison.foot.aligned.alignment
+    notes = unit_notes(alignment.info, alignment.length_mm)
+    return alignment.info.path, (*notes, *comparison.warnings)
 
 
 def _match_notices(match: Match) -> list[Notice]:
@@ -157,6 +170,6 @@ def _match_notices(match: Match) -> list[Notice]:
     feet = [
         Notice(notice.code, f"{foot.aligned.alignment.info.path or '-'}: {notice.message}")
         for foot in match.feet
-        for notice in foot.aligned.alignment.warnings
+        for notice in _said(foot.aligned.alignment)
     ]
     return [*feet, *match.warnings]

@@ -75,3 +75,17 @@ def principal_axes(second_moment: Floats) -> tuple[Floats, Floats]:
     """
     values, columns = np.linalg.eigh(second_moment)
     return np.clip(values[::-1], 0.0, None), columns.T[::-1].copy()  # step 4, R of Eq. 5
+
+
+def moments_along(second_moment: Floats, rows: Floats) -> Floats:
+    """The second moment along each unit row (k, 3): the diagonal of R C R^T, (k,).
+
+    Of eigenvectors in any order and with any signs it is their eigenvalues, paired with the rows.
+
+    Examples
+    --------
+    >>> moments_along(np.diag([9.0, 1.0, 4.0]), np.array([[0.0, 0, -1], [0, 1, 0]])).tolist()
+    [4.0, 1.0]
+    """
+    along = np.einsum("ij,jk,ik->i", rows, second_moment, rows)
+    return np.asarray(np.clip(along, 0.0, None), dtype=np.float64)

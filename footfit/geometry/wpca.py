@@ -1,8 +1,9 @@
-"""The paper's weighted PCA alignment (II, Eq. 1-8): the steps, and what a catalogue keeps of them.
+"""The paper's weighted PCA alignment (II, Eq. 1-8), step by step, and its mirror images.
 
 ``R`` has eigenvectors as rows, ``OM_E`` the reference's eigenvectors as columns in its canonical
-frame. A left shape is mirrored before Eq. 1, in the file's first axis: once aligned, that is
-y -> -y of the canonical frame.
+frame: both by Eq. 1-4 as printed, else a reference would not lie on itself. A left shape is
+mirrored before Eq. 1, in the file's first axis: once aligned, that is y -> -y of the canonical
+frame.
 """
 
 from __future__ import annotations
@@ -13,32 +14,63 @@ import numpy as np
 
 from footfit.geometry.arrays import Floats, Ints
 from footfit.geometry.moments import principal_axes, printed_covariance, vertex_mean
-from footfit.geometry.rotations import transform
+from footfit.geometry.rotations import angle_deg, nearest_rotation, transform
 
 FILE_MIRROR = np.diag([-1.0, 1.0, 1.0])
 CANONICAL_MIRROR = np.diag([1.0, -1.0, 1.0])
 
 
-def aligned_by_wpca(vertices: Floats, faces: Ints, OM_E: Floats, *, literal: bool) -> Floats:
-    """The paper's steps 1-5, 7 and 8 on one mesh: vertices (n, 3) -> V_A (n, 3).
+def printed_axes(vertices: Floats, faces: Ints) -> tuple[Floats, Floats, Floats]:
+    """The paper's steps 1-4, as printed, on one mesh.
 
     Parameters
     ----------
     vertices, faces : (n, 3) float64, (m, 3) int64
-    OM_E : (3, 3) float64
-        Step 6: the reference's eigenvectors as columns in the position it was turned to (Eq. 6).
+
+    Returns
+    -------
+    P_c : (3,) float64
+        The barycentre.
+    C_M : (3, 3) float64
+        The covariance.
+    R : (3, 3) float64
+        Its eigenvectors as rows, by descending eigenvalue. Their signs are open:
+        :func:`settled` and :func:`largest_positive` choose them.
+    """
+    P_c = vertex_mean(vertices)  # step 1, Eq. 1
+    v_1 = vertices - P_c  # step 2
+    C_M = printed_covariance(v_1, faces)  # step 3, Eq. 2-4
+    R = principal_axes(C_M)[1]  # step 4
+    return P_c, C_M, R
+
+
+def paper_transform(
+    P_c: Floats,
+    R: Floats,
+    OM_E: Floats,
+    reference_centroid_mm: Floats,
+    unit_scale: float,
+    *,
+    literal: bool = False,
+) -> Floats:
+    """The paper's steps 5, 7 and 8 as one (4, 4): the file's coordinates to mm, V_A.
+
+    Parameters
+    ----------
+    P_c, R : (3,), (3, 3) float64
+        From steps 1-4, of a right shape; a left one's go through :func:`mirrored_frame` first.
+    OM_E, reference_centroid_mm : (3, 3), (3,) float64
+        Step 6, :func:`om_e`, and where V_A is docked: the reference's own P_c in its frame.
+    unit_scale : float
+        From the file's coordinates to mm.
     literal : bool
         True: Eq. 7 as printed, in which R cancels and V_A is OM_E v' whatever the pose.
         False: the consistent reading, R' = OM_E.
     """
-    P_c = vertex_mean(vertices)  # step 1, Eq. 1
-    v_1 = vertices - P_c  # step 2
-    C_M = printed_covariance(vertices, faces)  # step 3, Eq. 2-4
-    R = largest_positive(principal_axes(C_M)[1])  # step 4
-    v_2 = v_1 @ R.T  # step 5, Eq. 5
     TM = R.T
     R_prime = OM_E @ TM if literal else OM_E  # step 7, Eq. 7
-    return np.asarray(v_2 @ R_prime.T)  # step 8, Eq. 8
+    turn = R_prime @ R  # step 8, Eq. 8: V_A = R' v'', of step 5, Eq. 5: v'' = R v'
+    return transform(turn, reference_centroid_mm - turn @ P_c, unit_scale)
 
 
 def largest_positive(rows: Floats) -> Floats:
@@ -100,41 +132,9 @@ def canonical_centroid_mm(
     return CANONICAL_MIRROR @ moved if mirrored else np.asarray(moved)
 
 
-def paper_transform(
-    centroid_mm: Floats,
-    eigenvectors: Floats,
-    unit_scale: float,
-    OM_E: Floats,
-    reference_centroid_mm: Floats,
-    *,
-    mirrored: bool = False,
-) -> Floats:
-    """The paper's Eq. 8 (consistent reading) as one (4, 4), from stored values only.
-
-    It takes the file's coordinates (mirrored in the first axis where ``mirrored``) to the
-    reference's frame in mm: V_A = OM_E R (x - P_c) + the reference's centroid.
-    """
-    R, P_c = eigenvectors, centroid_mm
-    if mirrored:
-        R, P_c = CANONICAL_MIRROR @ R @ FILE_MIRROR, FILE_MIRROR @ P_c
-    turn = OM_E @ R  # Eq. 5, then Eq. 8 with R' = OM_E
-    return transform(turn, reference_centroid_mm - turn @ P_c, unit_scale)
-
-
-def literal_transform(
-    centroid_mm: Floats,
-    unit_scale: float,
-    OM_E: Floats,
-    reference_centroid_mm: Floats,
-    *,
-    mirrored: bool = False,
-) -> Floats:
-    """Eq. 7-8 as printed, as one (4, 4): R cancels, and V_A = OM_E (x - P_c) + the centroid.
-
-    Input and output are mirrored as in :func:`paper_transform`.
-    """
-    P_c = FILE_MIRROR @ centroid_mm if mirrored else centroid_mm
-    return transform(OM_E, reference_centroid_mm - OM_E @ P_c, unit_scale)
+def mirrored_frame(P_c: Floats, R: Floats) -> tuple[Floats, Floats]:
+    """Centroid (3,) and axes (3, 3 rows) of a left shape's mirror image, a right shape."""
+    return FILE_MIRROR @ P_c, CANONICAL_MIRROR @ R @ FILE_MIRROR
 
 
 def unmirrored(transform_of_mirrored: Floats, *, mirrored: bool) -> Floats:
@@ -148,3 +148,14 @@ def unmirrored(transform_of_mirrored: Floats, *, mirrored: bool) -> Floats:
     before, after = np.eye(4), np.eye(4)
     before[:3, :3], after[:3, :3] = FILE_MIRROR, CANONICAL_MIRROR
     return np.asarray(after @ transform_of_mirrored @ before)
+
+
+def paper_frame_angle_deg(
+    transform_of_mirrored: Floats, canonical_transform: Floats, *, mirrored: bool
+) -> float:
+    """How far the frame of a :func:`paper_transform` is turned from the canonical one, degrees.
+
+    Both (4, 4) may have any scale; ``mirrored`` as in :func:`unmirrored`.
+    """
+    paper = unmirrored(transform_of_mirrored, mirrored=mirrored)
+    return angle_deg(nearest_rotation(paper[:3, :3]), nearest_rotation(canonical_transform[:3, :3]))

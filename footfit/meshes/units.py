@@ -10,7 +10,7 @@ from footfit.meshes.extents import principal_extents
 from footfit.results import Notice
 
 UNIT_SCALES = {"mm": 1.0, "cm": 10.0, "in": 25.4, "m": 1000.0}
-_NAMES = {"mm": "millimetres", "cm": "centimetres", "in": "inches", "m": "metres"}
+UNIT_NAMES = {"mm": "millimetres", "cm": "centimetres", "in": "inches", "m": "metres"}
 
 
 @dataclass(frozen=True, slots=True)
@@ -114,7 +114,7 @@ def settled_units(
     if name == "mm":
         return Units(name, "detected", scale)
     message = (
-        f"the numbers are taken as {_NAMES[name]}: the longest extent is then"
+        f"the numbers are taken as {UNIT_NAMES[name]}: the longest extent is then"
         f" {extent * scale:.0f} mm (--units says otherwise)"
     )
     return Units(name, "detected", scale, (Notice("units_detected", message),))

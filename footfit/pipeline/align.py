@@ -5,28 +5,27 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 from typing import Literal
 
-from footfit.errors import HalfScan, ImplausibleSize, NoReference, UnknownUnits
+from footfit.errors import HalfScan, NoReference
 from footfit.geometry import wpca
 from footfit.geometry.arrays import Floats, Ints
 from footfit.geometry.ends import missing_end, rims_of
 from footfit.geometry.frame import canonical_frame, length_of, turned_sample
 from footfit.geometry.moments import (
+    moments_along,
     principal_axes,
-    printed_covariance,
     surface_centroid,
     surface_second_moment,
-    vertex_mean,
 )
-from footfit.geometry.rotations import nearest_rotation, transform
+from footfit.geometry.rotations import applied, nearest_rotation, transform
 from footfit.geometry.samples import SurfaceSample, quadrature
 from footfit.geometry.side import confidence, side_score
-from footfit.pipeline.prepare import Posed, Windows, posed
+from footfit.pipeline.prepare import Posed, posed
+from footfit.pipeline.units import info_with_unit, length_notices, length_windows, read_notices
 from footfit.results import (
     AlignedScan,
     Alignment,
     Confidence,
     Eigenframe,
-    MeshInfo,
     Method,
     Notice,
     PoseQuality,
@@ -36,16 +35,11 @@ from footfit.results import (
     SideVerdict,
 )
 
-MM_PER_UNIT = {"mm": 1.0, "cm": 10.0, "m": 1000.0, "in": 25.4}
-
 
 @dataclass(frozen=True, slots=True)
 class AlignSettings:
-    """What the alignment takes for plausible, in mm, and how finely it integrates."""
+    """How finely the alignment integrates, and what it takes for a leg cut low."""
 
-    usual_length_mm: tuple[float, float] = (180.0, 340.0)
-    possible_length_mm: tuple[float, float] = (115.0, 370.0)
-    window_slack: float = 0.15  # the rough pose's length is only so good
     quadrature_edge: float = 0.03  # over L
     low_leg: float = 0.24  # of L: what ends lower is a leg cut low
 
@@ -98,82 +92,36 @@ def aligned(
     shape = posed(scan, length_windows(scan.info, known_length_mm))
     frame = _Framed.of(shape)
     _refuse_half(shape, frame)
-    info = _info_with_unit(scan.info, frame.length, known_length_mm)
-    factor = info.unit_scale / scan.info.unit_scale
-    canonical_mm = factor * frame.points
     verdict = _verdict(frame, side)
-    mirrored = verdict.side == "left"
+    info = info_with_unit(scan.info, frame.length, known_length_mm)
+    info = replace(info, vertices=len(shape.vertices), faces=len(shape.faces))
+    factor = info.unit_scale / scan.info.unit_scale
+    points_mm, length_mm = factor * frame.points, factor * frame.length
     canonical = transform(frame.rotation, factor * frame.shift, info.unit_scale)
-    eigenframe = _eigenframe(factor * shape.vertices, shape.faces, frame.rotation, method)
+    own, printed = _eigenframes(factor * shape.vertices, shape.faces, frame.rotation, method)
+    moved = None
+    if method != "footfit" and reference is not None:
+        literal, left = method == "paper-literal", verdict.side == "left"
+        moved = _paper_transform(own, reference, info.unit_scale, literal=literal, left=left)
     alignment = Alignment(
-        info=replace(info, vertices=len(shape.vertices), faces=len(shape.faces)),
+        info=info,
         method=method,
         side=verdict,
-        transform=_transform(method, eigenframe, canonical, info.unit_scale, reference, mirrored),
+        transform=canonical if moved is None else moved,
         canonical_transform=canonical,
-        eigenframe=eigenframe,
+        eigenframe=own,
+        printed_frame=printed,
         pose=frame.quality,
         reference=reference,
-        length_mm=factor * frame.length,
+        length_mm=length_mm,
         warnings=(
-            *_read_notices(scan, info),
+            *read_notices(scan, info, length_mm),
             *shape.notices,
-            *_notices(frame, canonical_mm, factor * frame.length, verdict, info),
+            *_notices(frame, float(points_mm[:, 2].max()), length_mm, verdict),
+            *length_notices(info, length_mm),
         ),
     )
-    return AlignedScan(alignment, canonical_mm, shape.faces)
-
-
-# ---------------------------------------------------------------- the unit
-
-
-def length_windows(info: MeshInfo, known_length_mm: float | None) -> Windows:
-    """Lengths that are plausible, in the scan's provisional mm; none where the scale is unknown."""
-    if known_length_mm is not None or info.units_source == "known-length":
-        return ()
-    low, high = ALIGN.possible_length_mm
-    scales = [info.unit_scale]
-    if info.units_source == "detected":
-        low, high = ALIGN.usual_length_mm
-        scales = list(MM_PER_UNIT.values())
-    low, high = low * (1 - ALIGN.window_slack), high * (1 + ALIGN.window_slack)
-    return tuple((low * info.unit_scale / s, high * info.unit_scale / s) for s in scales)
-
-
-def _info_with_unit(info: MeshInfo, length: float, known_length_mm: float | None) -> MeshInfo:
-    """The info with the unit that the aligned length (provisional mm) confirms.
-
-    Raises
-    ------
-    UnknownUnits, ImplausibleSize
-    """
-    if known_length_mm is not None:
-        scale = info.unit_scale * known_length_mm / length
-        return replace(info, units="scaled", units_source="known-length", unit_scale=scale)
-    low, high = ALIGN.usual_length_mm
-    if info.units_source == "detected":
-        for name, scale in MM_PER_UNIT.items():
-            if low <= length * scale / info.unit_scale <= high:
-                return replace(info, units=name, unit_scale=scale)
-        raise UnknownUnits(
-            f"no unit makes the length ({length / info.unit_scale:.4g} in the file) {low:.0f}-"
-            f"{high:.0f} mm; say --units mm|cm|m|in or --known-length MM"
-        )
-    least, most = ALIGN.possible_length_mm
-    if info.units_source == "declared" and not least <= length <= most:
-        raise ImplausibleSize(
-            f"in {info.units} the length is {length:.4g} mm, which is no foot's or last's"
-            f" ({least:.0f}-{most:.0f} mm); check --units, or say --known-length MM"
-        )
-    return info
-
-
-def _read_notices(scan: Scan, info: MeshInfo) -> list[Notice]:
-    """What the reader said, with the unit put right where the aligned length tells another."""
-    if info.units_source != "detected" or info.units == scan.info.units:
-        return list(scan.warnings)
-    kept = [notice for notice in scan.warnings if notice.code != "units_detected"]
-    return [*kept, Notice("units_detected", f"unit taken as {info.units}, by the length")]
+    return AlignedScan(alignment, points_mm, shape.faces)
 
 
 # ---------------------------------------------------------------- the frame
@@ -197,7 +145,7 @@ class _Framed:
     def of(cls, shape: Posed) -> _Framed:
         """Refine the rough pose of a shape."""
         rough = shape.orientation
-        about = shape.vertices @ rough.rotation.T + rough.shift
+        about = applied(transform(rough.rotation, rough.shift), shape.vertices)
         edge = ALIGN.quadrature_edge * rough.length
         sample = quadrature(about, shape.faces, edge)
         fine = canonical_frame(sample, rough.length)
@@ -205,7 +153,7 @@ class _Framed:
         surface = replace(turned, points=turned.points + fine.shift)
         rotation = nearest_rotation(fine.rotation @ rough.rotation)
         shift = fine.rotation @ rough.shift + fine.shift
-        points = shape.vertices @ rotation.T + shift
+        points = applied(transform(rotation, shift), shape.vertices)
         quality = PoseQuality(rough.cost, rough.margin, fine.support, fine.sole, rough.kind)
         length = length_of(points, 0.0, fine.length)
         return cls(points, surface, rotation, shift, length, quality)
@@ -231,17 +179,13 @@ def _verdict(frame: _Framed, side: str) -> SideVerdict:
     return SideVerdict(given, "low" if contradicted else "sure", score, "given")
 
 
-def _notices(
-    frame: _Framed, points_mm: Floats, length_mm: float, verdict: SideVerdict, info: MeshInfo
-) -> list[Notice]:
+def _notices(frame: _Framed, top_mm: float, length_mm: float, verdict: SideVerdict) -> list[Notice]:
     """What the alignment found that a person should know."""
     found = []
-    top = float(points_mm[:, 2].max())
-    low, high = ALIGN.usual_length_mm
     if not frame.quality.sole:
         found.append(Notice("no_sole", "there is no sole: the frame rests on the lowest rim"))
-    if frame.quality.kind == "foot" and top < ALIGN.low_leg * length_mm:
-        found.append(Notice("leg_cut_low", f"the scan ends {top:.0f} mm above the floor"))
+    if frame.quality.kind == "foot" and top_mm < ALIGN.low_leg * length_mm:
+        found.append(Notice("leg_cut_low", f"the scan ends {top_mm:.0f} mm above the floor"))
     if verdict.source == "detected" and verdict.confidence != "sure":
         found.append(
             Notice(
@@ -258,49 +202,39 @@ def _notices(
                 f" (score {verdict.score:.2f})",
             )
         )
-    if info.units_source != "detected" and not low <= length_mm <= high:
-        found.append(
-            Notice(
-                "length_unusual", f"the length is {length_mm:.1f} mm, outside {low:.0f}-{high:.0f}"
-            )
-        )
     return found
 
 
 # ---------------------------------------------------------------- the paper's frame
 
 
-def _eigenframe(vertices_mm: Floats, faces: Ints, rotation: Floats, method: Method) -> Eigenframe:
-    """Centroid and axes: exact for "footfit", by Eq. 1-4 as printed for the paper's methods."""
-    exact = method == "footfit"
-    moment = surface_second_moment if exact else printed_covariance
-    values, rows = principal_axes(moment(vertices_mm, faces))
-    if method == "paper-literal":
-        axes = wpca.largest_positive(rows)
-    else:
-        axes = wpca.settled(rows, rotation)
-    centroid = surface_centroid(vertices_mm, faces) if exact else vertex_mean(vertices_mm)
-    return Eigenframe(centroid, axes, values)
-
-
-def _transform(
-    method: Method,
-    eigenframe: Eigenframe,
-    canonical: Floats,
-    unit_scale: float,
-    reference: Reference | None,
-    mirrored: bool,
-) -> Floats:
-    """The transform of the method; never a mirror."""
-    if method == "footfit" or reference is None:
-        return canonical
-    target = reference.om_e, reference.centroid_mm
+def _eigenframes(
+    vertices_mm: Floats, faces: Ints, rotation: Floats, method: Method
+) -> tuple[Eigenframe, Eigenframe]:
+    """The method's own frame, and the one by Eq. 1-4 as printed, settled."""
+    P_c, C_M, R = wpca.printed_axes(vertices_mm, faces)
+    printed = _paired(P_c, wpca.settled(R, rotation), C_M)
     if method == "paper":
-        of_mirrored = wpca.paper_transform(
-            eigenframe.centroid_mm, eigenframe.eigenvectors, unit_scale, *target, mirrored=mirrored
-        )
-    else:
-        of_mirrored = wpca.literal_transform(
-            eigenframe.centroid_mm, unit_scale, *target, mirrored=mirrored
-        )
-    return wpca.unmirrored(of_mirrored, mirrored=mirrored)
+        return printed, printed
+    if method == "paper-literal":
+        return _paired(P_c, wpca.largest_positive(R), C_M), printed
+    moment = surface_second_moment(vertices_mm, faces)
+    rows = wpca.settled(principal_axes(moment)[1], rotation)
+    return _paired(surface_centroid(vertices_mm, faces), rows, moment), printed
+
+
+def _paired(centroid_mm: Floats, rows: Floats, moment_mm2: Floats) -> Eigenframe:
+    return Eigenframe(centroid_mm, rows, moments_along(moment_mm2, rows))
+
+
+def _paper_transform(
+    frame: Eigenframe, reference: Reference, unit_scale: float, *, literal: bool, left: bool
+) -> Floats:
+    """The transform of a paper method, of a left shape by its mirror image; never a mirror."""
+    P_c, R = frame.centroid_mm, frame.eigenvectors
+    if left:
+        P_c, R = wpca.mirrored_frame(P_c, R)
+    moved = wpca.paper_transform(
+        P_c, R, reference.om_e, reference.centroid_mm, unit_scale, literal=literal
+    )
+    return wpca.unmirrored(moved, mirrored=left)

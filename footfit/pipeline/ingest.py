@@ -21,6 +21,7 @@ from footfit.pipeline.batch import Outcome, outcomes
 from footfit.pipeline.manifest import ManifestRow
 from footfit.pipeline.reading import content_hash, profiled_source
 from footfit.pipeline.sources import ReadingOptions, Source
+from footfit.pipeline.units import unit_notes
 from footfit.results import IngestOutcome, LastLabels, LastRecord, MeshCopy, Notice, Profiled
 
 SAME_LENGTH_MM = 0.01
@@ -163,6 +164,7 @@ def last_record(shape: Profiled, labels: LastLabels) -> LastRecord:
         side=alignment.side,
         pose=alignment.pose,
         eigenframe=alignment.eigenframe,
+        printed_frame=alignment.printed_frame,
         canonical_transform=alignment.canonical_transform,
         paper_transform=None,
         length_mm=alignment.length_mm,
@@ -340,6 +342,7 @@ def _accepted(path: str | None, status: str, record: LastRecord, *, first: bool)
         code=None,
         warnings=record.warnings if status != "unchanged" else (),
         reference=first,
+        notes=unit_notes(record.info, record.length_mm) if status != "unchanged" else (),
     )
 
 

@@ -167,8 +167,8 @@ def alignment_reference(path: Path, method: Method, to: str | None) -> Reference
 
 
 def reference_of(record: LastRecord) -> Reference:
-    """What a last would be as the reference: its OM_E (Eq. 6) and centroid, as a right shape."""
-    frame, mirrored = record.eigenframe, record.side.side == "left"
+    """What a last would be as the reference: its OM_E (Eq. 6) and P_c, as a right shape."""
+    frame, mirrored = record.printed_frame, record.side.side == "left"
     return Reference(
         record.labels.name,
         om_e(frame.eigenvectors, record.canonical_transform, mirrored=mirrored),

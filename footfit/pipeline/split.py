@@ -6,10 +6,10 @@ from collections.abc import Sequence
 
 from footfit.errors import FootfitError
 from footfit.meshes.write import encoded_mesh
-from footfit.pipeline.align import length_windows
 from footfit.pipeline.prepare import separate_feet
 from footfit.pipeline.reading import read
 from footfit.pipeline.sources import ReadingOptions, Source
+from footfit.pipeline.units import length_windows
 
 
 def split_sources(sources: Sequence[Source], reading: ReadingOptions) -> list[Source]:

@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING, Any, Literal
 import numpy as np
 
 from footfit.geometry.arrays import Floats, Ints
+from footfit.geometry.rotations import applied
 from footfit.report.figures import DIVERGING, bare, house_style, scale_bar
-from footfit.report.frames_figure import moved
 from footfit.report.shading import VIEWS, frame_around, shaded_image
 from footfit.report.text import file_name, plain
 
@@ -101,7 +101,7 @@ def _laid(curvature: SurfaceCurvature, canonical_transform: Floats | None) -> Fl
     """The vertices in the canonical frame, or along their own principal directions."""
     points = curvature.vertices_mm
     if canonical_transform is not None:
-        return moved(points / curvature.info.unit_scale, canonical_transform)
+        return applied(canonical_transform, points / curvature.info.unit_scale)
     centred = points - points.mean(axis=0)
     columns = np.linalg.eigh(centred.T @ centred)[1][:, ::-1]
     columns[:, 2] *= np.sign(np.linalg.det(columns))

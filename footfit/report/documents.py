@@ -13,7 +13,6 @@ from footfit.report.lines import Json, document
 from footfit.report.lines import error_document as error_document
 from footfit.report.lines import json_line as json_line
 from footfit.report.numbers import (
-    MILLIMETRE_DIGITS,
     RATIO_DIGITS,
     degrees,
     millimetres,
@@ -22,6 +21,7 @@ from footfit.report.numbers import (
 )
 from footfit.report.parts import (
     clearance_part,
+    eigenframe_part,
     fit_part,
     flare_part,
     measures_part,
@@ -50,7 +50,6 @@ QUANTILES = (0.05, 0.5, 0.95)
 
 def align_document(alignment: Alignment) -> Json:
     """``footfit.align/1``."""
-    frame = alignment.eigenframe
     return document(
         "align",
         {
@@ -58,9 +57,7 @@ def align_document(alignment: Alignment) -> Json:
             **side_part(alignment.side),
             "method": alignment.method,
             "transform": nested(alignment.transform, RATIO_DIGITS),
-            "eigenvalues_mm2": nested(frame.eigenvalues_mm2, MILLIMETRE_DIGITS),
-            "eigenvectors": nested(frame.eigenvectors, RATIO_DIGITS),
-            "centroid_mm": nested(frame.centroid_mm, MILLIMETRE_DIGITS),
+            **eigenframe_part(alignment.eigenframe),
             "reference": reference_part(alignment.reference),
             "pose": pose_part(alignment.pose),
             "length_mm": millimetres(alignment.length_mm),

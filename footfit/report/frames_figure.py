@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from footfit.geometry.arrays import Floats, Ints
+from footfit.geometry.rotations import applied
 from footfit.report.figures import INK, SERIES, SKIN, bare, house_style, scale_bar
 from footfit.report.flare_figure import shape_words
 from footfit.report.shading import VIEWS, axonometric_view, frame_around, shaded_image
@@ -22,14 +23,8 @@ EYE_DEG = (-52.0, 24.0)
 """Azimuth and elevation of the eye in the two oblique views."""
 COLUMNS = 560
 REACH = 2.0
-"""An eigenvector's arrow, in standard deviations of the surface along it."""
+"""An eigenvector's arrow, in standard deviations of the surface along it: each row's own value."""
 ARROWS = tuple(zip(("e1", "e2", "e3"), SERIES, strict=False))
-
-
-def moved(points: Floats, transform: Floats) -> Floats:
-    """Points (n, 3) under a 4x4 transform."""
-    result: Floats = points @ transform[:3, :3].T + transform[:3, 3]
-    return result
 
 
 def frames_figure(mesh: AlignedScan) -> Figure:
@@ -44,13 +39,13 @@ def frames_figure(mesh: AlignedScan) -> Figure:
 
     alignment = mesh.alignment
     back = np.linalg.inv(alignment.canonical_transform).astype(np.float64)
-    file_mm = alignment.info.unit_scale * moved(mesh.vertices_mm, back)
-    aligned_mm = moved(mesh.vertices_mm, alignment.transform @ back)
+    file_mm = alignment.info.unit_scale * applied(back, mesh.vertices_mm)
+    aligned_mm = applied(alignment.transform @ back, mesh.vertices_mm)
     frame = alignment.eigenframe
     turn = alignment.transform[:3, :3] / alignment.info.unit_scale
     arrows = frame.eigenvectors * REACH * np.sqrt(frame.eigenvalues_mm2)[:, None]
     scaled = frame.centroid_mm / alignment.info.unit_scale
-    centre = moved(scaled[None], alignment.transform)[0]
+    centre = applied(alignment.transform, scaled[None])[0]
     with house_style():
         figure = Figure(figsize=(10.5, 7.4), layout="constrained")
         grid = figure.add_gridspec(2, 2)

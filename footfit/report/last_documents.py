@@ -13,6 +13,7 @@ from footfit.report.numbers import (
     nested,
 )
 from footfit.report.parts import (
+    eigenframe_part,
     flare_part,
     last_part,
     measures_part,
@@ -41,7 +42,6 @@ def show_last_document(record: LastRecord, reference: str | None) -> Json:
 
     `record_text` writes this document for ``export-last -o x.json``.
     """
-    frame = record.eigenframe
     paper = record.paper_transform
     return document(
         "show-last",
@@ -56,9 +56,8 @@ def show_last_document(record: LastRecord, reference: str | None) -> Json:
             "transform": nested(record.canonical_transform, RATIO_DIGITS),
             "paper_transform": None if paper is None else nested(paper, RATIO_DIGITS),
             "paper_frame_angle_deg": degrees(paper_frame_angle_deg(record)),
-            "eigenvalues_mm2": nested(frame.eigenvalues_mm2, MILLIMETRE_DIGITS),
-            "eigenvectors": nested(frame.eigenvectors, RATIO_DIGITS),
-            "centroid_mm": nested(frame.centroid_mm, MILLIMETRE_DIGITS),
+            **eigenframe_part(record.eigenframe),
+            "printed_frame": eigenframe_part(record.printed_frame),
             "pose": pose_part(record.pose),
             "warnings": warnings_part(record.warnings),
         },

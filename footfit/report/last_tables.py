@@ -9,7 +9,7 @@ from rich.text import Text
 
 from footfit.geometry.sizes import LabelCheck, label_check, label_words
 from footfit.report.parts import paper_frame_angle_deg
-from footfit.report.tables import cell, facts, lined_table, side_words
+from footfit.report.tables import cell, eigenvalue_words, facts, lined_table, side_words
 from footfit.report.text import measured_text, plain, signed, size_text, visible
 
 if TYPE_CHECKING:
@@ -72,8 +72,7 @@ def _size_row(record: LastRecord) -> Text:
 
 def show_last_table(record: LastRecord, reference: str | None) -> RenderableType:
     """Everything of one last that a person reads."""
-    labels, flare, frame, info = record.labels, record.flare, record.eigenframe, record.info
-    eigen = ", ".join(plain(float(value)) for value in frame.eigenvalues_mm2)
+    labels, flare, info = record.labels, record.flare, record.info
     upgraded = f", upgraded from {record.upgraded_from}" if record.upgraded_from else ""
     turned = f"{signed(flare.angle_deg)} ± {plain(flare.angle_sd_deg)} deg ({flare.flare_class})"
     rows: list[tuple[str, str | Text]] = [
@@ -87,7 +86,7 @@ def show_last_table(record: LastRecord, reference: str | None) -> RenderableType
         *_measures(record),
         ("reference", "this is the reference last" if labels.name == reference else "no"),
         ("paper's frame", _paper_words(record)),
-        ("eigenvalues", f"{eigen} mm2"),
+        ("eigenvalues", eigenvalue_words(record.eigenframe)),
         ("mesh", f"{info.vertices:,} vertices, {info.faces:,} faces, {info.units} in the file"),
         ("content", f"sha256 {info.sha256}"),
     ]

@@ -8,10 +8,12 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from footfit.geometry import wpca
 from footfit.geometry.flare import CHANNELS
 from footfit.geometry.sizes import foot_sizes, label_check, label_words
 from footfit.report.lines import Json
 from footfit.report.numbers import (
+    MILLIMETRE_DIGITS,
     RATIO_DIGITS,
     degrees,
     measured_value,
@@ -24,9 +26,9 @@ from footfit.results import Measured
 if TYPE_CHECKING:
     from collections.abc import Iterable, Sequence
 
-    from footfit.geometry.arrays import Floats
     from footfit.geometry.flare import FlareProfile
     from footfit.results import (
+        Eigenframe,
         FitProfile,
         FootFit,
         LastRecord,
@@ -195,29 +197,25 @@ def finite(value: object) -> object:
 
 
 def paper_frame_angle_deg(record: LastRecord) -> float | None:
-    """How far the paper's frame is turned from footfit's, for one last; None without one.
-
-    Both transforms are compared as rotations of the file's own axes into the frame of a right
-    shape: the paper's takes a left last mirrored in its first axis, footfit's does not mirror.
-    """
+    """How far the paper's frame is turned from footfit's, for one last; None without one."""
     if record.paper_transform is None:
         return None
-    left = record.side.side == "left"
-    file_mirror = np.diag([-1.0, 1.0, 1.0]) if left else np.eye(3)
-    frame_mirror = np.diag([1.0, -1.0, 1.0]) if left else np.eye(3)
-    paper = _rotation(record.paper_transform) @ file_mirror
-    footfit = frame_mirror @ _rotation(record.canonical_transform)
-    turn = paper @ footfit.T
-    skew = turn - turn.T
-    sine = 0.5 * math.sqrt(skew[2, 1] ** 2 + skew[0, 2] ** 2 + skew[1, 0] ** 2)
-    return math.degrees(math.atan2(sine, 0.5 * (float(np.trace(turn)) - 1.0)))
+    return wpca.paper_frame_angle_deg(
+        record.paper_transform,
+        record.canonical_transform,
+        mirrored=record.side.side == "left",
+    )
 
 
-def _rotation(transform: Floats) -> Floats:
-    """The rotation of a similarity, without its scale."""
-    linear = transform[:3, :3]
-    rotation: Floats = linear / math.cbrt(abs(float(np.linalg.det(linear))))
-    return rotation
+def eigenframe_part(frame: Eigenframe) -> Json:
+    """The eigenvectors with their values: listed descending, and paired with the rows."""
+    values = frame.eigenvalues_mm2
+    return {
+        "eigenvalues_mm2": nested(np.sort(values)[::-1], MILLIMETRE_DIGITS),
+        "row_eigenvalues_mm2": nested(values, MILLIMETRE_DIGITS),
+        "eigenvectors": nested(frame.eigenvectors, RATIO_DIGITS),
+        "centroid_mm": nested(frame.centroid_mm, MILLIMETRE_DIGITS),
+    }
 
 
 def last_part(record: LastRecord, *, reference: str | None) -> Json:

@@ -24,6 +24,7 @@ if TYPE_CHECKING:
 
     from footfit.results import (
         Alignment,
+        Eigenframe,
         IngestOutcome,
         Profiled,
         SideVerdict,
@@ -95,7 +96,6 @@ def side_words(side: SideVerdict) -> str:
 def align_table(alignment: Alignment) -> RenderableType:
     """One mesh, aligned."""
     frame, pose, info = alignment.eigenframe, alignment.pose, alignment.info
-    eigen = ", ".join(plain(float(value)) for value in frame.eigenvalues_mm2)
     centroid = ", ".join(plain(float(value)) for value in frame.centroid_mm)
     rows: list[tuple[str, str | Text]] = [
         ("mesh", f"{info.faces:,} faces, {'closed' if info.watertight else 'open'}"),
@@ -103,13 +103,27 @@ def align_table(alignment: Alignment) -> RenderableType:
         ("side", side_words(alignment.side)),
         ("method", alignment.method),
         ("length", f"{plain(alignment.length_mm)} mm"),
-        ("eigenvalues", f"{eigen} mm2"),
+        ("eigenvalues", eigenvalue_words(frame)),
         ("centroid", f"{centroid} mm (the file's axes)"),
         ("pose", f"cost {plain(pose.cost, 2)}, margin {plain(pose.margin, 2)}, {_sole(pose.sole)}"),
     ]
     if alignment.reference is not None:
         rows.append(("reference", cell(alignment.reference.last)))
     return facts(rows, title=info.path or "standard input")
+
+
+def eigenvalue_words(frame: Eigenframe) -> str:
+    """Each eigenvector's own value, under the names that the frames' picture gives them.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from footfit.results import Eigenframe
+    >>> eigenvalue_words(Eigenframe(np.zeros(3), np.eye(3), np.array([5200.0, 480.0, 610.0])))
+    'e1 5200.0, e2 480.0, e3 610.0 mm2'
+    """
+    values = (plain(float(value)) for value in frame.eigenvalues_mm2)
+    return ", ".join(f"e{row} {value}" for row, value in enumerate(values, 1)) + " mm2"
 
 
 def _sole(sole: bool) -> str:
