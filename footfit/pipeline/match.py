@@ -24,6 +24,7 @@ from footfit.pipeline.ranking import (
     placed,
     refusals,
 )
+from footfit.pipeline.measure import suspects
 from footfit.pipeline.reading import profiled_source
 from footfit.pipeline.sources import ReadingOptions, Source
 from footfit.results import (
@@ -275,7 +276,10 @@ def _notices(
     answer: _Answer, missed: Sequence[Candidate], question: Question
 ) -> tuple[Notice, ...]:
     """What the reader must know beside the table."""
-    feet, notices = answer.feet, []
+    feet = answer.feet
+    notices = [
+        notice for one in feet for notice in suspects(one.measures, one.aligned.alignment.pose.kind)
+    ]
     if question.by == "flare":
         notices.append(
             Notice("scale_free", "a search by flare alone cannot tell sizes apart; look at length")
