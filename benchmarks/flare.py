@@ -1,6 +1,6 @@
 """Flare against its planted truth, and how far it moves when only the scan changes.
 
-    python benchmarks/flare.py [--lasts 24] [--feet 12] [--seed 1] [--write]
+    python -m benchmarks.flare [--lasts 24] [--feet 12] [--seed 1] [--write]
 
 Lasts of known turn come from tools/lasts.py, feet from ../shared/scans/makehuman where it is
 present. ``--write`` puts the tables into docs/flare.md.
@@ -20,11 +20,18 @@ sys.path.insert(0, str(ROOT))
 
 import numpy as np  # noqa: E402
 
+from benchmarks import bends  # noqa: E402
 from benchmarks.alignment import scan_of  # noqa: E402
 from benchmarks.tables import markdown, put  # noqa: E402
 from footfit.errors import FootfitError  # noqa: E402
-from footfit.geometry.flare import CHANNELS, DISTANCE, FlareProfile, flare_profile  # noqa: E402
-from footfit.geometry.measures import MEASURES  # noqa: E402
+from footfit.geometry.centre_line import low_length  # noqa: E402
+from footfit.geometry.flare import (  # noqa: E402
+    CHANNELS,
+    DISTANCE,
+    FlareDefinition,
+    FlareProfile,
+    flare_profile,
+)
 from footfit.meshes.read import read_scan  # noqa: E402
 from footfit.pipeline.align import aligned  # noqa: E402
 from footfit.pipeline.flare import profiled, right_shape  # noqa: E402
@@ -35,10 +42,6 @@ from tools.lasts import LastSpec, last_mesh, true_heading_deg, varied  # noqa: E
 
 SCANS = ROOT.parent / "shared" / "scans" / "makehuman"
 BENDS_DEG = (-8.0, -4.0, 4.0, 8.0)
-BEND = (
-    0.30,
-    0.55,
-)  # stations between which a foot is bent: after the rearfoot, before the forefoot
 
 Mesh = tuple[np.ndarray, np.ndarray]
 Change = Callable[[np.ndarray, np.ndarray, np.random.Generator], Mesh]
@@ -104,24 +107,6 @@ def feet(count: int) -> list[Shape]:
     return [Shape(*right_shape(aligned(read_scan(path))), "foot") for path in chosen]
 
 
-def bent(vertices: np.ndarray, turn_deg: float) -> np.ndarray:
-    """A foot whose forefoot is turned in plan: the planted change of its flare angle."""
-    length = np.ptp(vertices[vertices[:, 2] < 0.3 * np.ptp(vertices[:, 0]), 0])
-    grid = np.linspace(-0.3, 1.3, 3201)
-
-    def heading(s):
-        t = np.clip((s - BEND[0]) / (BEND[1] - BEND[0]), 0.0, 1.0)
-        return np.radians(turn_deg) * t * t * (3.0 - 2.0 * t)
-
-    middle = heading(0.5 * (grid[1:] + grid[:-1]))
-    x = grid[0] + np.concatenate([[0.0], np.cumsum(np.cos(middle) * np.diff(grid))])
-    y = np.concatenate([[0.0], np.cumsum(np.sin(middle) * np.diff(grid))])
-    s, d = vertices[:, 0] / length, vertices[:, 1] / length
-    moved_x = np.interp(s, grid, x) - d * np.sin(heading(s))
-    moved_y = np.interp(s, grid, y) + d * np.cos(heading(s))
-    return np.column_stack([moved_x * length, moved_y * length, vertices[:, 2]])
-
-
 def through_the_pipeline(shape: Shape, change: Change, rng: np.random.Generator) -> Profiled:
     """Changed, put in a random pose, aligned and profiled like any scan."""
     vertices, faces = change(shape.vertices, shape.faces, rng)
@@ -168,21 +153,38 @@ def angle_rows(shapes: dict[str, list[Shape]], seed: int) -> Iterator[list[str]]
         yield row
 
 
-def bend_rows(shapes: list[Shape]) -> Iterator[list[str]]:
-    """What a planted bend changes."""
-    for turn in BENDS_DEG:
-        changes = [
-            flare_profile(bent(s.vertices, turn), s.faces).angle_deg
-            - flare_profile(s.vertices, s.faces).angle_deg
-            for s in shapes
-        ]
-        off = [c - turn for c in changes]
-        yield [
-            f"{turn:+.0f}",
-            f"{np.mean(changes):+.2f}",
-            f"{np.std(changes):.2f}",
-            f"{worst(off):.2f}",
-        ]
+def bend_rows(shapes: list[Shape], seed: int) -> Iterator[list[str]]:
+    """What a planted bend changes, straight and bent foot each in a random pose of its own."""
+    rng = np.random.default_rng(seed + 3)
+    still = [through_the_pipeline(s, POSED["pose alone"], rng).flare for s in shapes]
+    for name in ("its centre line", "X"):
+        for turn in BENDS_DEG:
+            errors, truths = [], []
+            for shape, straight in zip(shapes, still, strict=True):
+                change, truth = bend(shape, turn, own=name != "X")
+                run = through_the_pipeline(shape, change, rng).flare
+                truths.append(truth)
+                errors.append(run.angle_deg - straight.angle_deg - truth)
+            yield [
+                f"{turn:+.0f} along {name}",
+                f"{np.mean(truths):+.2f}",
+                f"{np.mean(errors):+.2f}",
+                f"{rms(errors):.2f}",
+                f"{worst(errors):.2f}",
+            ]
+
+
+def bend(shape: Shape, turn_deg: float, *, own: bool) -> tuple[Change, float]:
+    """A bend of a foot, and what it truly changes of its flare angle."""
+    definition = FlareDefinition()
+    length_mm = low_length(shape.vertices, definition.length_height)[1]
+    line = bends.own_line(flare_profile(shape.vertices, shape.faces), length_mm)
+    axis = line if own else bends.x_axis(length_mm)
+
+    def change(vertices, faces, _):
+        return bends.bent(vertices, axis, turn_deg), faces
+
+    return change, bends.true_change_deg(line, axis, turn_deg)
 
 
 @dataclass
@@ -194,14 +196,13 @@ class Posed:
     said: dict[tuple[str, str], list[float]]
     channels: dict[str, list[np.ndarray]]
     spread: dict[str, list[np.ndarray]]
-    measures: dict[str, list[float]]
     refused: int = 0
 
 
 def posed_runs(shapes: dict[str, list[Shape]], seed: int) -> Posed:
     """Every shape through the whole pipeline, once still and once under each change."""
     rng = np.random.default_rng(seed + 1)
-    found = Posed({}, {}, {}, {c: [] for c in CHANNELS}, {c: [] for c in CHANNELS}, {})
+    found = Posed({}, {}, {}, {c: [] for c in CHANNELS}, {c: [] for c in CHANNELS})
     for shape in [s for of in shapes.values() for s in of]:
         still = through_the_pipeline(shape, POSED["pose alone"], rng)
         for channel, curve in still.flare.curvature.items():
@@ -226,11 +227,6 @@ def _note(found: Posed, shape: Shape, name: str, still: Profiled, run: Profiled)
     found.said.setdefault(key, []).append(run.flare.angle_sd_deg)
     for channel, moved in channel_changes(still.flare, run.flare).items():
         found.channels[channel].append(moved)
-    for before, after in zip(still.measures, run.measures, strict=True):
-        if before.measured.value is not None and after.measured.value is not None:
-            found.measures.setdefault(before.name, []).append(
-                after.measured.value - before.measured.value
-            )
 
 
 def channel_changes(a: FlareProfile, b: FlareProfile) -> dict[str, np.ndarray]:
@@ -251,8 +247,9 @@ def posed_rows(found: Posed) -> Iterator[list[str]]:
         row = [name, f"{rms(found.errors.get(name, [])):.3f}"]
         for kind in ("last", "foot"):
             moved = found.angles.get((name, kind), [])
-            said = np.mean(found.said.get((name, kind), [np.nan]))
-            row += [f"{rms(moved):.3f}", f"{worst(moved):.2f}", f"{said:.3f}"]
+            said = rms(found.said.get((name, kind), []))
+            row += [f"{rms(moved):.3f}", f"{worst(moved):.2f}"]
+            row += [f"{said:.3f}", f"{rms(moved) / said:.2f}"]
         yield row
 
 
@@ -263,14 +260,6 @@ def channel_rows(found: Posed) -> Iterator[list[str]]:
         sd = rms(list(np.concatenate(moved))) if moved else float("nan")
         between = float(np.std(np.array(found.spread[name]), axis=0).mean())
         yield [name, f"{sd:.3f}", f"{between:.3f}", f"{between / sd:.1f}", f"{DISTANCE.sd[index]}"]
-
-
-def measure_rows(found: Posed) -> Iterator[list[str]]:
-    """How a measure repeats."""
-    for entry in MEASURES:
-        moved = found.measures.get(entry.name, [])
-        p95 = float(np.percentile(np.abs(moved), 95)) if moved else float("nan")
-        yield [entry.name, f"{rms(moved):.2f}", f"{p95:.2f}", f"{entry.sd}"]
 
 
 def curve_rows(shapes: list[Shape], seed: int) -> Iterator[list[str]]:
@@ -316,7 +305,7 @@ def main() -> None:
     move = ["lasts RMS", "lasts worst", "feet RMS", "feet worst"]
     posed_head = ["lasts: RMS error"]
     for kind in ("lasts", "feet"):
-        posed_head += [f"{kind} moved RMS", f"{kind} worst", f"{kind} said sd"]
+        posed_head += [f"{kind} moved RMS", f"{kind} worst", f"{kind} said sd", "moved / said"]
     text = "\n".join(
         [
             f"Seed {options.seed}, {len(shapes['last'])} lasts, {len(shapes['foot'])} feet.\n",
@@ -324,8 +313,11 @@ def main() -> None:
             markdown(["changed", *move], list(angle_rows(shapes, options.seed))),
             f"Whole pipeline in random poses (degrees); {found.refused} refused:\n",
             markdown(["changed", *posed_head], list(posed_rows(found))),
-            "Feet of known bend (degrees):\n",
-            markdown(["planted", "mean", "SD", "worst error"], list(bend_rows(shapes["foot"]))),
+            "Feet of known bend, whole pipeline in random poses (degrees):\n",
+            markdown(
+                ["planted", "true change", "mean error", "RMS error", "worst error"],
+                list(bend_rows(shapes["foot"], options.seed)),
+            ),
             "Plan curvature against the planted one (correlation over the stations):\n",
             markdown(
                 ["changed", "median", "worst"], list(curve_rows(shapes["last"], options.seed))
@@ -335,8 +327,6 @@ def main() -> None:
                 ["channel", "repeatability", "between shapes", "ratio", "sd in use"],
                 list(channel_rows(found)),
             ),
-            "Measures, whole pipeline (mm):\n",
-            markdown(["measure", "RMS", "95 %", "sd in use"], list(measure_rows(found))),
             f"The profile of a last of {len(shapes['last'][0].faces)} faces takes "
             f"{own / weld:.1f} times as long as welding it ({1000 * own:.0f} ms here).\n",
         ]

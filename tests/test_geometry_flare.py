@@ -2,8 +2,11 @@
 
 from __future__ import annotations
 
+import ast
+import importlib
 import json
 from dataclasses import asdict, replace
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -11,6 +14,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from footfit.errors import HalfScan
+from footfit.geometry import bottom_shape
 from footfit.geometry.flare import (
     CHANNELS,
     FlareDefinition,
@@ -229,6 +233,57 @@ def test_the_definition_travels_as_json():
     stored = json.loads(json.dumps(asdict(FlareDefinition())))
     lists = {k: tuple(v) if isinstance(v, list) else v for k, v in stored.items()}
     assert FlareDefinition(**lists) == FlareDefinition()
+
+
+MODULES = ("flare", "flare_definition", "centre_line", "bands", "smoothing")
+MODULES += ("bottom", "bottom_shape", "bottom_surface")
+SPARING = {"_NEIGHBOURHOOD", "_ROLL_LIFT"}  # the next test: no value depends on them
+
+
+def numbers_of(node):
+    constants = (n for n in ast.walk(node) if isinstance(n, ast.Constant))
+    return [c.value for c in constants if isinstance(c.value, int | float)]
+
+
+@pytest.mark.parametrize("name", MODULES)
+def test_no_chosen_number_stands_outside_the_definition(name):
+    source = importlib.import_module(f"footfit.geometry.{name}").__file__
+    body = ast.parse(Path(source).read_text(encoding="utf-8")).body
+    assigned = (n for n in body if isinstance(n, ast.Assign | ast.AnnAssign))
+    named = {
+        target.id
+        for node in assigned
+        for target in (node.targets if isinstance(node, ast.Assign) else [node.target])
+        if isinstance(target, ast.Name) and numbers_of(node)
+    }
+    assert named <= SPARING
+
+
+def test_what_is_left_out_before_changes_nothing(usual, monkeypatch):
+    vertices, faces, profile = usual
+    monkeypatch.setattr(bottom_shape, "_NEIGHBOURHOOD", 0.2)
+    monkeypatch.setattr(bottom_shape, "_ROLL_LIFT", 0.1)
+    same(profile, flare_profile(vertices, faces), 1e-9)
+
+
+@pytest.mark.parametrize(
+    "finer",
+    [
+        {"table": (-0.1, 1.1, 4801)},
+        {"projections": 5},
+        {"turn_least": 0.1},
+        {"window_points": 400},
+        {"surface_bins": 2401},
+        {"surface_halvings": 9},
+        {"length_rounds": 8},
+    ],
+    ids=lambda finer: next(iter(finer)),
+)
+def test_how_finely_it_is_solved_hardly_matters(usual, finer):
+    vertices, faces, profile = usual
+    other = flare_profile(vertices, faces, FlareDefinition(**finer))
+    assert other.angle_deg == pytest.approx(profile.angle_deg, abs=1e-3)
+    assert np.abs(channels(other) - channels(profile))[:, INSIDE].max() < 0.02
 
 
 def test_a_profiles_arrays_stand_at_the_fixed_stations(usual):

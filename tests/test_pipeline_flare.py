@@ -8,9 +8,10 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from benchmarks.flare import bent
+from benchmarks import bends
 from footfit.errors import SideUndecided
-from footfit.geometry.flare import CHANNELS, flare_profile
+from footfit.geometry.centre_line import low_length
+from footfit.geometry.flare import CHANNELS, FlareDefinition, flare_profile
 from footfit.geometry.surface import signed_volume
 from footfit.meshes.read import read_scan
 from footfit.pipeline.align import aligned
@@ -68,10 +69,12 @@ def test_an_undecided_side_is_refused_with_what_to_type(right):
 def test_measures_carry_their_sd_and_definition(right):
     found = profiled(right)
     by_name = {measure.name: measure for measure in found.measures}
-    assert by_name["length"].measured.value == pytest.approx(right.alignment.length_mm, abs=0.3)
+    # steadied against noise: a few tenths inside the plain extent (docs/measures.md)
+    assert 0.0 < right.alignment.length_mm - by_name["length"].measured.value < 1.0
     for measure in found.measures:
-        assert measure.measured.sd > 0.0
-        assert measure.measured.reason is None
+        value, sd = measure.measured.value, measure.measured.sd
+        assert (value is None) == (sd is None) == (measure.measured.reason is not None)
+        assert sd is None or sd > 0.0
         assert measure.definition
 
 
@@ -81,13 +84,34 @@ def test_what_is_not_there_has_a_reason_and_no_sd(right):
     holed = replace(right, faces=right.faces[np.abs(centres[:, 0] - start) > 8.0])
     heel = next(m for m in profiled(holed).measures if m.name == "heel_width")
     assert (heel.measured.value, heel.measured.sd) == (None, None)
-    assert "gap" in heel.measured.reason
+    assert "open at the heel" in heel.measured.reason
 
 
 @pytest.mark.parametrize("name", ["mh000_L", "mh005_R", "mh010_L"])
 def test_a_foot_of_known_bend_reads_the_bend(name):
     vertices, faces = right_shape(aligned(read_scan(SCANS / f"{name}.stl")))
-    before = flare_profile(vertices, faces).angle_deg
-    for turn_deg in (-4.0, 4.0):
-        after = flare_profile(bent(vertices, turn_deg), faces).angle_deg
-        assert after - before == pytest.approx(turn_deg, abs=0.3)
+    before = flare_profile(vertices, faces)
+    length_mm = low_length(vertices, FlareDefinition().length_height)[1]
+    line = bends.own_line(before, length_mm)
+    for axis in (line, bends.x_axis(length_mm)):
+        for turn_deg in (-8.0, -4.0, 4.0, 8.0):
+            after = flare_profile(bends.bent(vertices, axis, turn_deg), faces)
+            change_deg = bends.true_change_deg(line, axis, turn_deg)
+            assert after.angle_deg - before.angle_deg == pytest.approx(change_deg, abs=0.3)
+            if axis is line:
+                assert change_deg == pytest.approx(turn_deg, abs=1e-6)
+
+
+def test_a_planted_bend_keeps_what_lies_across_the_line(right):
+    vertices, faces = right_shape(right)
+    length_mm = low_length(vertices, FlareDefinition().length_height)[1]
+    line = bends.own_line(flare_profile(vertices, faces), length_mm)
+    still = bends.bent(vertices, line, 0.0)
+    assert np.abs(still - vertices).max() < 1e-3
+    moved = bends.bent(vertices, line, 8.0)
+    low = vertices[:, 2] < 20.0
+    heel, toe = (low & (np.abs(vertices[:, 0] / length_mm - at) < 0.08) for at in (0.12, 0.85))
+    for part in (heel, toe):  # stiff on either side of the bend
+        before, after = vertices[part], moved[part]
+        away = np.linalg.norm(before - before[0], axis=1)
+        assert np.allclose(np.linalg.norm(after - after[0], axis=1), away, atol=0.01)

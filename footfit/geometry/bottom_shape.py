@@ -18,6 +18,7 @@ from footfit.geometry.sections import (
 )
 from footfit.geometry.surface import area_vectors
 
+# What may be left out without any value changing (a test holds it); the rest is in the definition.
 _NEIGHBOURHOOD = 0.10  # a normal section reaches less than this forward and backward along x
 _ROLL_LIFT = 0.02  # a small roll lifts what a band may touch by less
 
@@ -37,7 +38,7 @@ class BottomShape:
     length_mm: float
 
 
-def low_length(vertices: Floats, height: float) -> tuple[float, float]:
+def low_length(vertices: Floats, height: float, rounds: int = 3) -> tuple[float, float]:
     """The rearmost x and the extent along x of what lies lower than ``height`` times it.
 
     Examples
@@ -46,7 +47,7 @@ def low_length(vertices: Floats, height: float) -> tuple[float, float]:
     (0.0, 10.0)
     """
     start, length = float(vertices[:, 0].min()), float(np.ptp(vertices[:, 0]))
-    for _ in range(3):
+    for _ in range(rounds):
         low = vertices[vertices[:, 2] < height * length, 0]
         if len(low) == 0:
             break
@@ -62,7 +63,7 @@ def bottom_shape(vertices_mm: Floats, faces: Ints, definition: FlareDefinition) 
     HalfScan
         The mesh has no length.
     """
-    origin, length = low_length(vertices_mm, definition.length_height)
+    origin, length = low_length(vertices_mm, definition.length_height, definition.length_rounds)
     if length <= 0.0:
         raise HalfScan("the scan has no length along its own axis: scan the whole foot again")
     vertices = (vertices_mm - np.array([origin, 0.0, 0.0])) / length

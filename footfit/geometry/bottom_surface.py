@@ -22,11 +22,6 @@ from footfit.geometry.flare_definition import FlareDefinition
 from footfit.geometry.smoothing import local_quadratic
 from footfit.geometry.surface import area_vectors
 
-_SEEN_LEAST = 0.1  # of the usual area of sole, else a station has none
-_HALVINGS = 6  # of facets: 64 times shorter is enough for one facet as long as the foot
-_BINS = 601  # along the line, 1/25 of the bandwidth apart
-_WIDTH_BANDWIDTH = 0.03  # of the widths' curve, whose slope is used
-
 
 def surface_curvature_profile(
     shape: BottomShape, line: CentreLine, definition: FlareDefinition
@@ -43,7 +38,7 @@ def surface_curvature_profile(
     if len(points) == 0:
         return None
     weight = _window(points, line, definition)
-    grid = np.linspace(-0.1, 1.1, _BINS)
+    grid = np.linspace(*definition.table[:2], definition.surface_bins)
     columns = np.column_stack(
         [
             weight.value[:, None] * vectors,
@@ -63,7 +58,7 @@ def _station_means(
     kernel = np.exp(-0.5 * offset**2)
     normal = kernel @ binned[:, :3]
     floor_area = -normal[:, 2]  # seen from below
-    seen = floor_area > _SEEN_LEAST * np.median(floor_area)
+    seen = floor_area > definition.surface_least * np.median(floor_area)
     if floor_area.max() <= 0.0 or seen.mean() < definition.found_least:
         return None
     cosine = np.ones(len(at))
@@ -79,7 +74,7 @@ def _sole(
 ) -> tuple[Floats, Floats]:
     """Centres and area vectors, (k, 3) each, of the band's facets that look down."""
     down = area_vectors(shape.vertices, shape.faces)[:, 2] < 0.0
-    corners = _short(shape.vertices[shape.faces[down]], definition.surface_piece)
+    corners = _short(shape.vertices[shape.faces[down]], definition)
     points = corners.mean(axis=1)
     ceiling = np.interp(points[:, 0], line.bands.x, _filled(line.bands.floor))
     low = points[:, 2] <= ceiling + definition.band_height
@@ -88,10 +83,11 @@ def _sole(
     return points[low], area_vectors(corners.reshape(-1, 3), flat)
 
 
-def _short(corners: Floats, longest: float) -> Floats:
-    """Triangles (k, 3, 3), those with a side over ``longest`` cut into pieces."""
+def _short(corners: Floats, definition: FlareDefinition) -> Floats:
+    """Triangles (k, 3, 3), those with a side over ``surface_piece`` cut into pieces."""
+    longest = definition.surface_piece
     done = []
-    for _ in range(_HALVINGS):
+    for _ in range(definition.surface_halvings):
         sides = corners - corners[:, [2, 0, 1]]
         long = (np.einsum("ijk,ijk->ij", sides, sides) > longest**2).any(axis=1)
         done.append(corners[~long])
@@ -126,7 +122,8 @@ class _Window:
 def _window(points: Floats, line: CentreLine, definition: FlareDefinition) -> _Window:
     x = points[:, 0]
     known = np.isfinite(line.bands.half_width)
-    smooth, slope = local_quadratic(line.bands.x, line.bands.x[known], _WIDTH_BANDWIDTH)
+    bandwidth = definition.surface_width_bandwidth
+    smooth, slope = local_quadratic(line.bands.x, line.bands.x[known], bandwidth)
     half, half_slope = (
         np.interp(x, line.bands.x, rows @ line.bands.half_width[known]) for rows in (smooth, slope)
     )

@@ -26,14 +26,17 @@ from footfit.geometry.sections import (
 )
 from footfit.geometry.smoothing import cubic_splines
 
-__all__ = ["Bands", "CentreLine", "centre_line", "low_length", "projected"]
+__all__ = ["Bands", "CentreLine", "centre_line", "low_length"]
 
-_GRID = np.linspace(-0.1, 1.1, 1201)  # where lines are tabulated between passes
-_HEEL, _TOE = 0.05, 0.95  # from where the line goes straight on to its ends
-_FULL_STEPS = 4  # then half steps: a foot's toes can make whole ones swing for ever
-_WIDTH_STIFFNESS = 1e-7  # of the widths' curve, of which only the slope is used
-_PROJECTIONS = 2  # Newton steps onto the line: a third moves nothing by more than 1e-6
-_TURN_LEAST = 0.2  # keeps a point beyond the line's centre of curvature on its own side
+
+@dataclass(frozen=True, slots=True)
+class _Graph:
+    """A line tabulated at ``x``: ``y``, its ``slope`` and ``bend`` (second derivative), (g,)."""
+
+    x: Floats
+    y: Floats
+    slope: Floats
+    bend: Floats
 
 
 @dataclass(frozen=True, slots=True)
@@ -109,7 +112,7 @@ def centre_line(shape: BottomShape, definition: FlareDefinition) -> CentreLine:
     step = step + last @ (axis.offset - axis.design @ step)
     response = first + last @ (np.eye(count) - axis.design @ first)
     scatter = np.where(axis.seen, axis.offset - axis.design @ step, 0.0)
-    line = _tabulated(shape, axis.coefficients + step)
+    line = _tabulated(shape, axis.coefficients + step, definition)
     freedom = float(axis.seen.sum() - np.trace(axis.design @ response))
     return CentreLine(*line, response, scatter, freedom, axis.bands)
 
@@ -133,14 +136,15 @@ def _settled_axis(shape: BottomShape, definition: FlareDefinition) -> _Axis:
     """Cut across the line, move the line to the mid-points, until it no longer moves."""
     x = section_places(definition)
     basis = cubic_splines(x, definition.splines)
-    table = cubic_splines(_GRID, definition.splines)
+    places = np.linspace(*definition.table)
+    table = cubic_splines(places, definition.splines)
     stiff = _stiffness(2, definition.axis_stiffness, definition)
-    smooth_width = _stiffness(2, _WIDTH_STIFFNESS, definition)
+    smooth_width = _stiffness(2, definition.width_stiffness, definition)
     coefficients = np.zeros(definition.splines)
     beyond = np.maximum(x - definition.trusted_to, 0.0) / definition.trust_bandwidth
     trust = np.exp(-0.5 * beyond**2)
     for turn in range(definition.passes):
-        graph = tuple(t @ coefficients for t in table)
+        graph = _Graph(places, *(t @ coefficients for t in table))
         bands = _normal_bands(shape, graph, x, definition)
         seen = _seen(bands, definition)
         design = trust[:, None] * _design(bands, seen, basis, coefficients, smooth_width)
@@ -149,7 +153,7 @@ def _settled_axis(shape: BottomShape, definition: FlareDefinition) -> _Axis:
         step = _step(axis, stiff)
         if np.abs(basis[0] @ step).max() < definition.settled:
             break
-        coefficients = coefficients + (step if turn < _FULL_STEPS else 0.5 * step)
+        coefficients = coefficients + (step if turn < definition.full_steps else 0.5 * step)
     return axis
 
 
@@ -186,14 +190,14 @@ def _stiffness(order: int, strength: float, definition: FlareDefinition) -> Floa
 
 
 def _normal_bands(
-    shape: BottomShape, graph: tuple[Floats, ...], x: Floats, definition: FlareDefinition
+    shape: BottomShape, graph: _Graph, x: Floats, definition: FlareDefinition
 ) -> Bands:
     """The bands of the sections normal to a line."""
-    y, slope = (np.interp(x, _GRID, values) for values in graph[:2])
+    y, slope = (np.interp(x, graph.x, values) for values in (graph.y, graph.slope))
     length = np.hypot(1.0, slope)
     origins = np.column_stack([x, y, np.zeros_like(x)])
     normals = np.column_stack([1.0 / length, slope / length, np.zeros_like(x)])
-    levels = projected(shape.vertices, graph)
+    levels = _projected(shape.vertices, graph, definition)
     segments = plane_sections(shape.vertices, shape.faces, levels, Planes(x, origins, normals))
     run = segments.points[:, :, :2] - origins[segments.plane][:, None, :2]
     across = run[:, :, 1] * normals[segments.plane, 0, None]
@@ -208,17 +212,14 @@ def _normal_bands(
     )
 
 
-def projected(points: Floats, graph: tuple[Floats, ...]) -> Floats:
-    """The x of the line's point in whose normal plane each point (n, 2 or 3) lies, (n,).
-
-    ``graph`` is y, slope and bend (second derivative) on the table's grid.
-    """
+def _projected(points: Floats, graph: _Graph, definition: FlareDefinition) -> Floats:
+    """The x of the line's point in whose normal plane each point (n, 2 or 3) lies, (n,)."""
     x = points[:, 0].copy()
-    for _ in range(_PROJECTIONS):
-        y, slope, bend = (np.interp(x, _GRID, values) for values in graph)
+    for _ in range(definition.projections):
+        y, slope, bend = (np.interp(x, graph.x, t) for t in (graph.y, graph.slope, graph.bend))
         aside = points[:, 1] - y
         value = points[:, 0] - x + slope * aside
-        x = x + value / np.maximum(1.0 + slope**2 - bend * aside, _TURN_LEAST)
+        x = x + value / np.maximum(1.0 + slope**2 - bend * aside, definition.turn_least)
     return x
 
 
@@ -249,25 +250,25 @@ def _solution(design: Floats, stiff: Floats) -> Floats:
 
 
 def _tabulated(
-    shape: BottomShape, coefficients: Floats
+    shape: BottomShape, coefficients: Floats, definition: FlareDefinition
 ) -> tuple[Floats, Floats, Floats, Floats, Floats, float]:
     """The first six fields of a :class:`CentreLine`."""
-    graph = tuple(t @ coefficients for t in cubic_splines(_GRID, len(coefficients)))
-    y, slope, _ = graph
-    mean_slope = 0.5 * (slope[1:] + slope[:-1])
-    arc = np.concatenate([[0.0], np.cumsum(np.hypot(1.0, mean_slope) * np.diff(_GRID))])
-    start, end = np.interp([_exit(shape, graph, at) for at in (_HEEL, _TOE)], _GRID, arc)
+    x = np.linspace(*definition.table)
+    graph = _Graph(x, *(t @ coefficients for t in cubic_splines(x, len(coefficients))))
+    mean_slope = 0.5 * (graph.slope[1:] + graph.slope[:-1])
+    arc = np.concatenate([[0.0], np.cumsum(np.hypot(1.0, mean_slope) * np.diff(x))])
+    start, end = np.interp([_exit(shape, graph, at) for at in definition.straight_ends], x, arc)
     length = float(end - start)
-    return coefficients, _GRID, y, slope, (arc - start) / length, length
+    return coefficients, x, graph.y, graph.slope, (arc - start) / length, length
 
 
-def _exit(shape: BottomShape, graph: tuple[Floats, ...], at: float) -> float:
+def _exit(shape: BottomShape, graph: _Graph, at: float) -> float:
     """The x at which the line, straight on from x = ``at``, leaves the shape.
 
     It is cut exactly along the line: the outermost point of a square toe lies elsewhere, as
     soon as the line points a degree or two aside.
     """
-    y, slope = (float(np.interp(at, _GRID, values)) for values in graph[:2])
+    y, slope = (float(np.interp(at, graph.x, values)) for values in (graph.y, graph.slope))
     ahead = np.array([1.0, slope, 0.0]) / np.hypot(1.0, slope)
     origin = np.array([at, y, 0.0])
     aside = np.array([-ahead[1], ahead[0], 0.0])

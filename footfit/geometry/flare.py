@@ -43,8 +43,6 @@ __all__ = [
     "profile_distances",
 ]
 
-_WINDOW_POINTS = 50  # where a window's mean heading is read: the midpoint rule, exact to 1e-4 deg
-
 
 def flare_profile(
     vertices_mm: Floats,
@@ -115,7 +113,7 @@ def _flare_angle(line: CentreLine, definition: FlareDefinition) -> tuple[float, 
     """The forefoot's mean heading over the rearfoot's, and its gradient by the coefficients."""
     angle, gradient = 0.0, np.zeros_like(line.coefficients)
     for window, sign in ((definition.forefoot, 1.0), (definition.rearfoot, -1.0)):
-        share = (np.arange(_WINDOW_POINTS) + 0.5) / _WINDOW_POINTS
+        share = (np.arange(definition.window_points) + 0.5) / definition.window_points
         x = line.x_at(window[0] + share * (window[1] - window[0]))
         basis = cubic_splines(x, len(line.coefficients))[1]
         slope = basis @ line.coefficients

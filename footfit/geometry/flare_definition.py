@@ -11,10 +11,11 @@ CHANNELS = ("plan", "bottom_20", "bottom_50", "bottom_80", "bottom_surface")
 
 @dataclass(frozen=True, slots=True)
 class FlareDefinition:
-    """All parameters of the flare profile; a change of any is a new version.
+    """All parameters of the flare profile: profiles compare only where every one is equal.
 
     Lengths are shares of the shape's length L, stations are shares of the centre line's own
     length (0 heel, 1 toe), headings and angles are degrees. ``docs/flare.md`` explains each.
+    The last block says how finely the same things are solved for and integrated.
 
     Examples
     --------
@@ -35,7 +36,7 @@ class FlareDefinition:
     tread: tuple[float, float] = (0.64, 0.76)
 
     # The centre line: cubic splines, the mid-points of the bands normal to it.
-    sections: int = 120
+    sections: int = 180  # as many again change no angle by 0.1 degrees, feet's toes included
     sections_from: float = 0.03
     sections_to: float = 0.96
     trusted_to: float = 0.88  # beyond, a section's weight falls: toes end one by one
@@ -45,8 +46,11 @@ class FlareDefinition:
     line_stiffness: float = 1e-7  # of the last correction, which may bend more (3rd differences)
     toe_from: float = 0.74  # beyond, both are stiffer
     toe_stiffness: float = 30.0
+    width_stiffness: float = 1e-7  # of the widths' curve, of which only the slope is used
     settled: float = 2e-4  # the axis is settled when nothing moves more
     passes: int = 10
+    full_steps: int = 4  # then half steps: a foot's toes can make whole ones swing for ever
+    straight_ends: tuple[float, float] = (0.05, 0.95)  # before and beyond, the line goes straight
     found_least: float = 0.6  # share of sections that must exist for a channel to be measured
 
     # What is read from it.
@@ -64,6 +68,9 @@ class FlareDefinition:
     surface_width: float = 0.70  # of the half width, where the weight has fallen to 0
     surface_ends: tuple[float, float] = (0.03, 0.12)  # no weight before, whole weight after
     surface_piece: float = 0.03  # longer facets are weighed piece by piece
+    surface_halvings: int = 6  # at most: enough for one facet as long as the foot
+    surface_least: float = 0.1  # of the usual area of sole, else a station has none
+    surface_width_bandwidth: float = 0.03  # of the widths' curve, whose slope is used
 
     # What the angle is called: below the first outflare, above the second inflare.
     last_straight_deg: tuple[float, float] = (4.0, 12.0)
@@ -71,8 +78,16 @@ class FlareDefinition:
 
     # The angle's uncertainty: the scatter of the mid-points, and what scatter does not show.
     scatter_bandwidth: float = 0.02
-    scatter_lags: int = 1
+    scatter_lags: int = 2
     frame_sd_deg: float = 0.05  # a frame wrong by 1 degree of yaw or 2 of roll: benchmarks/flare.py
+
+    # How finely: a finer choice of any moves the angle by less than 0.001 degrees.
+    table: tuple[float, float, int] = (-0.1, 1.1, 1201)  # x of the tabulated line: from, to, points
+    projections: int = 2  # Newton steps onto the line
+    turn_least: float = 0.2  # keeps a point beyond the line's centre of curvature on its own side
+    window_points: int = 50  # where a window's mean heading is read
+    surface_bins: int = 601  # over the table's reach
+    length_rounds: int = 3  # of measuring L below a height that is itself a share of L
 
 
 @dataclass(frozen=True, slots=True)

@@ -10,6 +10,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from footfit.geometry.angles import angle_between
 from footfit.geometry.arrays import Floats
 from footfit.geometry.floor import (
     FLOOR,
@@ -74,7 +75,7 @@ def canonical_frame(
         Its approximate length, in the sample's unit.
     """
     rotation, plane = _settled(sample, length, settings, rim=False)
-    tilt_deg = float(np.degrees(np.arccos(np.clip(rotation[2, 2], -1.0, 1.0))))
+    tilt_deg = float(np.degrees(angle_between(rotation[2], np.array([0.0, 0.0, 1.0]))))
     turned = turned_sample(sample, rotation)
     length = length_of(turned.points, plane.offset, length, settings)
     held = support(turned, plane, length, settings.floor)
