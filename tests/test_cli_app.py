@@ -14,7 +14,7 @@ from footfit.cli.app import COMMANDS, application
 from footfit.cli.boundary import guarded
 from tests.conftest import Footfit
 
-HEAVY = ("numpy", "scipy", "trimesh", "sqlalchemy", "alembic", "matplotlib", "plotly")
+HEAVY = ("numpy", "scipy", "trimesh", "sqlalchemy", "alembic", "matplotlib")
 
 
 def modules_after(*arguments: str) -> set[str]:

@@ -13,6 +13,7 @@ from footfit.geometry.arrays import Bools
 from footfit.pipeline import explain
 from footfit.pipeline.batch import Outcome, outcomes
 from footfit.pipeline.fit import VERDICTS
+from footfit.pipeline.measure import suspects
 from footfit.pipeline.profile import fit_profile
 from footfit.pipeline.ranking import (
     Field,
@@ -24,7 +25,6 @@ from footfit.pipeline.ranking import (
     placed,
     refusals,
 )
-from footfit.pipeline.measure import suspects
 from footfit.pipeline.reading import profiled_source
 from footfit.pipeline.sources import ReadingOptions, Source
 from footfit.results import (
