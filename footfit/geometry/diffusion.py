@@ -8,13 +8,12 @@ is replaced by a short Chebyshev polynomial, so that nothing is solved and NumPy
 from __future__ import annotations
 
 from dataclasses import dataclass
-from functools import reduce
 
 import numpy as np
 
 from footfit.geometry.arrays import Bools, Floats, Ints
 from footfit.geometry.surface import area_vectors
-from footfit.geometry.topology import sorted_keys
+from footfit.geometry.topology import dilated, sorted_keys
 
 
 @dataclass(frozen=True, slots=True)
@@ -158,17 +157,6 @@ def _product(operator: Diffusion, field: Floats, scratch: Floats) -> Floats:
         rest = operator.rest_weight * field[operator.rest_column]
         product += np.bincount(operator.rest_row, weights=rest, minlength=len(field))
     return product
-
-
-def dilated(mask: Bools, faces: Ints, rings: int) -> Bools:
-    """The vertices within ``rings`` edges of those in ``mask``, (n,) bool."""
-    return reduce(lambda reached, _: _grown(reached, faces), range(rings), mask)
-
-
-def _grown(mask: Bools, faces: Ints) -> Bools:
-    grown = mask.copy()
-    grown[faces[mask[faces].any(axis=1)]] = True
-    return grown
 
 
 def _projected_areas(vertices: Floats, faces: Ints) -> Floats:

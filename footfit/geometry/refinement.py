@@ -8,7 +8,7 @@ import numpy as np
 
 from footfit.geometry.arrays import Bools, Floats, Ints
 from footfit.geometry.surface import face_normals
-from footfit.geometry.topology import half_edges, lowest_connected, sorted_keys
+from footfit.geometry.topology import dilated, half_edges, lowest_connected, sorted_keys
 
 
 @dataclass(frozen=True, slots=True)
@@ -65,9 +65,9 @@ def with_flat_facets_split(vertices: Floats, faces: Ints, longest: float) -> tup
     """
     enough = max(SETTINGS.vertices_enough, SETTINGS.growth_most * len(vertices))
     for _ in range(SETTINGS.rounds):
-        if len(vertices) > enough or not _has_longer(vertices, faces, longest):
+        if len(vertices) > enough or not _some_to_split(vertices, faces, longest):
             break
-        side, pairs, flat = _sides(vertices, faces)
+        side, pairs, flat = _sides(vertices, faces, SETTINGS.faces_least)
         length = np.linalg.norm(vertices[pairs[:, 1]] - vertices[pairs[:, 0]], axis=1)
         chosen = flat & (length > longest)
         if not chosen.any():
@@ -78,18 +78,36 @@ def with_flat_facets_split(vertices: Floats, faces: Ints, longest: float) -> tup
     return vertices, faces
 
 
-def _has_longer(vertices: Floats, faces: Ints, longest: float) -> bool:
-    corners = vertices[faces]
-    return any(
-        bool(np.any(np.sum((corners[:, k] - corners[:, k - 1]) ** 2, axis=1) > longest**2))
-        for k in range(3)
-    )
+def _some_to_split(vertices: Floats, faces: Ints, longest: float) -> bool:
+    """Whether a side longer than ``longest`` lies inside a facet: mostly none does, and fast.
+
+    Where two faces lie in one plane by chance, the rings around them hold no facet.
+    """
+    corners = [np.take(vertices[:, axis], faces) for axis in range(3)]
+    square = sum(((x[:, [1, 2, 0]] - x) ** 2 for x in corners), start=np.zeros(faces.shape))
+    long = np.flatnonzero(square.ravel() > longest**2)
+    ends = np.stack([faces.ravel()[long], faces[:, [1, 2, 0]].ravel()[long]])
+    order, ordered = sorted_keys(ends.min(axis=0) * len(vertices) + ends.max(axis=0))
+    first = np.flatnonzero(ordered[1:] == ordered[:-1])
+    pairs = faces[long[order[np.stack([first, first + 1])]] // 3]
+    little = _turn_little(*(face_normals(vertices, side) for side in pairs))
+    touched = np.zeros(len(vertices), dtype=bool)
+    touched[pairs[:, little]] = True
+    touched = dilated(touched, faces, SETTINGS.faces_least - 2)
+    around = faces[touched[faces].any(axis=1)]
+    return len(around) > 0 and bool(_sides(vertices, around, SETTINGS.faces_least)[2].any())
 
 
-def _sides(vertices: Floats, faces: Ints) -> tuple[Ints, Ints, Bools]:
+def _turn_little(normals: Floats, others: Floats) -> Bools:
+    along = np.einsum("ij,ij->i", normals, others)
+    little: Bools = along > np.cos(np.radians(SETTINGS.turn_most_deg))
+    return little
+
+
+def _sides(vertices: Floats, faces: Ints, least: int) -> tuple[Ints, Ints, Bools]:
     """The side's number of each half-edge (m, 3), each side's ends (k, 2), and whether it is flat.
 
-    Flat is a side inside a facet of enough faces.
+    Flat is a side inside a facet of at least ``least`` faces.
     """
     ends = half_edges(faces)
     order, ordered = sorted_keys(ends.min(axis=1) * len(vertices) + ends.max(axis=1))
@@ -100,10 +118,9 @@ def _sides(vertices: Floats, faces: Ints) -> tuple[Ints, Ints, Bools]:
     side[order] = np.cumsum(starts) - 1
     pairs = np.stack([order[first], order[np.minimum(first + 1, len(order) - 1)]], axis=1) // 3
     normals = face_normals(vertices, faces)
-    along = np.einsum("ij,ij->i", normals[pairs[:, 0]], normals[pairs[:, 1]])
-    flat = (count == 2) & (along > np.cos(np.radians(SETTINGS.turn_most_deg)))
+    flat = (count == 2) & _turn_little(normals[pairs[:, 0]], normals[pairs[:, 1]])
     facet = lowest_connected(pairs[flat], len(faces))
-    flat &= np.bincount(facet, minlength=len(faces))[facet[pairs[:, 0]]] >= SETTINGS.faces_least
+    flat &= np.bincount(facet, minlength=len(faces))[facet[pairs[:, 0]]] >= least
     return side.reshape(-1, 3), ends[order[first]], flat
 
 

@@ -200,6 +200,21 @@ def _loops_from(start: int, successors: dict[int, list[int]]) -> list[Ints]:
     return [*loops, np.array(path, dtype=np.int64)] if len(path) > 1 else loops
 
 
+def dilated(mask: Bools, faces: Ints, rings: int) -> Bools:
+    """The vertices within ``rings`` edges of those in ``mask``, (n,) bool.
+
+    Examples
+    --------
+    >>> strip = np.array([[0, 1, 2], [2, 1, 3], [2, 3, 4]])
+    >>> dilated(np.arange(5) == 0, strip, 1).tolist()
+    [True, True, True, False, False]
+    """
+    reached = mask.copy()
+    for _ in range(rings):
+        reached[faces[reached[faces].any(axis=1)]] = True
+    return reached
+
+
 def face_components(faces: Ints, n_vertices: int) -> Ints:
     """The connected component of each face, (m,) int64.
 
