@@ -12,6 +12,15 @@ from footfit.geometry.arrays import Floats, Ints
 from footfit.geometry.surface import face_areas
 
 
+def face_barycentres(vertices: Floats, faces: Ints) -> Floats:
+    """The mean of each face's corners, (m, 3).
+
+    By columns: the mean over the middle axis of (m, 3, 3) takes six times as long.
+    """
+    a, b, c = (vertices.take(faces[:, corner], axis=0) for corner in range(3))
+    return np.asarray((a + b + c) / 3.0, dtype=np.float64)
+
+
 def vertex_mean(vertices: Floats) -> Floats:
     """The barycentre as printed: the mean of the vertices (n, 3) -> (3,)."""
     return np.asarray(vertices.mean(axis=0), dtype=np.float64)  # Eq. 1
@@ -22,7 +31,7 @@ def printed_covariance(vertices: Floats, faces: Ints) -> Floats:
 
     Weighted by area, around the *unweighted* mean of the barycentres, as the paper has it.
     """
-    barycentres = vertices[faces].mean(axis=1)
+    barycentres = face_barycentres(vertices, faces)
     centre = barycentres.mean(axis=0)  # Eq. 3
     areas = face_areas(vertices, faces)
     away = barycentres - centre
@@ -39,7 +48,7 @@ def surface_centroid(vertices: Floats, faces: Ints) -> Floats:
     [1.0, 1.0, 0.0]
     """
     areas = face_areas(vertices, faces)
-    return np.asarray(areas @ vertices[faces].mean(axis=1) / areas.sum(), dtype=np.float64)
+    return np.asarray(areas @ face_barycentres(vertices, faces) / areas.sum(), dtype=np.float64)
 
 
 def surface_second_moment(vertices: Floats, faces: Ints) -> Floats:
@@ -57,13 +66,12 @@ def surface_second_moment(vertices: Floats, faces: Ints) -> Floats:
     [0.333333333333, 0.333333333333, 0.0]
     """
     areas = face_areas(vertices, faces)
-    corners = vertices[faces]
-    barycentres = corners.mean(axis=1)
+    barycentres = face_barycentres(vertices, faces)
     centroid = areas @ barycentres / areas.sum()
-    corners, barycentres = corners - centroid, barycentres - centroid
-    moment = 9 * (areas[:, None] * barycentres).T @ barycentres
-    for corner in range(3):
-        moment += (areas[:, None] * corners[:, corner]).T @ corners[:, corner]
+    away, corners = barycentres - centroid, vertices - centroid
+    # Of the corners one by one: each vertex counts with the areas of all faces around it.
+    around = np.bincount(faces.ravel(), np.repeat(areas, 3), minlength=len(vertices))
+    moment = 9 * (areas[:, None] * away).T @ away + (around[:, None] * corners).T @ corners
     return np.asarray(moment / (12 * areas.sum()), dtype=np.float64)
 
 

@@ -1,0 +1,139 @@
+"""The paper's methods from the command line, on the sample lasts; and the unit that is said."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from footfit.geometry.rotations import angle_deg
+from footfit.meshes.read import read_scan
+from footfit.meshes.write import encoded_mesh
+from tests.conftest import SAMPLES, Footfit
+from tests.distortions import in_metres
+
+LASTS = sorted((SAMPLES / "lasts").glob("*.stl"))
+
+
+def shown(footfit: Footfit, catalogue: Path, last: str) -> dict[str, object]:
+    return footfit("show-last", last, "--catalogue", catalogue, "--json").document
+
+
+def aligned(footfit: Footfit, catalogue: Path, path: Path, *options: object) -> dict[str, object]:
+    return footfit("align", path, "--catalogue", catalogue, "--json", *options).document
+
+
+def corners(path: Path) -> np.ndarray:
+    """The corners of a file's box, (8, 3): what moves farthest with the shape."""
+    vertices = read_scan(path).vertices_mm
+    low, high = vertices.min(axis=0), vertices.max(axis=0)
+    grid = np.array(np.meshgrid([0, 1], [0, 1], [0, 1])).reshape(3, -1).T
+    return low + grid * (high - low)
+
+
+def apart(first: np.ndarray, second: np.ndarray, points: np.ndarray) -> tuple[float, float]:
+    """Degrees and mm by which two transforms of mm coordinates differ."""
+    off = points @ (first - second)[:3, :3].T + (first - second)[:3, 3]
+    return angle_deg(first[:3, :3], second[:3, :3]), float(np.abs(off).max())
+
+
+@pytest.mark.parametrize("path", LASTS, ids=lambda path: path.stem)
+def test_a_last_aligned_to_itself_lies_in_its_canonical_frame(
+    footfit: Footfit, stocked: Path, path: Path
+) -> None:
+    """R and P_c of the mesh, and OM_E and the centroid of the reference, by the same equations."""
+    document = aligned(footfit, stocked, path, "--method", "paper", "--to", path.stem)
+    reference = document["reference"]
+    assert isinstance(reference, dict)
+    assert reference["last"] == path.stem
+    canonical = np.array(shown(footfit, stocked, path.stem)["transform"])
+    turn_deg, shift_mm = apart(np.array(document["transform"]), canonical, corners(path))
+    assert turn_deg < 0.01
+    assert shift_mm < 0.01
+
+
+def test_the_stored_paper_transform_is_what_method_paper_does(
+    footfit: Footfit, stocked: Path
+) -> None:
+    """So ``paper_frame_angle_deg`` is what the printed method would have cost."""
+    for path in LASTS[::3]:
+        record = shown(footfit, stocked, path.stem)
+        document = aligned(footfit, stocked, path, "--method", "paper")
+        stored, found = np.array(record["paper_transform"]), np.array(document["transform"])
+        if record["side"] == "left":  # stored for the mirrored file: Eq. 1 comes after mirroring
+            stored = np.diag([1.0, -1.0, 1.0, 1.0]) @ stored @ np.diag([-1.0, 1.0, 1.0, 1.0])
+        turn_deg, shift_mm = apart(found, stored, corners(path))
+        assert turn_deg < 1e-3
+        assert shift_mm < 1e-3
+        cost_deg = angle_deg(found[:3, :3], np.array(record["transform"])[:3, :3])
+        assert record["paper_frame_angle_deg"] == pytest.approx(cost_deg, abs=1e-3)
+        printed = record["printed_frame"]
+        assert isinstance(printed, dict)
+        for key, value in printed.items():
+            assert document[key] == value
+
+
+@pytest.mark.parametrize("left", [False, True])
+def test_paper_literal_is_om_e_v_prime(
+    footfit: Footfit, stocked: Path, tmp_path: Path, left: bool
+) -> None:
+    """As printed, R cancels; a left shape is mirrored in the file before, and back after."""
+    path = LASTS[0]
+    if left:
+        scan = read_scan(path)
+        path = tmp_path / "left.stl"
+        mirrored = scan.vertices_mm * [-1.0, 1.0, 1.0]
+        path.write_bytes(encoded_mesh(mirrored, scan.faces[:, ::-1], "stl"))
+    document = aligned(footfit, stocked, path, "--method", "paper-literal", "--to", LASTS[-1].stem)
+    assert document["side"] == ("left" if left else "right")
+    reference = document["reference"]
+    assert isinstance(reference, dict)
+    om_e = np.array(reference["om_e"])
+    if left:
+        om_e = np.diag([1.0, -1.0, 1.0]) @ om_e @ np.diag([-1.0, 1.0, 1.0])
+    assert np.allclose(np.array(document["transform"])[:3, :3], om_e, atol=2e-6)
+
+
+def test_detected_millimetres_are_said_once_and_warn_of_nothing(
+    footfit: Footfit, foot: Path, stocked: Path, tmp_path: Path
+) -> None:
+    words = "taken as millimetres"
+    catalogue = ("--catalogue", stocked)
+    for command in (
+        ("align", foot),
+        ("flare", foot),
+        ("measure", foot),
+        ("curvature", foot, "-o", tmp_path / "c.npz"),
+        ("match", foot, *catalogue),
+        ("compare", foot, LASTS[0].stem, *catalogue),
+        ("ingest-last", LASTS[0], "--dry-run", "--catalogue", tmp_path / "new.footfit"),
+    ):
+        run = footfit(*command, "--json")
+        assert run.code == 0, run.err
+        assert run.err.count(words) == 1, command[0]
+        assert "units_detected" not in json.dumps(run.document)
+    assert words not in footfit("align", foot, "--quiet").err
+    assert words not in footfit("align", foot, "--units", "mm").err
+
+
+def test_another_detected_unit_is_said_once_and_is_a_warning(
+    footfit: Footfit, foot: Path, tmp_path: Path
+) -> None:
+    scan = read_scan(foot)
+    path = tmp_path / "metres.stl"
+    path.write_bytes(encoded_mesh(in_metres(scan.vertices_mm), scan.faces, "stl"))
+    run = footfit("align", path, "--json")
+    assert run.err.count("taken as metres") == 1
+    codes = [warning["code"] for warning in run.document["warnings"]]
+    assert codes.count("units_detected") == 1
+
+
+def test_a_length_that_a_declared_unit_makes_impossible_is_said_in_words(
+    footfit: Footfit, foot: Path
+) -> None:
+    run = footfit("align", foot, "--units", "in")
+    assert run.code == 3
+    assert "taken as inches, the length is" in run.err
+    assert len(run.err.strip().splitlines()) == 1
