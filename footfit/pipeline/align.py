@@ -85,10 +85,7 @@ def aligned(
     NoReference
         If a paper method is asked for without a reference.
     """
-    if method != "footfit" and reference is None:
-        raise NoReference(
-            f"method {method} needs a reference last; ingest one or run footfit set-reference LAST"
-        )
+    _require_reference(method, reference)
     shape = posed(scan, length_windows(scan.info, known_length_mm))
     frame = _Framed.of(shape)
     _refuse_half(shape, frame)
@@ -99,15 +96,12 @@ def aligned(
     points_mm, length_mm = factor * frame.points, factor * frame.length
     canonical = transform(frame.rotation, factor * frame.shift, info.unit_scale)
     own, printed = _eigenframes(factor * shape.vertices, shape.faces, frame.rotation, method)
-    moved = None
-    if method != "footfit" and reference is not None:
-        literal, left = method == "paper-literal", verdict.side == "left"
-        moved = _paper_transform(own, reference, info.unit_scale, literal=literal, left=left)
+    left = verdict.side == "left"
     alignment = Alignment(
         info=info,
         method=method,
         side=verdict,
-        transform=canonical if moved is None else moved,
+        transform=_transform(method, canonical, own, info.unit_scale, reference, left=left),
         canonical_transform=canonical,
         eigenframe=own,
         printed_frame=printed,
@@ -227,14 +221,28 @@ def _paired(centroid_mm: Floats, rows: Floats, moment_mm2: Floats) -> Eigenframe
     return Eigenframe(centroid_mm, rows, moments_along(moment_mm2, rows))
 
 
-def _paper_transform(
-    frame: Eigenframe, reference: Reference, unit_scale: float, *, literal: bool, left: bool
+def _require_reference(method: Method, reference: Reference | None) -> None:
+    if method != "footfit" and reference is None:
+        raise NoReference(
+            f"method {method} needs a reference last; ingest one or run footfit set-reference LAST"
+        )
+
+
+def _transform(
+    method: Method,
+    canonical: Floats,
+    frame: Eigenframe,
+    unit_scale: float,
+    reference: Reference | None,
+    *,
+    left: bool,
 ) -> Floats:
-    """The transform of a paper method, of a left shape by its mirror image; never a mirror."""
+    """The transform of the method, never a mirror, though Eq. 1-8 see a left shape mirrored."""
+    if method == "footfit" or reference is None:
+        return canonical
     P_c, R = frame.centroid_mm, frame.eigenvectors
     if left:
         P_c, R = wpca.mirrored_frame(P_c, R)
-    moved = wpca.paper_transform(
-        P_c, R, reference.om_e, reference.centroid_mm, unit_scale, literal=literal
-    )
+    literal, onto = method == "paper-literal", (reference.om_e, reference.centroid_mm)
+    moved = wpca.paper_transform(P_c, R, *onto, unit_scale, literal=literal)
     return wpca.unmirrored(moved, mirrored=left)
