@@ -9,15 +9,17 @@ from hypothesis import strategies as st
 
 from footfit.geometry.angles import angle_between
 from footfit.geometry.curvature import (
+    POOLING,
     PrincipalCurvatures,
     angle_defect,
     concentrated_curvature_one_ring,
+    longest_radius,
     one_ring_curvature,
     pooled_curvature,
 )
 from footfit.geometry.polylines import curvature_density
 from footfit.geometry.topology import boundary_loops, boundary_vertices, welded
-from tests import shapes
+from tests import implicit, shapes
 from tests.distortions import (
     decimated,
     half_subdivided,
@@ -278,6 +280,54 @@ def test_torus_and_ellipsoid_at_a_scale():
     assert max(_error(found, shapes.ellipsoid_curvatures(vertices, radii))) < 0.03
 
 
+@pytest.mark.parametrize("profile", [implicit.bumpy(), implicit.rounded_cube()])
+def test_implicit_curvatures_are_those_of_finite_differences_of_the_normal(profile):
+    """The oracle's oracle: the normal's change along two tangents, 1e-4 mm wide."""
+    points, _ = implicit.irregular(50, np.random.default_rng(0), profile)
+    normal = profile(points)[1] / np.linalg.norm(profile(points)[1], axis=1)[:, None]
+    k1, k2 = implicit.curvatures(points, profile)
+    for p, n, low, high in zip(points, normal, k1, k2, strict=True):
+        basis = np.linalg.svd(n[None])[2][1:]
+        ahead, behind = (profile(p + step * basis)[1] for step in (1e-4, -1e-4))
+        ahead, behind = (g / np.linalg.norm(g, axis=1)[:, None] for g in (ahead, behind))
+        np.testing.assert_allclose(
+            np.linalg.eigvalsh((ahead - behind) @ basis.T / 2e-4), [low, high], atol=1e-7
+        )
+
+
+@pytest.mark.parametrize(
+    ("profile", "most"), [(implicit.bumpy(), 0.01), (implicit.rounded_cube(), 0.03)]
+)
+def test_a_surface_that_no_constant_was_chosen_by(profile, most):
+    vertices, faces = implicit.irregular(8000, np.random.default_rng(5), profile)
+    sides = vertices[np.roll(faces, 1, axis=1)] - vertices[faces]
+    edge = np.linalg.norm(sides, axis=2).mean()
+    truth = implicit.curvatures(vertices, profile)
+    assert max(_error(pooled_curvature(vertices, faces, 5 * edge), truth)) < most
+
+
+@pytest.mark.parametrize("radius", [9.0, 12.0, 18.0, 24.0])
+def test_of_a_wave_no_more_is_smoothed_away_than_two_widths_leave(radius):
+    """Heat leaves exp(-t l) of a wave; two widths lose (t l)^2 / 2 where one loses t l."""
+    vertices, faces = shapes.flat_sheet(240.0, 240.0, 240)
+    depth, rate = 1e-3, (2.0 * np.pi / 60.0) ** 2
+    vertices[:, 2] = depth * np.cos(np.sqrt(rate) * vertices[:, 0])
+    crest = np.hypot(vertices[:, 0] - 120.0, vertices[:, 1] - 120.0) < 1e-6
+    found = pooled_curvature(vertices, faces, radius, crest).k2[crest]
+    lost = 1.0 - float(found[0]) / (depth * rate)
+    x, wider = 0.5 * (radius / POOLING.radius_over_deviation) ** 2 * rate, POOLING.wider
+    expected = 1.0 - (wider * np.exp(-x) - np.exp(-wider * x)) / (wider - 1.0)
+    assert lost < expected + 0.01 < 0.55 * (1.0 - np.exp(-x))
+
+
+def test_even_and_uneven_spheres_read_their_radius_to_a_thousandth():
+    """Centroids of facets lie under the surface: left there they read a third of (edge / R)^2."""
+    even, uneven = shapes.sphere(50.0, 4), _uneven_sphere()
+    for vertices, faces in (even, uneven):
+        mean = pooled_curvature(vertices, faces, 15.0).mean * 50.0
+        assert abs(np.median(mean) - 1.0) < 1e-3
+
+
 @pytest.mark.parametrize("share", [0.001, 0.003])
 def test_noise_is_pooled_away_where_one_ring_drowns(share):
     vertices, faces = _uneven_sphere(6000)
@@ -354,6 +404,18 @@ def test_a_radius_far_from_the_edges_is_answered_within_reason(mesh, radius):
     assert np.isfinite(found.k1).all()
     assert np.abs(np.stack([found.k1, found.k2])).max() * size < 60.0
     assert (found.mean > 0.0).mean() > 0.8  # convex
+
+
+def test_beyond_the_longest_radius_nothing_more_is_smoothed():
+    vertices, faces = shapes.sphere(50.0, 4)
+    bumpy = (
+        vertices * (1.0 + 0.01 * np.cos(6.0 * np.arctan2(vertices[:, 1], vertices[:, 0])))[:, None]
+    )
+    longest = longest_radius(vertices, faces)
+    at, beyond = (pooled_curvature(bumpy, faces, k * longest) for k in (1.5, 6.0))
+    np.testing.assert_allclose(beyond.mean * 50.0, at.mean * 50.0, atol=0.01)
+    assert longest_radius(3.0 * vertices, faces) == pytest.approx(3.0 * longest)
+    assert longest_radius(vertices, faces[:0]) == np.inf
 
 
 @pytest.mark.parametrize("share", [0.2, 0.5, 1.0, 3.0])

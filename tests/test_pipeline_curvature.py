@@ -61,6 +61,14 @@ def test_what_is_undefined_or_below_the_edges_is_said():
     assert not surface_curvature(_scan(vertices, faces), 15.0).warnings
 
 
+def test_a_radius_of_more_edges_than_pooling_follows_is_said():
+    sheet = _scan(*shapes.flat_sheet(100.0, 100.0, 100))
+    cut = surface_curvature(sheet, 80.0)
+    assert [notice.code for notice in cut.warnings] == ["radius_cut"]
+    assert "80 mm" in cut.warnings[0].message
+    assert not surface_curvature(sheet, 30.0).warnings
+
+
 @pytest.mark.parametrize("radius", [-1.0, float("nan"), float("inf")])
 def test_a_radius_that_is_no_length_is_refused(radius):
     with pytest.raises(BadOption, match="radius"):

@@ -33,6 +33,8 @@ class DiffusionSettings:
         t times the rate of every vertex is at least this: the nearest ring is always seen.
     slot_least
         The least share of the vertices for which a j-th neighbour is handled as a slot.
+    followed
+        The largest product of time and rate that the polynomials follow, over degree_most^2.
     cotangent_least
         Obtuse corners would give negative weights: cotangents are at least this.
     """
@@ -44,6 +46,7 @@ class DiffusionSettings:
     crowding: float = 1.2
     reach_least: float = 0.25
     slot_least: float = 0.02
+    followed: float = 0.2
     cotangent_least: float = 0.05
 
 
@@ -191,17 +194,34 @@ def _cotangent_entries(vertices: Floats, faces: Ints) -> tuple[Ints, Ints, Float
     return ordered[first] // span, ordered[first] % span, summed
 
 
+def longest_deviation(vertices: Floats, faces: Ints) -> float:
+    """The deviation beyond which half of the vertices spread no further; inf without area."""
+    row, _, weight = _cotangent_entries(vertices, faces)
+    degree = np.bincount(row, weights=weight, minlength=len(vertices)).astype(np.float64)
+    rate, crowded = _free_rates(degree, _projected_areas(vertices, faces))
+    known = rate[(degree > 0.0) & np.isfinite(rate)]
+    if len(known) == 0:
+        return float(np.inf)
+    median = min(float(np.median(known)), crowded)
+    return float(np.sqrt(2.0 * SETTINGS.followed / median)) * SETTINGS.degree_most
+
+
+def _free_rates(degree: Floats, area: Floats) -> tuple[Floats, float]:
+    """Degree over area, inf where there is no area, and the rate from which it is a crowd's."""
+    rate = np.divide(degree, area, out=np.full_like(degree, np.inf), where=area > 0.0)
+    known = rate[(degree > 0.0) & np.isfinite(rate)]
+    if len(known) == 0:
+        return rate, float(np.inf)
+    return rate, SETTINGS.crowding * float(np.quantile(known, SETTINGS.crowding_quantile))
+
+
 def _exchange_rates(degree: Floats, area: Floats, time: float) -> Floats:
     """Degree over area, between what reaches the nearest ring and what the polynomial follows."""
-    joined = degree > 0.0
-    if not joined.any():
-        return np.zeros_like(degree)
-    rate = np.divide(degree, area, out=np.full_like(degree, np.inf), where=area > 0.0)
-    crowded = SETTINGS.crowding * float(np.quantile(rate[joined], SETTINGS.crowding_quantile))
-    followed = 0.2 * SETTINGS.degree_most**2 / time
+    rate, crowded = _free_rates(degree, area)
+    followed = SETTINGS.followed * SETTINGS.degree_most**2 / time
     least = SETTINGS.reach_least / time
     limited: Floats = np.clip(rate, least, max(least, min(crowded, followed)))
-    return np.where(joined, limited, 0.0)
+    return np.where(degree > 0.0, limited, 0.0)
 
 
 def _slots(row: Ints, kept: Bools) -> tuple[Ints, list[Ints], Ints]:

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from footfit.errors import BadOption
-from footfit.geometry.curvature import one_ring_curvature, pooled_curvature
+from footfit.geometry.curvature import longest_radius, one_ring_curvature, pooled_curvature
 from footfit.geometry.topology import edges
 from footfit.meshes.extents import principal_extents
 from footfit.results import Notice, Scan, SurfaceCurvature
@@ -72,6 +72,16 @@ def _notices(scan: Scan, radius_mm: float, undefined: int) -> tuple[Notice, ...]
                 "radius_below_edges",
                 f"the radius of {radius_mm:.3g} mm is below the median edge of {edge_mm:.3g} mm: "
                 "the curvature is that of the nearest ring; take a larger --radius",
+            )
+        )
+    longest_mm = longest_radius(scan.vertices_mm, scan.faces)
+    if radius_mm > longest_mm:
+        notices.append(
+            Notice(
+                "radius_cut",
+                f"the radius of {radius_mm:.3g} mm spans more edges than pooling follows: the "
+                f"curvature is that of about {longest_mm:.3g} mm; take a smaller --radius or a "
+                "coarser mesh",
             )
         )
     if undefined:
