@@ -145,6 +145,14 @@ def test_a_slightly_wrong_frame_hardly_moves_the_angle(usual, roll, pitch, yaw):
     assert flare_profile(vertices, faces).angle_deg == pytest.approx(profile.angle_deg, abs=0.12)
 
 
+@settings(max_examples=8, deadline=None)
+@given(roll=st.floats(-3.0, 3.0))
+def test_a_roll_of_the_frame_changes_nothing(usual, roll):
+    vertices, faces, profile = usual
+    rolled = vertices @ distortions.axis_rotation("x", roll)[:3, :3].T
+    same(profile, flare_profile(rolled, faces), 0.02)
+
+
 def bowl(along_mm, across_mm):
     """A block whose bottom is a doubly curved bowl of these two radii at its middle."""
     x, y = np.linspace(0, 250, 121), np.linspace(-45, 45, 61)
@@ -237,7 +245,7 @@ def test_the_definition_travels_as_json():
 
 MODULES = ("flare", "flare_definition", "centre_line", "bands", "smoothing")
 MODULES += ("bottom", "bottom_shape", "bottom_surface")
-SPARING = {"_NEIGHBOURHOOD", "_ROLL_LIFT"}  # the next test: no value depends on them
+SPARING = {"_NEIGHBOURHOOD", "_LIFT"}  # the next test: no value depends on them
 
 
 def numbers_of(node):
@@ -262,7 +270,7 @@ def test_no_chosen_number_stands_outside_the_definition(name):
 def test_what_is_left_out_before_changes_nothing(usual, monkeypatch):
     vertices, faces, profile = usual
     monkeypatch.setattr(bottom_shape, "_NEIGHBOURHOOD", 0.2)
-    monkeypatch.setattr(bottom_shape, "_ROLL_LIFT", 0.1)
+    monkeypatch.setattr(bottom_shape, "_LIFT", 0.1)
     same(profile, flare_profile(vertices, faces), 1e-9)
 
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -20,7 +20,7 @@ from footfit.geometry.surface import area_vectors
 
 # What may be left out without any value changing (a test holds it); the rest is in the definition.
 _NEIGHBOURHOOD = 0.10  # a normal section reaches less than this forward and backward along x
-_ROLL_LIFT = 0.02  # a small roll lifts what a band may touch by less
+_LIFT = 0.02  # the lowest of a normal section lies higher than its neighbours across X by less
 
 
 @dataclass(frozen=True, slots=True)
@@ -69,9 +69,12 @@ def bottom_shape(vertices_mm: Floats, faces: Ints, definition: FlareDefinition) 
     vertices = (vertices_mm - np.array([origin, 0.0, 0.0])) / length
     x = section_places(definition)
     across = sections_across(vertices, faces, x)
-    vertices = vertices @ _levelling(vertices, faces, across, x, definition)
+    stands = _some(across, _standing(x, definition))
+    down = area_vectors(vertices, faces[stands.face])
+    level = _levelling(down, stands, x, definition)
+    vertices, across = vertices @ level, _rolled(across, level)
     ceiling = _highest_near(lowest(across.points[:, :, 2], across), x) + definition.band_height
-    low = vertices[:, 2] <= np.interp(vertices[:, 0], x, ceiling) + _ROLL_LIFT
+    low = vertices[:, 2] <= np.interp(vertices[:, 0], x, ceiling) + _LIFT
     a, b, c = faces.T
     keep = low[a] | low[b] | low[c]
     for start, end in ((a, b), (b, c), (c, a)):
@@ -86,25 +89,58 @@ def bottom_shape(vertices_mm: Floats, faces: Ints, definition: FlareDefinition) 
     return BottomShape(vertices[used], numbers[faces], tips, origin, length)
 
 
-def _levelling(
-    vertices: Floats, faces: Ints, across: Segments, x: Floats, definition: FlareDefinition
-) -> Floats:
+def _levelling(down: Floats, across: Segments, x: Floats, definition: FlareDefinition) -> Floats:
     """The rotation about X, (3, 3) to multiply rows with, that levels seat and tread across.
 
     The plane of a whole sole rolls with the arch, by a degree or two on a heeled last; where a
-    shape stands, under the seat and the tread, it is level.
+    shape stands, under the seat and the tread, it is level. A roll shifts the places that the
+    slopes are read at, so that the level one is solved for (secant steps); sections across X
+    roll as they are. ``down`` (m, 3) are the area vectors of the segments' faces.
     """
-    rolls = []
-    for low, high in (definition.seat, definition.tread):
-        wanted = (x >= low) & (x <= high)
-        slope = _cross_slopes(vertices, faces, _some(across, wanted), definition)
-        found = slope[np.isfinite(slope)]
-        if len(found) < definition.found_least * wanted.sum():
+    roll, before = 0.0, None
+    for _ in range(definition.level_rounds):
+        rotation = _rolling(roll)
+        slope = _stance(down @ rotation, _rolled(across, rotation), x, definition)
+        if slope is None:
             return np.eye(3)  # no sole to stand on: the frame's own level
-        rolls.append(float(np.median(found)))
-    roll = np.arctan(np.mean(rolls))
+        rest = float(np.arctan(slope))
+        if abs(rest) < definition.level_settled:
+            break
+        gain = 1.0 if before is None else (before[1] - rest) / (roll - before[0])
+        before = (roll, rest)
+        roll += rest / float(np.clip(gain, *definition.level_gain))
+    return _rolling(roll)
+
+
+def _standing(x: Floats, definition: FlareDefinition) -> Bools:
+    """Which sections (k,) are under the seat or the tread."""
+    under = np.zeros(len(x), dtype=np.bool_)
+    for low, high in (definition.seat, definition.tread):
+        under |= (x >= low) & (x <= high)
+    return under
+
+
+def _rolling(roll: float) -> Floats:
+    """The rotation (3, 3) that takes a rise of ``roll`` towards medial out of rows."""
     cosine, sine = np.cos(roll), np.sin(roll)
     return np.array([[1.0, 0.0, 0.0], [0.0, cosine, -sine], [0.0, sine, cosine]])
+
+
+def _rolled(segments: Segments, rotation: Floats) -> Segments:
+    return replace(segments, points=segments.points @ rotation)
+
+
+def _stance(down: Floats, across: Segments, x: Floats, definition: FlareDefinition) -> float | None:
+    """The mean slope across of seat and tread, or None where one of them has no bottom."""
+    slope = _cross_slopes(down[:, 2] < 0.0, across, definition)
+    slopes = []
+    for low, high in (definition.seat, definition.tread):
+        wanted = slope[(x >= low) & (x <= high)]
+        found = wanted[np.isfinite(wanted)]
+        if len(found) == 0 or len(found) < definition.found_least * len(wanted):
+            return None
+        slopes.append(float(np.median(found)))
+    return float(np.mean(slopes))
 
 
 def _some(segments: Segments, wanted: Bools) -> Segments:
@@ -115,14 +151,11 @@ def _some(segments: Segments, wanted: Bools) -> Segments:
     )
 
 
-def _cross_slopes(
-    vertices: Floats, faces: Ints, across: Segments, definition: FlareDefinition
-) -> Floats:
+def _cross_slopes(down: Bools, across: Segments, definition: FlareDefinition) -> Floats:
     """The slope of each section's bottom from the lateral to the medial side, (planes,)."""
     place, height = across.points[:, :, 1], across.points[:, :, 2]
     limit = lowest(height, across) + definition.band_height
     least, most = extremes_below(place, height, limit, across)
-    down = area_vectors(vertices, faces[across.face])[:, 2] < 0.0
     first, _, last = definition.bottom_places
     medial, lateral = (
         depth_at(most - share * (most - least), place, height, across, down)[0]

@@ -34,9 +34,12 @@ class FlareDefinition:
     # Where a shape stands: it is turned about x until these are level across.
     seat: tuple[float, float] = (0.08, 0.18)
     tread: tuple[float, float] = (0.64, 0.76)
+    level_rounds: int = 10
+    level_settled: float = 5e-5  # radians: 0.003 degrees
+    level_gain: tuple[float, float] = (0.3, 1.5)  # of a step: what it may be taken for
 
     # The centre line: cubic splines, the mid-points of the bands normal to it.
-    sections: int = 180  # as many again change no angle by 0.1 degrees, feet's toes included
+    sections: int = 180  # as many again move feet by 0.07 degrees RMS: where toes begin
     sections_from: float = 0.03
     sections_to: float = 0.96
     trusted_to: float = 0.88  # beyond, a section's weight falls: toes end one by one
