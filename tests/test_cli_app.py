@@ -73,7 +73,7 @@ def test_an_error_with_json_is_a_document(footfit: Footfit, tmp_path: Path) -> N
     run = footfit("list-lasts", "--catalogue", tmp_path / "none", "--json")
     error = json.loads(run.last_error)
     assert run.code == error["exit"] == 4
-    assert set(error) == {"schema", "code", "exit", "message", "path"}
+    assert set(error) == {"schema", "footfit_version", "code", "exit", "message", "path"}
     assert error["schema"] == "footfit.error/1"
     assert error["code"] == "no_catalogue"
     assert not (tmp_path / "none").exists()
