@@ -39,14 +39,14 @@ class DiffusionSettings:
         Obtuse corners would give negative weights: cotangents are at least this.
     """
 
-    tolerance: float = 3e-3
-    degree_most: int = 80
+    tolerance: float = 1e-3
+    degree_most: int = 96
     nodes: int = 200
     crowding_quantile: float = 0.9
     crowding: float = 1.2
     reach_least: float = 0.25
     slot_least: float = 0.02
-    followed: float = 0.2
+    followed: float = 0.15
     cotangent_least: float = 0.05
 
 
