@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import sys
 from collections.abc import Callable, Iterable, Iterator, Sequence
+from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, TypeVar
@@ -92,15 +93,19 @@ def told(
     from footfit.pipeline.batch import common_code
 
     errors: list[FootfitError] = []
-    for outcome in counted(outcomes, voice):
-        if outcome.value is None:
-            assert outcome.error is not None
-            errors.append(outcome.error)
-            tell_error(outcome.error, voice)
-            continue
-        tell(outcome.value, answer_of, voice)
-        if then is not None:
-            then(outcome.value)
+    with failures_last(voice) as tell_failure:
+        for outcome in counted(outcomes, voice):
+            if outcome.value is None:
+                assert outcome.error is not None
+                errors.append(outcome.error)
+                line = error_line(outcome.error, as_json=voice.as_json)
+                if voice.as_json and voice.answers:
+                    answer(line)
+                tell_failure(line)
+                continue
+            tell(outcome.value, answer_of, voice)
+            if then is not None:
+                then(outcome.value)
     if errors and voice.total > 1:
         say(f"{len(errors)} of {voice.total} meshes failed", quiet=voice.quiet or voice.as_json)
     return common_code(int(error.exit) for error in errors)
@@ -120,12 +125,17 @@ def tell(value: T, answer_of: Answer[T], voice: Voice) -> None:
         show(answer_of.table(value))
 
 
-def tell_error(error: FootfitError, voice: Voice) -> None:
-    """One failure: its line on stderr and, with --json, its document on stdout as well."""
-    line = error_line(error, as_json=voice.as_json)
-    if voice.as_json and voice.answers:
-        answer(line)
-    say(line)
+@contextmanager
+def failures_last(voice: Voice) -> Iterator[Callable[[str], None]]:
+    """Say failures as they come; with --json after everything else, so that stderr's last line is
+    one, whatever warnings the later meshes have.
+    """
+    lines: list[str] = []
+    try:
+        yield lines.append if voice.as_json else say
+    finally:
+        for line in lines:
+            say(line)
 
 
 def counted(items: Iterable[T], voice: Voice) -> Iterator[T]:

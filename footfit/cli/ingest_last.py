@@ -71,7 +71,7 @@ def ingest_last(
     Example: footfit ingest-last lasts/ --manifest lasts.csv --jobs 2
     """
     from footfit.cli.answer_forms import INGEST_LAST
-    from footfit.cli.answers import Voice, counted, sources_of, tell
+    from footfit.cli.answers import Voice, counted, failures_last, sources_of, tell
     from footfit.cli.console import say, say_notices
     from footfit.cli.settings import catalogue_path
     from footfit.cli.signals import LISTENER
@@ -97,19 +97,20 @@ def ingest_last(
         dry_run=dry_run,
         steady=LISTENER.hold,
     )
-    for outcome in counted(ingesting, voice):
-        tell(outcome, INGEST_LAST, voice)
-        if outcome.exit:
-            refused.append(outcome.exit)
-            say_refusal(outcome, voice)
+    with failures_last(voice) as tell_failure:
+        for outcome in counted(ingesting, voice):
+            tell(outcome, INGEST_LAST, voice)
+            if outcome.exit:
+                refused.append(outcome.exit)
+                tell_failure(refusal_line(outcome, voice))
     if dry_run:
         say("a dry run: nothing was stored", quiet=quiet)
     raise typer.Exit(common_code(refused))
 
 
-def say_refusal(outcome: IngestOutcome, voice: Voice) -> None:
-    """The refusal as an error line on stderr; the answer has its own line already."""
-    from footfit.cli.console import failure_line, say
+def refusal_line(outcome: IngestOutcome, voice: Voice) -> str:
+    """The refusal as an error line for stderr; the answer has its own line already."""
+    from footfit.cli.console import failure_line
 
     code, message = outcome.code or "refused", outcome.error or ""
-    say(failure_line(code, outcome.exit, message, outcome.path, as_json=voice.as_json))
+    return failure_line(code, outcome.exit, message, outcome.path, as_json=voice.as_json)
