@@ -10,7 +10,7 @@ import signal
 import time
 import traceback
 from collections.abc import Callable, Iterator, Sequence
-from contextlib import suppress
+from contextlib import contextmanager, suppress
 from dataclasses import dataclass
 from multiprocessing import get_context
 from multiprocessing.connection import Connection, wait
@@ -78,10 +78,31 @@ def _idle(crew: list[_Worker[S]], work: Callable[[S], T], jobs: int) -> list[_Wo
     while len(crew) < jobs:
         here, there = context.Pipe()
         process = context.Process(target=_serve, args=(there, work), daemon=True)
-        process.start()
+        with _signals_put_off():  # or a worker could be begun that nobody knows of and ends
+            process.start()
+            crew.append(_Worker(process, here))
         there.close()
-        crew.append(_Worker(process, here))
     return [worker for worker in crew if worker.place is None]
+
+
+@contextmanager
+def _signals_put_off() -> Iterator[None]:
+    """Hear SIGINT and SIGTERM only after the block.
+
+    A child that is begun inside is deaf to them from its first instruction on: a Ctrl-C, which
+    goes to all processes of a terminal, is answered by this one alone.
+    """
+    if not hasattr(signal, "pthread_sigmask"):  # not POSIX
+        yield
+        return
+    from multiprocessing import resource_tracker
+
+    resource_tracker.ensure_running()  # the first child starts it, and it lifts the mask again
+    before = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT, signal.SIGTERM})
+    try:
+        yield
+    finally:
+        signal.pthread_sigmask(signal.SIG_SETMASK, before)
 
 
 def _answered(crew: list[_Worker[S]], limits: WorkLimits) -> dict[int, Any]:
@@ -139,6 +160,8 @@ def _obituary(exit_code: int) -> FootfitError:
 def _serve(pipe: Connection, work: Callable[[S], T]) -> None:
     """In a worker: answer items until the pipe closes. The parent alone answers Ctrl-C."""
     signal.signal(signal.SIGINT, signal.SIG_IGN)
+    if hasattr(signal, "pthread_sigmask"):  # as it was begun, it hears nothing
+        signal.pthread_sigmask(signal.SIG_UNBLOCK, {signal.SIGTERM})
     while True:
         try:
             item = pipe.recv()

@@ -130,7 +130,7 @@ def command_trials(folder: Path, count: int, seed: int, lasts: int = 3) -> Tally
     for trial in range(count):
         path = folder / f"killed-{trial}"
         process = _ingesting(path, scans)
-        time.sleep(span_s * generator.uniform(0.2, 1.0))
+        time.sleep(span_s * generator.uniform(0.1, 0.8))
         os.killpg(process.pid, signal.SIGKILL)
         out, _ = process.communicate()
         told = {json.loads(line)["last"] for line in out.splitlines() if line.endswith("}")}

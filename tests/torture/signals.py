@@ -46,6 +46,7 @@ def signal_trials(folder: Path, count: int, seed: int, jobs: int, until_s: float
             stderr=subprocess.PIPE,
             text=True,
             start_new_session=True,
+            preexec_fn=_hearing,
         )
         time.sleep(generator.uniform(0.0, until_s))
         begun = time.monotonic()
@@ -61,6 +62,11 @@ def signal_trials(folder: Path, count: int, seed: int, jobs: int, until_s: float
         shutil.rmtree(path.parent)
     tally.facts["slowest s"] = round(slowest_s, 2)
     return tally
+
+
+def _hearing() -> None:
+    """Hear SIGINT even where these trials run in the background, which ignores it."""
+    signal.signal(signal.SIGINT, signal.SIG_DFL)
 
 
 def _judge(
