@@ -313,7 +313,10 @@ def _arched_normals(vertices: Floats, faces: Ints, centres: Floats, flat: Floats
 
 def _sides(corners: Floats) -> Floats:
     """The three differences along the sides of triangles, (m, 3, 3) in and out."""
-    return np.stack([corners[:, (k + 1) % 3] - corners[:, k] for k in range(3)], axis=1)
+    sides = np.empty_like(corners)
+    np.subtract(corners[:, 1:], corners[:, :2], out=sides[:, :2])
+    np.subtract(corners[:, 0], corners[:, 2], out=sides[:, 2])
+    return sides
 
 
 _UPPER = (np.array([0, 0, 0, 1, 1, 2]), np.array([0, 1, 2, 1, 2, 2]))  # xx xy xz yy yz zz
