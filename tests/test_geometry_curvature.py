@@ -298,7 +298,7 @@ def test_implicit_curvatures_are_those_of_finite_differences_of_the_normal(profi
 @pytest.mark.parametrize(
     ("profile", "most"), [(implicit.bumpy(), 0.01), (implicit.rounded_cube(), 0.03)]
 )
-def test_a_surface_that_no_constant_was_chosen_by(profile, most):
+def test_bumps_hollows_and_rounded_corners_come_out_at_a_scale(profile, most):
     vertices, faces = implicit.irregular(8000, np.random.default_rng(5), profile)
     sides = vertices[np.roll(faces, 1, axis=1)] - vertices[faces]
     edge = np.linalg.norm(sides, axis=2).mean()
