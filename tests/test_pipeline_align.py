@@ -27,9 +27,11 @@ from footfit.geometry.rotations import angle_deg, applied
 from footfit.meshes.read import read_scan
 from footfit.meshes.units import UNIT_NAMES, UNIT_SCALES
 from footfit.pipeline.align import aligned
+from footfit.pipeline.flare import profiled
 from footfit.pipeline.units import unit_notes
 from footfit.results import MeshInfo, Notice, Reference, Scan
 from tests import distortions, shapes
+from tests.conftest import SAMPLES
 from tools.lasts import LastSpec, last_mesh
 
 SCANS = Path(__file__).resolve().parents[2] / "shared" / "scans"
@@ -398,3 +400,15 @@ def test_a_plantar_sheet_is_refused_in_one_line():
         aligned(read_scan(path))
     assert isinstance(refused.value, HalfScan)
     assert "\n" not in refused.value.message
+
+
+def test_a_mirrored_copy_has_the_mirrored_frame_to_rounding() -> None:
+    """The whole pipeline: pose search and all, from the file's axes."""
+    scan = read_scan(SAMPLES / "feet" / "mh007_L.stl")
+    vertices, faces = distortions.mirrored(scan.vertices_mm, scan.faces)
+    left, right = aligned(scan), aligned(replace(scan, vertices_mm=vertices, faces=faces))
+    assert (left.alignment.side.side, right.alignment.side.side) == ("left", "right")
+    assert left.alignment.length_mm == pytest.approx(right.alignment.length_mm, abs=1e-6)
+    assert np.allclose(left.vertices_mm * [1, -1, 1], right.vertices_mm, atol=1e-6)
+    ours, theirs = profiled(left).flare, profiled(right).flare
+    assert ours.angle_deg == pytest.approx(theirs.angle_deg, abs=1e-6)

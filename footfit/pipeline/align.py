@@ -5,6 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 from typing import Literal
 
+import numpy as np
+
 from footfit.errors import HalfScan, NoReference
 from footfit.geometry import wpca
 from footfit.geometry.arrays import Floats, Ints
@@ -41,6 +43,7 @@ class AlignSettings:
     """How finely the alignment integrates, and what it takes for a leg cut low."""
 
     quadrature_edge: float = 0.03  # over L
+    settling_rounds: int = 2  # more of the frame from the frame: two poses agree to 1e-8 mm
     low_leg: float = 0.24  # of L: what ends lower is a leg cut low
 
 
@@ -140,13 +143,20 @@ class _Framed:
         """Refine the rough pose of a shape."""
         rough = shape.orientation
         about = applied(transform(rough.rotation, rough.shift), shape.vertices)
-        edge = ALIGN.quadrature_edge * rough.length
-        sample = quadrature(about, shape.faces, edge)
+        # The edge in steps of a tenth: two poses of one shape get the same points.
+        step = np.round(np.log(rough.length) / np.log(1.1))
+        sample = quadrature(about, shape.faces, ALIGN.quadrature_edge * float(1.1**step))
         fine = canonical_frame(sample, rough.length)
-        turned = turned_sample(sample, fine.rotation)
-        surface = replace(turned, points=turned.points + fine.shift)
-        rotation = nearest_rotation(fine.rotation @ rough.rotation)
-        shift = fine.rotation @ rough.shift + fine.shift
+        rotation, shift = fine.rotation, fine.shift
+        for _ in range(ALIGN.settling_rounds):  # until the pose it came from is forgotten
+            turned = turned_sample(sample, rotation)
+            surface = replace(turned, points=turned.points + shift)
+            fine = canonical_frame(surface, fine.length)
+            rotation, shift = fine.rotation @ rotation, fine.rotation @ shift + fine.shift
+        turned = turned_sample(sample, rotation)
+        surface = replace(turned, points=turned.points + shift)
+        shift = rotation @ rough.shift + shift
+        rotation = nearest_rotation(rotation @ rough.rotation)
         points = applied(transform(rotation, shift), shape.vertices)
         quality = PoseQuality(rough.cost, rough.margin, fine.support, fine.sole, rough.kind)
         length = length_of(points, 0.0, fine.length)
