@@ -279,15 +279,15 @@ def curve_rows(shapes: list[Shape], seed: int) -> Iterator[list[str]]:
 
 
 def seconds(shapes: list[Shape]) -> tuple[float, float]:
-    """The profile's time and, in turn with it, a weld's of the same mesh: read the ratio."""
+    """One core's time of the profile and, in turn with it, of a weld: read the ratio."""
     from footfit.geometry.topology import welded
 
     times: tuple[list[float], list[float]] = ([], [])
     for shape in shapes[:6]:
         for into, work in zip(times, (flare_profile, welded), strict=True):
-            start = time.perf_counter()
+            start = time.process_time()
             work(shape.vertices, shape.faces)
-            into.append(time.perf_counter() - start)
+            into.append(time.process_time() - start)
     return float(np.median(times[0])), float(np.median(times[1]))
 
 
@@ -328,7 +328,7 @@ def main() -> None:
                 list(channel_rows(found)),
             ),
             f"The profile of a last of {len(shapes['last'][0].faces)} faces takes "
-            f"{own / weld:.1f} times as long as welding it ({1000 * own:.0f} ms here).\n",
+            f"{own / weld:.1f} times as long as welding it ({1000 * own:.0f} ms of one core here).\n",
         ]
     )
     print(text)

@@ -82,7 +82,7 @@ class FlareDefinition:
     # The angle's uncertainty: the scatter of the mid-points, and what scatter does not show.
     scatter_bandwidth: float = 0.02
     scatter_lags: int = 2
-    frame_sd_deg: float = 0.05  # a frame wrong by 1 degree of yaw or 2 of roll: benchmarks/flare.py
+    frame_sd_deg: float = 0.05  # a frame wrong by half a degree of yaw: benchmarks/flare.py
 
     # How finely: a finer choice of any moves the angle by less than 0.001 degrees.
     table: tuple[float, float, int] = (-0.1, 1.1, 1201)  # x of the tabulated line: from, to, points
