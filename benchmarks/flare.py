@@ -328,7 +328,7 @@ def main() -> None:
                 list(channel_rows(found)),
             ),
             f"The profile of a last of {len(shapes['last'][0].faces)} faces takes "
-            f"{own / weld:.1f} times as long as welding it ({1000 * own:.0f} ms of one core here).\n",
+            f"{own / weld:.1f} times as long as welding it ({1000 * own:.0f} ms of a core).\n",
         ]
     )
     print(text)
