@@ -17,19 +17,23 @@ REPORT_TO = "please report it with the command that you typed (docs/exit-codes.m
 def guarded(application: Callable[..., Any], arguments: Sequence[str]) -> int:
     """Run the application on ``arguments``; return the exit code, having said what went wrong."""
     with LISTENER.listening():
-        return _answered(application, arguments)
+        try:
+            code = _answered(application, arguments)
+            LISTENER.put_off()
+            return code
+        except Stopped as stopped:
+            say(LISTENER.words(stopped.number))
+            return int(CODES[stopped.number])
 
 
 def _answered(application: Callable[..., Any], arguments: Sequence[str]) -> int:
     as_json, verbose = "--json" in arguments, "--verbose" in arguments
+    LISTENER.heed()
     try:
         code = application(args=list(arguments), prog_name="footfit", standalone_mode=False)
     except FootfitError as error:
         say(error_line(error, as_json=as_json))
         return int(error.exit)
-    except Stopped as stopped:
-        say(LISTENER.words(stopped.number))
-        return int(CODES[stopped.number])
     except BrokenPipeError:
         # The reader has gone (| head): keep the interpreter from complaining at its exit.
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())

@@ -13,6 +13,7 @@ import select
 import signal
 import sys
 import threading
+import time
 from collections.abc import Iterator
 from contextlib import contextmanager, suppress
 from types import FrameType
@@ -21,6 +22,8 @@ from footfit.errors import ExitCode
 
 PATIENCE_S = 1.5
 """From the signal to the end of the process at the latest, short of the two seconds promised."""
+KNOCK_S = 0.05
+"""How often the thread looks whether a signal that came at a bad moment can be heard now."""
 CODES = {signal.SIGINT: ExitCode.INTERRUPTED, signal.SIGTERM: ExitCode.TERMINATED}
 _WORDS = {signal.SIGINT: "interrupted", signal.SIGTERM: "ended by SIGTERM"}
 
@@ -38,7 +41,9 @@ class Listener:
 
     def __init__(self) -> None:
         self._held = False
+        self._stopping = False
         self._pending: int | None = None
+        self._knocks = 0
         self.done = 0
         self.total = 0
 
@@ -51,28 +56,49 @@ class Listener:
             f"footfit: {what} after {self.done} of {self.total} files; their lines say what is done"
         )
 
+    def heed(self) -> None:
+        """From here on a signal raises `Stopped`, one that came before as well.
+
+        Raises
+        ------
+        Stopped
+            One came while it was put off.
+        """
+        self._held = False
+        number, self._pending = self._pending, None
+        if number is not None:
+            self._stopping = True
+            raise Stopped(number)
+
+    def put_off(self) -> None:
+        """From here on a signal waits for `heed`, or for the end of patience."""
+        self._held = True
+
     @contextmanager
     def hold(self) -> Iterator[None]:
         """Put a signal off until the block is over: what is stored in it is also said in it."""
-        self._held = True
+        self.put_off()
         try:
             yield
-        finally:
+        except BaseException:
             self._held = False
-            number, self._pending = self._pending, None
-        if number is not None:
-            raise Stopped(number)
+            raise
+        self.heed()
 
     @contextmanager
     def listening(self) -> Iterator[None]:
-        """Hear SIGINT and SIGTERM inside; outside everything is as it was."""
-        self._held, self._pending, self.done, self.total = False, None, 0, 0
+        """Hear SIGINT and SIGTERM inside, put off until `heed`; outside all is as it was."""
+        self._held, self._stopping, self._pending = True, False, None
+        self._knocks = self.done = self.total = 0
         if threading.current_thread() is not threading.main_thread():
             yield  # Python lets only the main thread set a handler
             return
         # What is ignored stays so: a job that a script put into the background.
         heard = [number for number in CODES if signal.getsignal(number) != signal.SIG_IGN]
         before = {number: signal.signal(number, self._hear) for number in heard}
+        if not hasattr(signal, "pthread_kill"):  # not POSIX: the handlers alone
+            yield
+            return
         ear, mouth = os.pipe()
         os.set_blocking(mouth, False)
         wakeup = signal.set_wakeup_fd(mouth, warn_on_full_buffer=False)
@@ -85,26 +111,36 @@ class Listener:
             for number, handler in before.items():
                 signal.signal(number, handler)
 
-    def _hear(self, number: int, _frame: FrameType | None) -> None:
-        if self._held:
+    def _hear(self, number: int, frame: FrameType | None) -> None:
+        if self._stopping:  # the second one is the thread's to answer
+            return
+        if self._held or _importing(frame):
             self._pending = number
-        else:
-            raise Stopped(number)
+            return
+        self._stopping = True
+        raise Stopped(number)
 
     def _watch(self, ear: int) -> None:
         """In the thread: a second signal, or the end of patience, ends the process at once."""
-        heard: int | None = None
+        heard, deadline = 0, 0.0
         while True:
-            ready, _, _ = select.select([ear], [], [], None if heard is None else PATIENCE_S)
+            ready, _, _ = select.select([ear], [], [], KNOCK_S if heard else None)
             said = os.read(ear, 1) if ready else b""
             if ready and not said:
                 os.close(ear)
                 return
-            if said and said[0] not in CODES:  # another signal, such as an alarm
-                continue
-            if heard is not None:
+            if said and said[0] in CODES:
+                if not heard:
+                    heard, deadline = said[0], time.monotonic() + PATIENCE_S
+                elif self._knocks:
+                    self._knocks -= 1
+                else:
+                    self._end_at_once(heard)
+            if heard and time.monotonic() > deadline:
                 self._end_at_once(heard)
-            heard = said[0]
+            if not ready and self._pending is not None and not self._held:
+                self._knocks += 1
+                signal.pthread_kill(threading.main_thread().ident or 0, heard)
 
     def _end_at_once(self, number: int) -> None:
         with suppress(OSError):
@@ -118,6 +154,11 @@ class Listener:
 
     def _line(self, number: int) -> bytes:
         return (self.words(number) + "\n").encode()
+
+
+def _importing(frame: FrameType | None) -> bool:
+    """Is Python in the middle of an import, whose own callbacks swallow what is raised in them?"""
+    return frame is not None and frame.f_code.co_filename.startswith("<frozen importlib")
 
 
 LISTENER = Listener()

@@ -94,7 +94,7 @@ def _judge(
     if code > 0 and lines and not counted:  # without a line the batch had not begun
         tally.breach(f"{what}: no count: {said}")
     if not _gone(process.pid):
-        tally.breach(f"{what}: a child is left")
+        tally.breach(f"{what}: a child is left: {_left(process.pid)}")
 
 
 def lock_trial(folder: Path) -> Tally:
@@ -134,6 +134,20 @@ def _stored(path: Path) -> set[str]:
         return set()
 
 
+def _left(group: int) -> str:
+    """The commands of a process group; one that has ended and that init has not asked after is
+    none.
+    """
+    done = subprocess.run(
+        ["ps", "-eo", "pgid=,pid=,ppid=,stat=,args="], capture_output=True, text=True, check=False
+    )
+    return "; ".join(
+        line
+        for line in done.stdout.splitlines()
+        if line.split()[0] == str(group) and "Z" not in line.split()[3]
+    )
+
+
 def _gone(group: int) -> bool:
     """Is nobody of a process group left, or soon?"""
     for _ in range(40):
@@ -142,4 +156,4 @@ def _gone(group: int) -> bool:
         except ProcessLookupError:
             return True
         time.sleep(0.05)
-    return False
+    return not _left(group)
