@@ -1,6 +1,6 @@
 """How long the command line takes, as ratios against peers in the same run.
 
-    python benchmarks/speed.py [--runs 7] [--lasts 100] [--write]
+    python -m benchmarks.speed [--runs 7] [--lasts 100] [--write]
 
 Whole processes, taken in turn (A B A B ...), so that a machine that slows down slows both; the
 median and the spread over the runs. Peak memory is the operating system's own accounting.
