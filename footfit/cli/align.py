@@ -26,23 +26,14 @@ def align(
     meshes: options.Meshes,
     output: Annotated[
         Path | None,
-        typer.Option(
-            "-o",
-            "--output",
-            metavar="FILE",
-            show_default=False,
-            rich_help_panel=options.OUTPUT,
-            help="Write the aligned mesh (.stl, .ply, .obj, .off), mm.",
+        options.file_to_write(
+            "-o", "--output", help="Write the aligned mesh (.stl, .ply, .obj, .off), mm."
         ),
     ] = None,
     plot: Annotated[
         Path | None,
-        typer.Option(
-            "--plot",
-            metavar="FILE",
-            show_default=False,
-            rich_help_panel=options.OUTPUT,
-            help="Draw the mesh and its eigenvectors before and after (.svg, .png).",
+        options.file_to_write(
+            "--plot", help="Draw the mesh and its eigenvectors before and after (.svg, .png)."
         ),
     ] = None,
     method: Annotated[

@@ -33,33 +33,22 @@ def compare(
     ],
     output: Annotated[
         Path | None,
-        typer.Option(
+        options.file_to_write(
             "-o",
             "--output",
-            metavar="FILE",
-            show_default=False,
-            rich_help_panel=options.OUTPUT,
             help="Write the foot in the last's frame coloured by the room: .ply, or a picture.",
         ),
     ] = None,
     plot: Annotated[
         Path | None,
-        typer.Option(
-            "--plot",
-            metavar="FILE",
-            show_default=False,
-            rich_help_panel=options.OUTPUT,
-            help="Draw the sections of the foot over the last's (.svg, .png).",
+        options.file_to_write(
+            "--plot", help="Draw the sections of the foot over the last's (.svg, .png)."
         ),
     ] = None,
     html: Annotated[
         Path | None,
-        typer.Option(
-            "--html",
-            metavar="FILE",
-            show_default=False,
-            rich_help_panel=options.OUTPUT,
-            help="Write a report with a 3D view that opens in any browser.",
+        options.file_to_write(
+            "--html", help="Write a report with a 3D view that opens in any browser."
         ),
     ] = None,
     csv: options.Csv = None,

@@ -17,24 +17,15 @@ def curvature(
     meshes: options.Meshes,
     output: Annotated[
         Path | None,
-        typer.Option(
+        options.file_to_write(
             "-o",
             "--output",
-            metavar="FILE",
-            show_default=False,
-            rich_help_panel=options.OUTPUT,
             help="Write k1, k2, mean, gaussian per vertex (.ply coloured by the mean, .npz).",
         ),
     ] = None,
     plot: Annotated[
         Path | None,
-        typer.Option(
-            "--plot",
-            metavar="FILE",
-            show_default=False,
-            rich_help_panel=options.OUTPUT,
-            help="Draw the mean curvature on the mesh (.svg, .png).",
-        ),
+        options.file_to_write("--plot", help="Draw the mean curvature on the mesh (.svg, .png)."),
     ] = None,
     radius: Annotated[
         float | None,

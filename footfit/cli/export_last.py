@@ -5,8 +5,6 @@ from __future__ import annotations
 from pathlib import Path
 from typing import Annotated
 
-import typer
-
 from footfit.cli import options
 
 
@@ -14,12 +12,9 @@ def export_last(
     last: options.LastName,
     output: Annotated[
         Path,
-        typer.Option(
+        options.file_to_write(
             "-o",
             "--output",
-            metavar="FILE",
-            show_default=False,
-            rich_help_panel=options.OUTPUT,
             help="The file: .stl, .ply, .obj, .off for the mesh, .json for the record.",
         ),
     ],

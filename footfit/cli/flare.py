@@ -17,12 +17,8 @@ def flare(
     meshes: options.Meshes,
     plot: Annotated[
         Path | None,
-        typer.Option(
-            "--plot",
-            metavar="FILE",
-            show_default=False,
-            rich_help_panel=options.OUTPUT,
-            help="Draw the plan outline, the centre line and its curvature (.svg, .png).",
+        options.file_to_write(
+            "--plot", help="Draw the plan outline, the centre line and its curvature (.svg, .png)."
         ),
     ] = None,
     csv: options.Csv = None,

@@ -26,7 +26,7 @@ def ingest_last(
     paths: Annotated[
         list[str] | None,
         typer.Argument(
-            metavar="PATH...",
+            metavar="PATH",
             show_default=False,
             help="Scans of lasts: files, folders or globs. None: the manifest's.",
         ),
@@ -52,11 +52,11 @@ def ingest_last(
     known_length: options.Known = None,
     format: options.Format = None,
     replace: Annotated[
-        bool, typer.Option("--replace", help="Store over a last of the same name.")
+        bool, options.switch("--replace", help="Store over a last of the same name.")
     ] = False,
     dry_run: Annotated[
         bool,
-        typer.Option("--dry-run", help="Do all but store; say what would become of each file."),
+        options.switch("--dry-run", help="Do all but store; say what would become of each file."),
     ] = False,
     jobs: options.Jobs = 1,
     catalogue: options.Catalogue = None,

@@ -48,7 +48,7 @@ def match(
         ),
     ] = "walking",
     pair: Annotated[
-        bool, typer.Option("--pair", help="The two scans are one customer's feet.")
+        bool, options.switch("--pair", help="The two scans are one customer's feet.")
     ] = False,
     top: Annotated[
         int, typer.Option("--top", metavar="N", min=1, help="How many lasts to show.")
@@ -77,13 +77,7 @@ def match(
     ] = None,
     html: Annotated[
         Path | None,
-        typer.Option(
-            "--html",
-            metavar="FILE",
-            show_default=False,
-            rich_help_panel=options.OUTPUT,
-            help="Write a report that opens in any browser.",
-        ),
+        options.file_to_write("--html", help="Write a report that opens in any browser."),
     ] = None,
     csv: options.Csv = None,
     side: options.Side = options.SideChoice.auto,

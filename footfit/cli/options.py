@@ -25,6 +25,7 @@ from pathlib import Path
 from typing import Annotated
 
 import typer
+from typer.models import OptionInfo
 
 STDOUT = Path("-")
 """Where a file is asked for: the answer goes to stdout instead."""
@@ -64,10 +65,24 @@ class FormatName(StrEnum):
     threemf = "3mf"
 
 
+def file_to_write(*flags: str, help: str) -> OptionInfo:
+    """An option that names a file to write; what is in it differs from command to command."""
+    option: OptionInfo = typer.Option(
+        *flags, metavar="FILE", show_default=False, rich_help_panel=OUTPUT, help=help
+    )
+    return option
+
+
+def switch(flag: str, *, help: str, panel: str | None = None) -> OptionInfo:
+    """An option without a value: the help shows no type that a reader would try to give it."""
+    option: OptionInfo = typer.Option(flag, metavar="", rich_help_panel=panel, help=help)
+    return option
+
+
 Meshes = Annotated[
     list[str],
     typer.Argument(
-        metavar="MESH...",
+        metavar="MESH",
         show_default=False,
         help="Mesh files, folders or globs; - reads one mesh from stdin.",
     ),
@@ -84,16 +99,15 @@ Catalogue = Annotated[
 ]
 Json = Annotated[
     bool,
-    typer.Option(
-        "--json", rich_help_panel=ANSWER, help="JSON lines on stdout, one document per mesh."
-    ),
+    switch("--json", panel=ANSWER, help="JSON lines on stdout, one document per mesh."),
 ]
 Quiet = Annotated[
-    bool, typer.Option("--quiet", rich_help_panel=ANSWER, help="No messages, only the answer.")
+    bool,
+    switch("--quiet", panel=ANSWER, help="No messages, only the answer."),
 ]
 Verbose = Annotated[
     bool,
-    typer.Option("--verbose", rich_help_panel=ANSWER, help="Show the traceback of a bug."),
+    switch("--verbose", panel=ANSWER, help="Show the traceback of a bug."),
 ]
 Units = Annotated[
     UnitName,
@@ -132,9 +146,9 @@ Format = Annotated[
 ]
 Split = Annotated[
     bool,
-    typer.Option(
+    switch(
         "--split",
-        rich_help_panel=READING,
+        panel=READING,
         help="Take the feet of one file apart; each is a line of its own (file.stl#1, #2).",
     ),
 ]
@@ -151,16 +165,12 @@ Jobs = Annotated[
 ]
 Force = Annotated[
     bool,
-    typer.Option("--force", rich_help_panel=OUTPUT, help="Replace output files that exist."),
+    switch("--force", panel=OUTPUT, help="Replace output files that exist."),
 ]
 Csv = Annotated[
     Path | None,
-    typer.Option(
-        "--csv",
-        metavar="FILE",
-        show_default=False,
-        rich_help_panel=OUTPUT,
-        help="Write the answer as CSV; - writes it to stdout instead of the table.",
+    file_to_write(
+        "--csv", help="Write the answer as CSV; - writes it to stdout instead of the table."
     ),
 ]
 LastName = Annotated[

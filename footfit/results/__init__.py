@@ -1,0 +1,75 @@
+"""What passes between the layers: frozen dataclasses of plain, picklable values.
+
+A length ends in ``_mm``, an angle in ``_deg``; arrays are float64 unless said. Array fields
+are never written to after construction.
+"""
+
+from footfit.results.alignment import (
+    AlignedScan,
+    Alignment,
+    Eigenframe,
+    PoseQuality,
+    Reference,
+    SideVerdict,
+)
+from footfit.results.compare import Comparison, SectionComparison, SizeDifference
+from footfit.results.fit import FitProfile, FootFit, ZoneFit, ZoneRule
+from footfit.results.lasts import LastLabels, LastRecord
+from footfit.results.library import CatalogueFacts, DemoOutcome, IngestOutcome, UpgradeOutcome
+from footfit.results.match import Candidate, FlareDifference, Match
+from footfit.results.meshes import MeshCopy, MeshInfo, Scan
+from footfit.results.profile import MeasuredScan, Profiled, SurfaceCurvature
+from footfit.results.upkeep import BackupOutcome, CheckOutcome, Finding, RestoreOutcome
+from footfit.results.values import (
+    Confidence,
+    Measure,
+    Measured,
+    Method,
+    Notice,
+    SearchBy,
+    SideName,
+    Verdict,
+)
+
+__all__ = [
+    "AlignedScan",
+    "Alignment",
+    "BackupOutcome",
+    "Candidate",
+    "CatalogueFacts",
+    "CheckOutcome",
+    "Comparison",
+    "Confidence",
+    "DemoOutcome",
+    "Eigenframe",
+    "Finding",
+    "FitProfile",
+    "FlareDifference",
+    "FootFit",
+    "IngestOutcome",
+    "LastLabels",
+    "LastRecord",
+    "Match",
+    "Measure",
+    "Measured",
+    "MeasuredScan",
+    "MeshCopy",
+    "MeshInfo",
+    "Method",
+    "Notice",
+    "PoseQuality",
+    "Profiled",
+    "Reference",
+    "RestoreOutcome",
+    "Scan",
+    "SearchBy",
+    "SectionComparison",
+    "SideName",
+    "SideVerdict",
+    "SizeDifference",
+    "SurfaceCurvature",
+    "UpgradeOutcome",
+    "Verdict",
+    "ZoneFit",
+    "ZoneRule",
+]

@@ -1,0 +1,107 @@
+"""One mesh in the canonical frame: its pose, its side, the paper's eigenframe."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from footfit.geometry.arrays import Floats, Ints
+    from footfit.results.meshes import MeshInfo
+    from footfit.results.values import Confidence, Method, Notice, SideName
+
+
+@dataclass(frozen=True, slots=True)
+class SideVerdict:
+    """Left or right, how surely, and who said so.
+
+    ``score`` is the mirror-odd score S of the detection, + for a right shape; ``source`` is
+    "given" or "detected". ``side`` is None only where it is undecided.
+    """
+
+    side: SideName | None
+    confidence: Confidence
+    score: float
+    source: str
+
+
+@dataclass(frozen=True, slots=True)
+class PoseQuality:
+    """How well the pose is settled; see ``docs/alignment.md``.
+
+    ``cost`` of the fit to the reference shapes, ``margin`` to the best other pose, ``support``
+    the share of the sole under the plane, ``sole`` whether there is one, ``kind`` "foot" or
+    "last": the reference shape that fits best.
+    """
+
+    cost: float
+    margin: float
+    support: float
+    sole: bool
+    kind: str
+
+
+@dataclass(frozen=True, slots=True)
+class Eigenframe:
+    """The paper's frame of one mesh (Eq. 1-5), signs and order settled by the canonical frame.
+
+    ``centroid_mm`` (3,) in the file's axes; ``eigenvectors`` (3, 3) as rows in the file's
+    axes, a rotation, each nearest to X, Y, Z in turn; ``eigenvalues_mm2`` (3,) paired with the
+    rows, so not always descending. A left shape is mirrored before Eq. 1 where it is compared
+    (``paper_transform``); the frame itself is of the mesh as it is.
+    """
+
+    centroid_mm: Floats
+    eigenvectors: Floats
+    eigenvalues_mm2: Floats
+
+
+@dataclass(frozen=True, slots=True)
+class Reference:
+    """The reference last: its name, OM_E (Eq. 6) and its P_c (Eq. 1) in its canonical frame.
+
+    ``om_e`` (3, 3) has the eigenvectors as columns in the canonical frame. Both come from the
+    last's printed frame: only so does Eq. 8 put the reference on itself.
+    """
+
+    last: str
+    om_e: Floats
+    centroid_mm: Floats
+
+
+@dataclass(frozen=True, slots=True)
+class Alignment:
+    """One mesh, aligned.
+
+    ``transform`` (4, 4) takes the file's coordinates to aligned mm (rotation, translation and
+    the unit's scale, never a mirror). ``canonical_transform`` (4, 4) is the same for method
+    "footfit"; for the paper's methods it is still footfit's. ``eigenframe`` is the method's own:
+    of the exact moments for "footfit", by Eq. 1-4 as printed for the paper's; "paper-literal"
+    orders its rows by eigenvalue and makes the largest entry of each positive.
+    ``printed_frame`` is by Eq. 1-4 as printed and settled, whatever the method. ``reference`` is
+    the last whose OM_E was used, None for method "footfit" without one.
+    """
+
+    info: MeshInfo
+    method: Method
+    side: SideVerdict
+    transform: Floats
+    canonical_transform: Floats
+    eigenframe: Eigenframe
+    printed_frame: Eigenframe
+    pose: PoseQuality
+    reference: Reference | None
+    length_mm: float
+    warnings: tuple[Notice, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class AlignedScan:
+    """An alignment with its mesh in the canonical frame.
+
+    ``vertices_mm`` (n, 3) canonical and not mirrored, ``faces`` (m, 3) wound outward.
+    """
+
+    alignment: Alignment
+    vertices_mm: Floats
+    faces: Ints

@@ -1,0 +1,61 @@
+"""One foot in one last: surface against surface, section by section."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from footfit.geometry.arrays import Floats, Ints
+    from footfit.geometry.clearance import ZoneClearance
+    from footfit.geometry.docking import Docking
+    from footfit.results.lasts import LastRecord
+    from footfit.results.profile import Profiled
+    from footfit.results.values import Measured, Notice
+
+
+@dataclass(frozen=True, slots=True)
+class SizeDifference:
+    """One size of one section in mm: of the foot, of the last, and last minus foot."""
+
+    name: str
+    foot: Measured
+    last: Measured
+    difference: Measured
+
+
+@dataclass(frozen=True, slots=True)
+class SectionComparison:
+    """Foot and last cut by one plane at a named ``station``, ``x_mm`` from the foot's heel.
+
+    The outlines are closed loops (k, 2), across (+ is medial) and up, mm.
+    """
+
+    station: str
+    x_mm: float
+    foot_outline: tuple[Floats, ...]
+    last_outline: tuple[Floats, ...]
+    sizes: tuple[SizeDifference, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class Comparison:
+    """A foot in a last, both as right shapes in the last's frame, mm.
+
+    ``vertices_mm`` (n, 3) and ``faces`` (m, 3) are the foot as it is docked, ``room_mm`` (n,) its
+    clearance at each vertex, NaN where the shoe does not reach; ``last_vertices_mm`` and
+    ``last_faces`` are the last. ``mirrored``: the last is of the other side than the foot.
+    """
+
+    foot: Profiled
+    last: LastRecord
+    mirrored: bool
+    docking: Docking
+    vertices_mm: Floats
+    faces: Ints
+    last_vertices_mm: Floats
+    last_faces: Ints
+    room_mm: Floats
+    zones: tuple[ZoneClearance, ...]
+    sections: tuple[SectionComparison, ...]
+    warnings: tuple[Notice, ...]

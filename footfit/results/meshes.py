@@ -1,0 +1,60 @@
+"""What came out of a mesh file, and what is kept of one."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from footfit.geometry.arrays import Floats, Ints
+    from footfit.results.values import Notice
+
+
+@dataclass(frozen=True, slots=True)
+class MeshInfo:
+    """What the file was.
+
+    ``vertices`` and ``faces`` count what is left after welding and cleaning, ``sha256`` is of
+    the file's bytes, ``unit_scale`` takes the file's coordinates to mm, ``units`` is
+    "mm", "cm", "m", "in" or "scaled" (``--known-length``), ``units_source`` is
+    "declared", "detected" or "known-length".
+    """
+
+    path: str | None
+    sha256: str
+    format: str
+    vertices: int
+    faces: int
+    watertight: bool
+    units: str
+    units_source: str
+    unit_scale: float
+
+
+@dataclass(frozen=True, slots=True)
+class Scan:
+    """A mesh ready for geometry: mm, welded, cleaned, wound outward.
+
+    ``vertices_mm`` is (n, 3) float64 in the file's own axes, ``faces`` is (m, 3) int64.
+    ``source_to_vertex`` is, for each vertex of the file, its row of ``vertices_mm``, -1 where it
+    was dropped; None for a scan that no file stands behind.
+    """
+
+    info: MeshInfo
+    vertices_mm: Floats
+    faces: Ints
+    warnings: tuple[Notice, ...]
+    source_to_vertex: Ints | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class MeshCopy:
+    """A last's mesh as the catalogue keeps it: canonical mm, decimated, compressed.
+
+    ``error_mm`` is the largest measured distance between the copy and the mesh it stands for,
+    ``data`` the compressed bytes of ``meshes.copies``.
+    """
+
+    data: bytes
+    faces: int
+    error_mm: float

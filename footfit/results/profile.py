@@ -1,0 +1,50 @@
+"""One aligned mesh, measured: its flare, its measures, its surface's curvature."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from footfit.geometry.arrays import Floats, Ints
+    from footfit.geometry.flare import FlareProfile
+    from footfit.results.alignment import AlignedScan, Alignment
+    from footfit.results.meshes import MeshInfo
+    from footfit.results.values import Measure, Notice
+
+
+@dataclass(frozen=True, slots=True)
+class Profiled:
+    """A mesh aligned, measured and profiled: what ingest stores and match ranks."""
+
+    aligned: AlignedScan
+    flare: FlareProfile
+    measures: tuple[Measure, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class MeasuredScan:
+    """A mesh aligned and measured; ``suspects`` are values that are hardly a foot's."""
+
+    alignment: Alignment
+    measures: tuple[Measure, ...]
+    suspects: tuple[Notice, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class SurfaceCurvature:
+    """Per-vertex curvature of a surface in 1/mm, (n,) each; NaN where it is undefined.
+
+    ``k1`` <= ``k2``; convex is positive; ``radius_mm`` 0 is the paper's one ring.
+    """
+
+    info: MeshInfo
+    radius_mm: float
+    vertices_mm: Floats
+    faces: Ints
+    k1: Floats
+    k2: Floats
+    mean: Floats
+    gaussian: Floats
+    source_to_vertex: Ints
+    warnings: tuple[Notice, ...]
