@@ -21,7 +21,7 @@ from footfit.catalogue.reading import (
     rows,
 )
 from footfit.catalogue.records import mesh_copy_of, record_of
-from footfit.catalogue.references import make_reference, stored_reference
+from footfit.catalogue.references import make_reference, reference_of, stored_reference
 from footfit.catalogue.search import Filters, Range, SearchRows, all_records, search_rows
 from footfit.errors import CatalogueDamaged, UnknownLast
 from footfit.geometry.flare import FlareProfile
@@ -130,6 +130,17 @@ class Catalogue:
         with self.file.reading() as connection:
             found = stored_reference(connection)
             return None if found is None else found[1]
+
+    def as_reference(self, name: str) -> Reference:
+        """What a last would be as the reference; nothing is changed.
+
+        Raises
+        ------
+        UnknownLast, CatalogueDamaged
+            There is none of that name, or its rows are not what was stored.
+        """
+        with self.file.reading() as connection:
+            return reference_of(intact_last(connection, last_id(connection, name)))
 
     def mesh_copy(self, name: str) -> MeshCopy:
         """A last's compact mesh, in its canonical frame.

@@ -6,7 +6,6 @@ from pathlib import Path
 
 from footfit.catalogue.store import open_catalogue
 from footfit.errors import BadOption, EmptyCatalogue, NoReference
-from footfit.geometry.wpca import canonical_centroid_mm, om_e
 from footfit.pipeline.match import Library
 from footfit.results import (
     CatalogueFacts,
@@ -159,23 +158,8 @@ def alignment_reference(path: Path, method: Method, to: str | None) -> Reference
         return None
     with open_catalogue(path) as catalogue:
         if to is not None:
-            return reference_of(catalogue.record(to))
+            return catalogue.as_reference(to)
         reference = catalogue.reference()
     if reference is None:
         raise NoReference(f"the paper's methods need a reference last; {FIRST_STEPS}", str(path))
     return reference
-
-
-def reference_of(record: LastRecord) -> Reference:
-    """What a last would be as the reference: its OM_E (Eq. 6) and P_c, as a right shape."""
-    frame, mirrored = record.printed_frame, record.side.side == "left"
-    return Reference(
-        record.labels.name,
-        om_e(frame.eigenvectors, record.canonical_transform, mirrored=mirrored),
-        canonical_centroid_mm(
-            frame.centroid_mm,
-            record.canonical_transform,
-            record.info.unit_scale,
-            mirrored=mirrored,
-        ),
-    )
