@@ -14,7 +14,7 @@ from footfit.report import curvature_figure as curvature_module
 from footfit.report import frames_figure as frames_module
 from footfit.report import plots
 from footfit.report.curvature_figure import UNDEFINED, colour_reach, curvature_figure
-from footfit.report.figures import svg_text
+from footfit.report.figures import picture_bytes, svg_text
 from footfit.report.flare_figure import centre_line_mm, flare_figure, mean_heading_deg, windows
 from footfit.report.frames_figure import frames_figure
 from footfit.report.match_figure import match_figure, on_side
@@ -41,7 +41,7 @@ def all_plots():
         "frames": lambda kind: plots.frames_plot(foot.aligned, kind),
         "flare": lambda kind: plots.flare_plot(foot, kind),
         "curvature": lambda kind: plots.curvature_plot(answers.curvature(), kind),
-        "match": lambda kind: plots.match_plot(answers.match(), kind, lasts),
+        "match": lambda kind: picture_bytes(match_figure(answers.match(), lasts), kind),
     }
 
 

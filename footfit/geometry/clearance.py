@@ -17,7 +17,6 @@ from footfit.geometry.quantiles import area_quantile
 from footfit.geometry.surface import vertex_areas, vertex_normals
 
 ZONES = ("bottom", "medial", "lateral", "dorsal", "toe")
-UNJUDGED = -1
 
 
 @dataclass(frozen=True, slots=True)

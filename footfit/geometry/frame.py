@@ -31,7 +31,6 @@ class FrameSettings:
 
     floor: FloorSettings = FLOOR
     rounds: int = 2
-    axis_rounds: int = 10
     axis_height: float = 0.15  # the plan axis is that of what lies below; a leg does not move it
     axis_softness: float = 0.01
     length_height: float = 0.30

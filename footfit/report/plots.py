@@ -12,8 +12,7 @@ if TYPE_CHECKING:
 
     from footfit.geometry.arrays import Floats
     from footfit.report.curvature_figure import Quantity
-    from footfit.report.match_figure import Shapes
-    from footfit.results import AlignedScan, Match, Profiled, SurfaceCurvature
+    from footfit.results import AlignedScan, Profiled, SurfaceCurvature
 
 
 def frames_plot(scan: AlignedScan, kind: str) -> bytes:
@@ -47,10 +46,3 @@ def curvature_colours(curvature: SurfaceCurvature) -> NDArray[np.uint8]:
     from footfit.report.curvature_figure import vertex_colours
 
     return vertex_colours(curvature)
-
-
-def match_plot(match: Match, kind: str, shapes: Shapes | None = None, foot: int = 0) -> bytes:
-    """One foot of a match against the best lasts."""
-    from footfit.report.match_figure import match_figure
-
-    return picture_bytes(match_figure(match, shapes, foot), kind)
