@@ -8,8 +8,13 @@ import numpy as np
 import pytest
 
 from footfit.geometry.landmarks import Shape
+from footfit.geometry.surface import face_areas
+from footfit.meshes.read import read_scan
+from footfit.pipeline.align import aligned
+from footfit.pipeline.flare import right_shape
 from tests import shapes
-from tests.distortions import leg_cut, white_noise
+from tests.conftest import SAMPLES
+from tests.distortions import decimated, leg_cut, white_noise
 from tools.lasts import LastSpec, last_mesh
 
 
@@ -76,3 +81,19 @@ def test_a_lasts_cone_edge_is_where_the_cone_ends() -> None:
         shape = last(cone_length=cone_length)
         assert shape.cone_edge[0] / shape.length_mm == pytest.approx(cone_length, abs=0.05)
         assert shape.cone_edge[2] > 0.85 * shape.vertices_mm[:, 2].max()
+
+
+@pytest.mark.parametrize("thinning", [1.0, 4.0, 8.0])
+def test_a_leg_that_is_cut_is_closed_by_its_lid_and_no_dorsum(thinning: float) -> None:
+    """However coarse its triangles: the lid's area is that of the cut, all of it at the top."""
+    scan = read_scan(SAMPLES / "feet" / "mh008_R.stl")
+    vertices, faces = right_shape(aligned(scan, side="right"))
+    whole = Shape(vertices, faces)
+    if thinning > 1.0:
+        vertices, faces = decimated(vertices, faces, thinning)
+    shape = Shape(vertices, faces)
+    lid, cut = shape.faces[shape.lid], whole.faces[whole.lid]
+    assert face_areas(vertices, lid).sum() == pytest.approx(
+        face_areas(whole.vertices_mm, cut).sum(), rel=0.1
+    )
+    assert vertices[lid][:, :, 2].min() > vertices[:, 2].max() - 12.0

@@ -20,7 +20,8 @@ from footfit.pipeline.flare import right_shape
 from tests.conftest import ROOT, SAMPLES
 from tests.distortions import axis_rotation, half_subdivided, leg_cut, moved, plane_cut, white_noise
 from tests.strategies import seeds
-from tools.lasts import LastSpec, half_width_mm, last_mesh, true_heading_deg
+from tools.last_specs import ToeShape
+from tools.lasts import LastSpec, half_width_mm, last_mesh, true_heading_deg, varied
 
 SPEC = LastSpec(length_mm=270.0, rings=110, segments=80)
 STRAIGHT = replace(
@@ -80,10 +81,21 @@ def test_a_bent_last_is_cut_aslant(flare_deg: float) -> None:
         assert bent[name] == pytest.approx(straight[name], rel=0.03), name
 
 
-@pytest.mark.parametrize("heel_mm", [10.0, 25.0, 40.0])
-def test_a_last_stands_as_high_as_it_was_drafted(heel_mm: float) -> None:
-    found = taken(*last_of(replace(SPEC, heel_height_mm=heel_mm)), "last")
-    assert found["heel_height"] == pytest.approx(heel_mm, abs=3.5)
+@pytest.mark.parametrize("toe_shape", ["round", "pointed"])
+@pytest.mark.parametrize("heel_mm", [0.0, 10.0, 25.0, 40.0, 60.0, 85.0])
+def test_a_last_stands_as_high_as_it_was_drafted(heel_mm: float, toe_shape: ToeShape) -> None:
+    spring = 12.0 * (1.0 - heel_mm / 120.0)
+    spec = replace(SPEC, heel_height_mm=heel_mm, toe_spring_mm=spring, toe_shape=toe_shape)
+    found = taken(*last_of(spec), "last")
+    assert found["heel_height"] == pytest.approx(heel_mm, abs=2.5)
+
+
+@settings(max_examples=8, deadline=None)
+@given(seeds)
+def test_the_heel_height_is_no_matter_of_widths_toes_or_flare(seed: int) -> None:
+    spec = varied(np.random.default_rng(seed), rings=110, segments=80)
+    found = taken(*last_mesh(spec), "last")
+    assert found["heel_height"] == pytest.approx(spec.heel_height_mm, abs=4.0)
 
 
 def test_a_toe_that_is_sprung_more_reads_more() -> None:

@@ -48,8 +48,8 @@ def test_a_left_foot_and_its_mirror_image_are_identical_to_rounding():
     scan = read_scan(SAMPLES / "feet" / "mh007_L.stl")
     right = moved_scan(scan, *mirrored(scan.vertices_mm, scan.faces))
     one, other = values(scan, "left"), values(right, "right")
-    for name, value in one.items():  # the frames of the two differ by up to .003 mm
-        assert value is None or other[name] == pytest.approx(value, abs=0.01), name
+    for name, value in one.items():
+        assert value is None or other[name] == pytest.approx(value, abs=1e-5), name
 
 
 def test_in_one_frame_the_mirror_image_measures_the_same_whatever_the_faces_order():

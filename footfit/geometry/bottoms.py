@@ -1,4 +1,4 @@
-"""The underside seen from the side: where the arch is, how the tread lies, how the toe rises."""
+"""The underside seen from the side: where the arch is, how the middle runs."""
 
 from __future__ import annotations
 
@@ -24,8 +24,6 @@ class BottomSettings:
     arch: tuple[float, float] = (0.28, 0.62)
     arch_places: tuple[float, ...] = (0.70, 0.75, 0.80)
     middle_places: tuple[float, ...] = (0.35, 0.50, 0.65)
-    seat: tuple[float, float] = (0.06, 0.14)
-    tread: tuple[float, float] = (0.64, 0.76)
 
 
 BOTTOM = BottomSettings()

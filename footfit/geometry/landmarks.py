@@ -12,9 +12,8 @@ import numpy as np
 
 from footfit.geometry.arrays import Bools, Floats, Ints
 from footfit.geometry.centre_line import low_length
+from footfit.geometry.lids import lid_faces
 from footfit.geometry.outlines import Outline, outline
-from footfit.geometry.samples import calmed
-from footfit.geometry.surface import area_vectors
 from footfit.geometry.tips import Tip, tip
 
 AXES = np.eye(3)
@@ -31,16 +30,8 @@ class LandmarkSettings:
     outer_joint: tuple[float, float] = (0.52, 0.76)
     instep: float = 0.50
     cone: float = 0.15  # a place on a last's cone
-    lid_height: float = 0.15  # a leg is cut higher than that, and behind lid_front
-    lid_front: float = 0.45
-    lid_facing: float = 0.80  # cosine to Z; the dorsum is steeper there
     lid_crossed: float = 0.05  # a section that runs on a lid farther than that is of a cut leg
     gap: float = 0.03  # a section that is open wider than that is not measured
-    calm_rounds: int = 2
-    lid_flatness: float = 0.97  # cosine to the lid's own normal, and how far from its plane
-    lid_thickness: float = 0.01
-    lid_flat_share: float = 0.7
-    lid_area: float = 0.01  # over the length squared; a leg's cut has .05
 
 
 LANDMARKS = LandmarkSettings()
@@ -130,34 +121,8 @@ class Shape:
 
     @cached_property
     def lid(self) -> Bools:
-        """The faces (m,) that close the shape at its top: a leg's cut, a last's cone top.
-
-        What looks up behind the bend of the ankle or, where that is flat, all that lies in its
-        plane.
-        """
-        lid = np.zeros(len(self.faces), dtype=bool)
-        high = self.vertices_mm[:, 2] > LANDMARKS.lid_height * self.length_mm
-        a, b, c = high[self.faces.T]
-        candidates = np.flatnonzero(a & b & c)
-        faces = self.faces[candidates]
-        vectors = area_vectors(self.vertices_mm, faces)
-        for _ in range(LANDMARKS.calm_rounds):  # else noise turns the dorsum's small faces up
-            vectors = calmed(vectors, faces, len(self.vertices_mm))
-        area = np.sqrt(np.einsum("ij,ij->i", vectors, vectors))
-        middle = (self.vertices_mm[faces[:, 0]] + self.vertices_mm[faces[:, 1]]) / 3.0
-        middle += self.vertices_mm[faces[:, 2]] / 3.0
-        behind = middle[:, 0] < self.x_mm(LANDMARKS.lid_front)
-        behind &= vectors[:, 2] > LANDMARKS.lid_facing * area
-        total = area[behind].sum()
-        if total > LANDMARKS.lid_area * self.length_mm**2:
-            normal = vectors[behind].sum(axis=0)
-            normal /= np.linalg.norm(normal)
-            over = (middle - area[behind] @ middle[behind] / total) @ normal
-            level = vectors @ normal > LANDMARKS.lid_flatness * area
-            level &= np.abs(over) < LANDMARKS.lid_thickness * self.length_mm
-            flat = area[behind & level].sum() > LANDMARKS.lid_flat_share * total
-            lid[candidates[level if flat else behind]] = True
-        return lid
+        """The faces (m,) that close the shape at its top: a leg's cut, a last's cone top."""
+        return lid_faces(self.vertices_mm, self.faces, self.length_mm, self.x_mm(0.0))
 
     @cached_property
     def at_instep(self) -> Outline:

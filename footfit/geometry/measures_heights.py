@@ -9,6 +9,7 @@ import numpy as np
 from footfit.geometry.bottoms import BOTTOM, underside
 from footfit.geometry.landmarks import Shape
 from footfit.geometry.readings import OPEN, Reading, lacking
+from footfit.geometry.stance import Ground, stance
 
 
 @dataclass(frozen=True, slots=True)
@@ -53,34 +54,27 @@ def toe_height(shape: Shape) -> Reading:
 def toe_spring(shape: Shape) -> Reading:
     """The lowest point of the section at .94 of the length, over the ground.
 
-    A foot's ground is the contact plane, a last's the plane that its tread stands on.
+    A foot's ground is the contact plane, a last's the ground that it stands on.
     """
-    ground, section = _tread(shape), shape.across(HEIGHTS.toe_spring)
+    ground, section = _ground(shape), shape.across(HEIGHTS.toe_spring)
     if ground is None or shape.opened(section):
         return Reading(None, NO_SOLE.format(place="toes or the ball"))
-    return Reading(_over(ground, shape.x_mm(HEIGHTS.toe_spring), section.points[:, 1].min()))
+    return Reading(ground.under_mm(shape.x_mm(HEIGHTS.toe_spring), section.points[:, 1].min()))
 
 
 def heel_height(shape: Shape) -> Reading:
     """How high a last's heel stands as its tread lies level: the seat's line at the pternion."""
     if shape.kind == "foot":
         return Reading(None, FLAT)
-    ground, seat = _tread(shape), underside(shape, BOTTOM.seat, BOTTOM.middle_places)
-    if ground is None or seat is None:
+    standing = stance(shape)
+    if standing is None:
         return Reading(None, NO_SOLE.format(place="heel or the ball"))
-    rear_mm, (slope, height_mm) = shape.x_mm(0.0), seat.line()
-    return Reading(_over(ground, rear_mm, slope * rear_mm + height_mm))
+    return Reading(standing.heel_mm)
 
 
-def _tread(shape: Shape) -> tuple[float, float] | None:
-    """The line of the ground under the tread: slope, and height at x = 0."""
+def _ground(shape: Shape) -> Ground | None:
+    """What a shape stands on; None for a last whose bottom is open."""
     if shape.kind == "foot":
-        return 0.0, 0.0
-    tread = underside(shape, BOTTOM.tread, BOTTOM.middle_places)
-    return None if tread is None else tread.line()
-
-
-def _over(ground: tuple[float, float], x_mm: float, z_mm: float) -> float:
-    """How far a point lies over the ground, square to the ground."""
-    slope, height_mm = ground
-    return float((z_mm - slope * x_mm - height_mm) / np.hypot(1.0, slope))
+        return Ground()
+    standing = stance(shape)
+    return None if standing is None else standing.ground

@@ -140,8 +140,8 @@ def pair_notice(feet: Sequence[Profiled], system_name: str | None) -> Notice | N
     if len(feet) != 2:
         return None
     system = system_named(system_name) or SYSTEMS[DEFAULT_SYSTEM]
-    longer, shorter = sorted(feet, key=lambda f: -f.aligned.alignment.length_mm)
-    long_mm, short_mm = (f.aligned.alignment.length_mm for f in (longer, shorter))
+    longer, shorter = sorted(feet, key=lambda f: -f.length_mm)
+    long_mm, short_mm = (f.length_mm for f in (longer, shorter))
     side = longer.aligned.alignment.side.side or "one"
     difference = f"the {side} foot is {long_mm - short_mm:.1f} mm longer and governs the length"
     sizes = (long_mm - short_mm) / (system.step_mm * system.numbers_per_size)

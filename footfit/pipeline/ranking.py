@@ -114,7 +114,7 @@ def field(
 
 def governing(feet: Sequence[Profiled]) -> int:
     """Which foot decides the length: the longest, the first of equals."""
-    return max(range(len(feet)), key=lambda i: (feet[i].aligned.alignment.length_mm, -i))
+    return max(range(len(feet)), key=lambda i: (feet[i].length_mm, -i))
 
 
 def flare_differences(

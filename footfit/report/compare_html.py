@@ -76,7 +76,7 @@ def wide_scene(comparisons: Sequence[Comparison]) -> str:
     """The one 3D view of a page: of the longer foot."""
     if not comparisons:
         return ""
-    return scene_block(max(comparisons, key=lambda one: one.foot.aligned.alignment.length_mm))
+    return scene_block(max(comparisons, key=lambda one: one.foot.length_mm))
 
 
 def heat_picture(comparison: Comparison) -> str:

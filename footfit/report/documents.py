@@ -110,7 +110,7 @@ def foot_part(foot: Profiled) -> Json:
         "mesh": mesh_part(alignment.info),
         **side_part(alignment.side),
         "measures": measures_part(foot.measures),
-        "sizes": sizes_part(alignment.length_mm),
+        "sizes": sizes_part(foot.length_mm),
         "flare": flare_part(foot.flare),
         "warnings": warnings_part(alignment.warnings),
     }

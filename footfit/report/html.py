@@ -150,7 +150,7 @@ def _foot(match: Match, foot: Profiled) -> str:
     ]
     notes = "".join(warning(notice) for notice in alignment.warnings)
     title = f"<h3>{word.capitalize()} foot: {text(file_name(alignment.info.path))}</h3>"
-    sizes = _sizes(alignment.length_mm, match.size_system)
+    sizes = _sizes(foot.length_mm, match.size_system)
     return f'<section class="foot">{title}{sizes}{facts(rows)}{_unmeasured(foot)}{notes}</section>'
 
 
@@ -172,7 +172,7 @@ def _sizes(length_mm: float, asked: str | None) -> str:
 def _measures(foot: Profiled) -> Iterable[tuple[str, str]]:
     """The foot's measures, its length first even where none was taken."""
     if not any(measure.name == "length" for measure in foot.measures):
-        yield "Length", f"{plain(foot.aligned.alignment.length_mm)} mm"
+        yield "Length", f"{plain(foot.length_mm)} mm"
     for measure in foot.measures:
         if measure.measured.value is not None:
             yield _title(measure.name), measured_text(measure.measured, "mm")
@@ -194,7 +194,7 @@ def _title(name: str) -> str:
 
 def _pair(match: Match) -> str:
     """How two feet differ, where no notice says it."""
-    lengths = [foot.aligned.alignment.length_mm for foot in match.feet]
+    lengths = [foot.length_mm for foot in match.feet]
     told = {notice.code for notice in match.warnings} & PAIR_NOTICES
     if told or len(lengths) != ONLY_FEW_FEET:
         return ""
@@ -289,7 +289,7 @@ def _surface(comparisons: Sequence[Comparison], scene: str) -> list[str]:
         return []
     several = len(comparisons) > 1
     rooms = [room_part(one, named=several) for one in comparisons]
-    longer = max(comparisons, key=lambda one: one.foot.aligned.alignment.length_mm)
+    longer = max(comparisons, key=lambda one: one.foot.length_mm)
     strips = [
         (section_picture(one, strip=True), "" if one is longer else ' class="screen"')
         for one in comparisons

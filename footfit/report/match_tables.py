@@ -59,13 +59,13 @@ def _foot_line(foot: Profiled) -> Text:
     alignment = foot.aligned.alignment
     side = alignment.side.side or "undecided"
     line = cell(file_name(alignment.info.path), "bold")
-    length = plain(alignment.length_mm)
+    length = plain(foot.length_mm)
     return line.append(f"  {side} foot, {length} mm long, flare {flare_words(foot)}", "not bold")
 
 
 def _size_line(foot: Profiled, asked: str | None) -> RenderableType:
     """The foot's sizes: the one asked for with the two beside it, or the usual systems."""
-    length_mm, system = foot.aligned.alignment.length_mm, system_named(asked)
+    length_mm, system = foot.length_mm, system_named(asked)
     if system is not None:
         size = foot_size(length_mm, system)
         words = f"size {size.words}; beside it {size.beside[0]} and {size.beside[1]}"

@@ -21,6 +21,16 @@ class Profiled:
     flare: FlareProfile
     measures: tuple[Measure, ...]
 
+    @property
+    def length_mm(self) -> float:
+        """The measure ``length``, or where it was not taken the mesh's extent, which noise adds to.
+
+        Sizes and lengths that people read are from this one.
+        """
+        taken = (row.measured.value for row in self.measures if row.name == "length")
+        length = next(taken, None)
+        return self.aligned.alignment.length_mm if length is None else length
+
 
 @dataclass(frozen=True, slots=True)
 class MeasuredScan:
