@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import io
 import struct
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -11,8 +12,9 @@ import trimesh
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from footfit.errors import BadOption
+from footfit.errors import BadOption, DamagedMesh, TooLarge
 from footfit.geometry.surface import area_vectors, surface_area
+from footfit.meshes import stl
 from footfit.meshes.foreign import is_text, known_foreign, likeness
 from footfit.meshes.formats import EXTENSIONS, FORMATS, raw_mesh
 from footfit.meshes.limits import LIMITS
@@ -70,6 +72,44 @@ def test_trimeshs_text_formats_are_read(kind):
     data = mesh.export(file_type=kind, **options)
     ours = read(data if isinstance(data, bytes) else data.encode())
     assert np.allclose(ours.vertices[ours.faces], vertices[faces], atol=1e-4)
+
+
+@pytest.mark.parametrize("piece_bytes", [1, 97, 5_000])
+def test_an_ascii_stl_read_in_pieces_is_the_same(monkeypatch, piece_bytes):
+    data = corpus.ascii_stl()
+    whole = read(data).vertices
+    monkeypatch.setattr(stl, "_CHUNK_BYTES", piece_bytes)
+    assert np.array_equal(read(data).vertices, whole)
+    assert np.array_equal(read(data.upper().replace(b"NAN", b"0")).vertices, whole)
+
+
+@pytest.mark.parametrize(
+    ("word", "instead"),
+    [
+        (b"facet", b"facets"),
+        (b"normal", b"normals"),
+        (b"outer", b"oute"),
+        (b"loop", b"loap"),
+        (b"vertex", b"vertez"),
+        (b"vertex", b"vertex8"),
+        (b"vertex", b"12345678"),
+        (b"endloop", b"endloops"),
+        (b"endfacet", b"endface"),
+    ],
+)
+def test_an_ascii_stl_with_one_wrong_word_is_damaged(word, instead):
+    before, last, after = corpus.ascii_stl().rpartition(b"facet normal")
+    damaged = before + (last + after).replace(word, instead, 1)
+    with pytest.raises(DamagedMesh):
+        read(damaged)
+
+
+def test_the_facets_of_an_ascii_stl_are_counted_before_the_work():
+    facet = b"facet normal 0 0 0 outer loop" + 3 * b" vertex 0 0 0" + b" endloop endfacet "
+    data = b"solid\n" + 40 * facet + b"endsolid\n"
+    with pytest.raises(TooLarge, match="40 faces"):
+        stl.read_ascii_stl(data, replace(LIMITS, faces=39))
+    assert len(facet) == stl._LEAST_FACET_BYTES
 
 
 @given(

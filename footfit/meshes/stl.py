@@ -12,13 +12,14 @@ from footfit.errors import DamagedMesh, EmptyMesh
 from footfit.geometry.arrays import Floats, Ints
 from footfit.meshes.limits import Limits
 from footfit.meshes.raw import RawMesh, check_counts, doubles
-from footfit.meshes.tokens import floats, unix_text, word_offsets
+from footfit.meshes.tokens import BLANK, floats, unix_text, word_offsets
 from footfit.results import Notice
 
 HEADER_BYTES = 84
 FACET = np.dtype([("normal", "<f4", (3,)), ("corners", "<f4", (9,)), ("attribute", "<u2")])
 _TRAILING_BYTES = 4_096  # what exporters append; more is a count that lies
-_CHUNK_BYTES = 4_000_000
+_CHUNK_BYTES = 1_000_000  # its arrays stay in a processor's cache
+_LEAST_FACET_BYTES = 86  # the shortest way to write a facet: no file holds more than that allows
 
 # The 21 words of an ASCII facet: a keyword, or None where a number stands.
 _POINT = ("vertex", None, None, None)
@@ -28,6 +29,7 @@ _GRAMMAR = (
     *("endloop", "endfacet"),
 )
 _KEYWORDS = tuple((place, word.encode()) for place, word in enumerate(_GRAMMAR) if word)
+_WORD_END = b" " * 8  # after the last word, so that eight bytes can be looked at anywhere
 _POINT_BOUNDS = (8, 11, 12, 15, 16, 19)  # a point's first word, and the one after its last
 _LAST_FACET = re.compile(rb"endfacet\s", re.IGNORECASE)
 _END = re.compile(rb"end[ \t]*solid", re.IGNORECASE)
@@ -89,7 +91,8 @@ def read_ascii_stl(data: bytes, limits: Limits) -> RawMesh:
     EmptyMesh, TooLarge
         No facets, or more than ``limits`` allow.
     """
-    check_counts(0, data.count(b"endfacet"), limits)  # a look before the work
+    if len(data) > _LEAST_FACET_BYTES * limits.faces:  # a look before the work
+        check_counts(0, data.count(b"endfacet"), limits)
     text = unix_text(data)
     corners, facets = [], 0
     for chunk in _chunks(text):
@@ -129,25 +132,31 @@ def _without_solid_lines(text: bytes) -> bytes:
 
 def _facet_corners(text: bytes) -> Floats:
     """The corners (3 m, 3) of a lower-case text that is nothing but facets."""
-    buffer = np.frombuffer(text, dtype=np.uint8)
+    buffer = np.frombuffer(text + _WORD_END, dtype=np.uint8)
     words = word_offsets(buffer)
     if len(words) % len(_GRAMMAR):
         raise DamagedMesh("the ASCII STL ends within a facet: it is cut off, export it again")
     facets = words.reshape(-1, len(_GRAMMAR))
+    starts = np.ndarray(len(text) + 1, dtype="<u8", buffer=buffer, strides=(1,))
     for place, keyword in _KEYWORDS:
-        _check_keyword(buffer, facets[:, place], keyword)
+        _check_keyword(starts[facets[:, place]], facets[:, place], buffer, keyword)
     bounds = facets[:, _POINT_BOUNDS].ravel()
     spans = np.diff(bounds, prepend=0, append=len(buffer))
     inside = np.repeat(np.arange(len(spans)) % 2 == 1, spans)  # from each point to after it
     return floats(buffer[inside].tobytes(), 9 * len(facets)).reshape(-1, 3)
 
 
-def _check_keyword(buffer: NDArray[np.uint8], words: Ints, keyword: bytes) -> None:
-    """Refuse the facets unless ``keyword`` stands at each of ``words``."""
-    places = np.minimum(words[:, None] + np.arange(len(keyword) + 1), len(buffer) - 1)
-    found = buffer[places]
-    whole = (found[:, -1] <= ord(" ")) | (words + len(keyword) >= len(buffer))
-    if not (whole.all() and (found[:, :-1] == np.frombuffer(keyword, np.uint8)).all()):
+def _check_keyword(
+    found: NDArray[np.uint64], places: Ints, buffer: NDArray[np.uint8], keyword: bytes
+) -> None:
+    """Refuse the facets unless ``keyword`` stands at each of ``places``.
+
+    ``found`` are the eight bytes there as one number each: no keyword has more.
+    """
+    wanted = np.uint64(int.from_bytes(keyword, "little"))
+    mask = np.uint64((1 << 8 * len(keyword)) - 1)
+    whole = buffer[places + len(keyword)] <= BLANK
+    if not (whole.all() and ((found & mask) == wanted).all()):
         raise DamagedMesh(
             f"the ASCII STL lacks the word {keyword.decode()!r} where a facet needs it:"
             " export it again"

@@ -12,7 +12,8 @@ from numpy.typing import NDArray
 from footfit.errors import DamagedMesh
 from footfit.geometry.arrays import Floats, Ints
 
-_BLANK = 32  # a space; everything up to it is taken as white space
+BLANK = 32
+"""A space: everything up to it is taken as white space."""
 _NEWLINE = 10
 _Number = TypeVar("_Number", np.float64, np.int64)
 
@@ -63,9 +64,9 @@ def text_lines(text: bytes) -> Lines:
 
 def word_offsets(buffer: NDArray[np.uint8]) -> Ints:
     """Where each word begins in a buffer of characters, (w,)."""
-    begins = buffer > _BLANK
-    begins[1:] &= buffer[:-1] <= _BLANK
-    return np.flatnonzero(begins).astype(np.int64)
+    begins = buffer > BLANK
+    begins[1:] &= buffer[:-1] <= BLANK
+    return np.flatnonzero(begins).astype(np.int64, copy=False)
 
 
 def floats(text: bytes, count: int) -> Floats:
