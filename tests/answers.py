@@ -6,6 +6,7 @@ from dataclasses import replace
 
 import numpy as np
 
+from footfit.geometry.clearance import ZoneClearance
 from footfit.geometry.flare import CHANNELS, FlareDefinition, FlareProfile
 from footfit.results import (
     AlignedScan,
@@ -28,6 +29,7 @@ from footfit.results import (
     Reference,
     SideVerdict,
     SurfaceCurvature,
+    SurfaceRoom,
 )
 
 STATIONS = np.linspace(0.04, 0.96, 60)
@@ -198,6 +200,16 @@ def candidate(rank, last, foot_length_mm=260.0, foot_turn_deg=10.0, **more):
         record=last,
         **values,
     )
+
+
+def roomy_candidate(side="right"):
+    """A last that the foot was laid into: tight at the inner side, loose at the toes."""
+    zones = (
+        ZoneClearance("medial", 0.63, -6.15, 9.19, 91.1, 26.4, 5.2),
+        ZoneClearance("toe", 5.61, -1.08, 12.31, 47.3, 1.5, 17.6),
+        ZoneClearance("bottom", None, None, None, 0.0, 0.0, 0.0),
+    )
+    return candidate(1, record("derby-42"), surfaces=(SurfaceRoom(side, 2.9, zones),))
 
 
 def match(feet=None, names=("derby-42", "oxford-42", "trainer-42", "boot-42", "derby-43"), **more):

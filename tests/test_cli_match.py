@@ -3,6 +3,9 @@
 from __future__ import annotations
 
 import json
+import shutil
+import sqlite3
+from contextlib import closing
 from pathlib import Path
 
 import pytest
@@ -124,3 +127,42 @@ def test_no_last_fits_a_foot_twice_its_size(footfit: Footfit, foot: Path, stocke
     assert len(document["nearest"]) == 3
     assert all("past the limit" in one["why"] for one in document["nearest"])
     assert document["rejected"]["by_reason"] == {"too_short": 14}
+
+
+def test_the_room_in_every_shown_last_is_what_compare_says(
+    footfit: Footfit, foot: Path, stocked: Path
+) -> None:
+    asked = ("match", foot, "--top", "2", "--catalogue", stocked, "--json")
+    assert [one["surface_clearance"] for one in footfit(*asked).document["candidates"]] == [
+        None
+    ] * 2
+    candidates = footfit(*asked, "--clearance").document["candidates"]
+    assert len(candidates) == 2
+    for candidate in candidates:
+        (room,) = candidate["surface_clearance"]
+        whole = footfit("compare", foot, candidate["last"], "--catalogue", stocked, "--json")
+        assert room["zones"] == whole.document["zones"]
+        assert room["swing_mm"] == whole.document["docking"]["swing_mm"]
+        assert room["reason"] is None
+
+
+def test_the_room_is_said_for_both_feet_in_eighty_columns(footfit: Footfit, stocked: Path) -> None:
+    run = footfit("match", *PAIR, "--pair", "--clearance", "--top", "1", "--catalogue", stocked)
+    assert run.code == 0
+    for side in ("left", "right"):
+        assert f"{side} foot: tight: " in run.out or f"{side} foot: loose: " in run.out
+    assert max(map(len, run.out.splitlines())) <= 80
+
+
+def test_a_last_without_a_sound_copy_has_no_room_but_a_reason(
+    footfit: Footfit, foot: Path, stocked: Path, tmp_path: Path
+) -> None:
+    catalogue = tmp_path / "hurt.footfit"
+    shutil.copy(stocked, catalogue)
+    with closing(sqlite3.connect(catalogue)) as connection, connection:
+        connection.execute("UPDATE mesh_copy SET data = zeroblob(length(data))")
+    run = footfit("match", foot, "--clearance", "--catalogue", catalogue, "--json")
+    assert run.code == 0
+    for candidate in run.document["candidates"]:
+        assert candidate["surface_clearance"][0]["zones"] == {}
+        assert "--replace" in candidate["surface_clearance"][0]["reason"]

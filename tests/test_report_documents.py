@@ -107,6 +107,9 @@ def test_the_page_lists_the_keys_of_every_part() -> None:
     assert set(foot["flare"]) == listed["flare profile"] <= set(flare)
     assert set(foot) == listed["foot"]
     assert set(candidate) == listed["candidate"]
+    (room,) = documents.candidate_part(answers.roomy_candidate())["surface_clearance"]
+    assert set(room) == listed["surface clearance"]
+    assert set(room["zones"]["medial"]) == listed["zone room"]
     assert set(candidate["clearance_mm"]["length"]) == listed["measured value"]
     lasts = last_documents.list_lasts_document([answers.record()], None)["lasts"]
     assert set(lasts[0]) == listed["last"]

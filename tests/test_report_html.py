@@ -255,3 +255,10 @@ def test_a_browser_draws_the_page_and_complains_of_nothing(tmp_path) -> None:
 def test_a_customer_prints_on_two_sheets(tmp_path) -> None:
     assert browsing.printed_sheets(drawn(), tmp_path / "one") in (1, 2)
     assert browsing.printed_sheets(drawn(2), tmp_path / "two") in (1, 2)
+
+
+def test_the_room_in_every_last_is_on_the_page_where_it_was_asked_for():
+    roomy = answers.roomy_candidate()
+    asked = match_report(replace(answers.match(), candidates=(roomy,)))
+    assert "tight: medial -6.2 mm (26 cm2); loose: toe +12.3 mm (18 cm2)" in asked
+    assert "Surface against surface" not in match_report(answers.match())

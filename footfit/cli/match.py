@@ -67,6 +67,13 @@ def match(
             "lasts labelled in it, if there are any.",
         ),
     ] = None,
+    clearance: Annotated[
+        bool,
+        options.switch(
+            "--clearance",
+            help="Lay the feet into each shown last: where it is tight, where loose, in mm.",
+        ),
+    ] = False,
     fail_under: Annotated[
         Least | None,
         typer.Option(
@@ -114,7 +121,9 @@ def match(
     sources = split_where_asked(sources_of(feet, format), reading, split=split)
     only_one(sources[:1] if pair else sources, html, unless="--pair for one customer's two feet")
     path = catalogue_path(catalogue)
-    question = Question(by.value, top, fit_profile(profile), size_system)
+    question = Question(
+        by.value, top, fit_profile(profile), size_system, surfaces_in=path if clearance else None
+    )
     found = choice(path, style, size_system)
     answers = customers(sources, reading, found, question, pair=pair, jobs=jobs)
     voice = Voice(json, quiet, 1 if pair else len(sources), answers=csv != options.STDOUT)

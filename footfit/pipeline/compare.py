@@ -9,8 +9,8 @@ from pathlib import Path
 from footfit.catalogue.store import open_catalogue
 from footfit.geometry import measures
 from footfit.geometry.arrays import Floats, Ints
-from footfit.geometry.clearance import foot_clearance, zone_clearances
-from footfit.geometry.docking import docked, docking
+from footfit.geometry.clearance import ZoneClearance, foot_clearance, zone_clearances
+from footfit.geometry.docking import Docking, docked, docking
 from footfit.geometry.landmarks import Shape
 from footfit.geometry.overlay import SectionPair, SectionSizes, section_pairs
 from footfit.geometry.readings import Reading
@@ -79,8 +79,21 @@ def scanned_last(source: Source, reading: ReadingOptions) -> LastShape:
     )
 
 
-def compared(foot: Profiled, last: LastShape) -> Comparison:
-    """Lay a foot into a last and measure the room around it.
+@dataclass(frozen=True, slots=True)
+class Laid:
+    """A foot in a last, both right shapes in the last's frame: the way it went in, the room (n,)
+    at its vertices, and the room by zone.
+    """
+
+    inside: Shape
+    around: Shape
+    way: Docking
+    room_mm: Floats
+    zones: tuple[ZoneClearance, ...]
+
+
+def laid(foot: Profiled, last: LastShape) -> Laid:
+    """Lay a foot into a last.
 
     Raises
     ------
@@ -89,22 +102,33 @@ def compared(foot: Profiled, last: LastShape) -> Comparison:
     """
     around = Shape(*as_right(last.vertices_mm, last.faces, last.record.side.side), "last")
     vertices_mm, faces = right_shape(foot.aligned)
-    flat = Shape(vertices_mm, faces, "foot")
-    way = docking(flat, around)
+    way = docking(Shape(vertices_mm, faces, "foot"), around)
     inside = Shape(docked(vertices_mm, way), faces, "foot")
     room_mm = foot_clearance(inside, around)
+    return Laid(inside, around, way, room_mm, zone_clearances(inside, room_mm))
+
+
+def compared(foot: Profiled, last: LastShape) -> Comparison:
+    """Lay a foot into a last and measure the room around it, surface and sections.
+
+    Raises
+    ------
+    NoSole
+        One of the two has no bottom to rest on.
+    """
+    found = laid(foot, last)
     return Comparison(
         foot=foot,
         last=last.record,
         mirrored=last.record.side.side != foot.aligned.alignment.side.side,
-        docking=way,
-        vertices_mm=inside.vertices_mm,
-        faces=inside.faces,
-        last_vertices_mm=around.vertices_mm,
-        last_faces=around.faces,
-        room_mm=room_mm,
-        zones=zone_clearances(inside, room_mm),
-        sections=tuple(_section(pair) for pair in section_pairs(inside, around)),
+        docking=found.way,
+        vertices_mm=found.inside.vertices_mm,
+        faces=found.inside.faces,
+        last_vertices_mm=found.around.vertices_mm,
+        last_faces=found.around.faces,
+        room_mm=found.room_mm,
+        zones=found.zones,
+        sections=tuple(_section(pair) for pair in section_pairs(found.inside, found.around)),
         warnings=_warnings(foot, last.record),
     )
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from functools import partial
+from pathlib import Path
 
 import numpy as np
 
@@ -46,12 +47,15 @@ NEAREST_NAMED = 3
 
 @dataclass(frozen=True, slots=True)
 class Question:
-    """What is asked of the catalogue; ``top`` 0 is all, no ``profile`` is walking."""
+    """What is asked of the catalogue; ``top`` 0 is all, no ``profile`` is walking. ``surfaces_in``
+    is the catalogue whose meshes the feet are laid into; None: that is not asked.
+    """
 
     by: SearchBy = "fit"
     top: int = 5
     profile: FitProfile | None = None
     size_system: str | None = None
+    surfaces_in: Path | None = None
 
 
 @dataclass(frozen=True, slots=True)
@@ -147,7 +151,12 @@ def _answered(
     if errors:
         return Outcome(source, None, errors[0])
     shapes = [foot.value for foot in feet if foot.value is not None]
-    return Outcome(source, matched(shapes, library, question), None)
+    answer = matched(shapes, library, question)
+    if question.surfaces_in is not None:
+        from footfit.pipeline.surfaces import with_surfaces
+
+        answer = with_surfaces(answer, question.surfaces_in)
+    return Outcome(source, answer, None)
 
 
 def _best_verdict(found: Field, placing: Placing, by: SearchBy) -> Verdict | None:

@@ -9,8 +9,9 @@ from rich.text import Text
 
 from footfit.report.csv import csv_text
 from footfit.report.lines import Json, document
-from footfit.report.numbers import degrees, measured_value, millimetres, rounded
+from footfit.report.numbers import degrees, measured_value, millimetres
 from footfit.report.parts import mesh_part, side_part, warnings_part
+from footfit.report.surfaces import zone_clearance_part
 from footfit.report.tables import lined_table
 from footfit.report.text import file_name, plain, signed, visible
 
@@ -19,11 +20,9 @@ if TYPE_CHECKING:
 
     from rich.console import RenderableType
 
-    from footfit.geometry.clearance import ZoneClearance
     from footfit.report.csv import Cell
     from footfit.results import Comparison, Measured, SectionComparison
 
-AREA_DIGITS = 1
 SIZE_HEADS = {
     "width": "width",
     "medial": "medial edge",
@@ -74,7 +73,7 @@ def compare_document(comparison: Comparison) -> Json:
                 "bend_deg": degrees(way.bend_deg),
                 "shift_mm": shift,
             },
-            "zones": {zone.zone: zone_part(zone) for zone in comparison.zones},
+            "zones": {zone.zone: zone_clearance_part(zone) for zone in comparison.zones},
             "sections": [section_part(section) for section in comparison.sections],
             "warnings": warnings_part(comparison.warnings),
         },
@@ -84,18 +83,6 @@ def compare_document(comparison: Comparison) -> Json:
 def flare_delta_deg(comparison: Comparison) -> float:
     """The flare angles' difference, last minus foot."""
     return comparison.last.flare.angle_deg - comparison.foot.flare.angle_deg
-
-
-def zone_part(zone: ZoneClearance) -> Json:
-    """One zone's room; null where nothing of it is compared."""
-    return {
-        "mean_mm": millimetres(zone.mean_mm),
-        "p05_mm": millimetres(zone.p05_mm),
-        "p95_mm": millimetres(zone.p95_mm),
-        "area_cm2": rounded(zone.area_cm2, AREA_DIGITS),
-        "tight_cm2": rounded(zone.tight_cm2, AREA_DIGITS),
-        "loose_cm2": rounded(zone.loose_cm2, AREA_DIGITS),
-    }
 
 
 def section_part(section: SectionComparison) -> Json:
@@ -221,7 +208,7 @@ def _rows(comparison: Comparison) -> Iterable[list[Cell]]:
                 room.reason,
             ]
     for zone in comparison.zones:
-        for name, value in zone_part(zone).items():
+        for name, value in zone_clearance_part(zone).items():
             quantity, unit = str(name).rsplit("_", 1)
             room_value = value if isinstance(value, float) else None
             yield [

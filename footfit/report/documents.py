@@ -33,6 +33,7 @@ from footfit.report.parts import (
     sizes_part,
     warnings_part,
 )
+from footfit.report.surfaces import surfaces_part
 
 if TYPE_CHECKING:
     from footfit.geometry.arrays import Floats
@@ -137,6 +138,7 @@ def candidate_part(candidate: Candidate) -> Json:
         },
         "clearance_mm": clearance_part(candidate.clearance_mm),
         "fits": [fit_part(fit) for fit in candidate.fits],
+        "surface_clearance": surfaces_part(candidate.surfaces),
         "not_judged": list(candidate.not_judged),
         "verdict": candidate.verdict,
         "why": candidate.why,

@@ -30,6 +30,7 @@ from footfit.report.html_page import (
     warning,
 )
 from footfit.report.parts import NOT_YET
+from footfit.report.surfaces import surfaces_words
 from footfit.report.text import (
     file_name,
     measured_text,
@@ -212,11 +213,11 @@ def _lasts(match: Match) -> list[str]:
         title = "<h2>The lasts, best first</h2>"
         how = f"<p>{text(HOW[match.by])}</p>"
         shown = match.candidates
-        return [title, how, _table(shown), left_out, _legend(match), _zones(shown)]
+        return [title, how, _table(shown), left_out, _legend(match), _zones(shown), _rooms(shown)]
     if match.nearest:
         title = "<h2>The nearest lasts, and what they miss by</h2>"
         shown = match.nearest
-        return [title, _table(shown), left_out, _legend(match), _zones(shown)]
+        return [title, _table(shown), left_out, _legend(match), _zones(shown), _rooms(shown)]
     return [left_out]
 
 
@@ -265,6 +266,16 @@ def _zones(candidates: Sequence[Candidate]) -> str:
         for index, zone in enumerate(shown[0].fits[0].zones)
     ]
     return table(heads, rows, kind="zones")
+
+
+def _rooms(candidates: Sequence[Candidate]) -> str:
+    """Where the surfaces are tight or loose in every last, for those that asked."""
+    rows: list[list[Cell]] = [
+        [(text(candidate.last), "name"), ("<br>".join(map(text, lines)), "why")]
+        for candidate in candidates
+        if (lines := surfaces_words(candidate.surfaces))
+    ]
+    return table([("Surface against surface", ""), ("", "")], rows, kind="zones") if rows else ""
 
 
 def _zone(zone: ZoneFit) -> str:

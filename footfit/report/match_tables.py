@@ -15,6 +15,7 @@ from rich.text import Text
 
 from footfit.geometry.sizes import foot_size, foot_sizes, system_named
 from footfit.report.parts import NOT_YET
+from footfit.report.surfaces import surfaces_words
 from footfit.report.tables import cell, flare_words, lined_table
 from footfit.report.text import file_name, plain, signed, size_text, tie_words, visible
 
@@ -130,13 +131,14 @@ def _cells(candidate: Candidate, *, judged: bool) -> list[Text]:
 
 
 def _sentence(candidate: Candidate) -> RenderableType:
-    """Why, and with whom it is tied, under the row."""
+    """Why, with whom it is tied, and where the surfaces are tight or loose, under the row."""
     words = cell(candidate.why)
     if candidate.mirrored:
         words.append("; mirrored")
     if candidate.tied_with:
         words.append(f"; {tie_words(candidate.tied_with)}")
-    return Padding(words, (0, 0, 0, 4))
+    rooms = [Text(line, "dim") for line in surfaces_words(candidate.surfaces)]
+    return Padding(Group(words, *rooms), (0, 0, 0, 4))
 
 
 # ---------------------------------------------------------------- zone by zone

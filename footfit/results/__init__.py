@@ -12,7 +12,12 @@ from footfit.results.alignment import (
     Reference,
     SideVerdict,
 )
-from footfit.results.compare import Comparison, SectionComparison, SizeDifference
+from footfit.results.compare import (
+    Comparison,
+    SectionComparison,
+    SizeDifference,
+    SurfaceRoom,
+)
 from footfit.results.fit import FitProfile, FootFit, ZoneFit, ZoneRule
 from footfit.results.lasts import LastLabels, LastRecord
 from footfit.results.library import CatalogueFacts, DemoOutcome, IngestOutcome, UpgradeOutcome
@@ -68,6 +73,7 @@ __all__ = [
     "SideVerdict",
     "SizeDifference",
     "SurfaceCurvature",
+    "SurfaceRoom",
     "UpgradeOutcome",
     "Verdict",
     "ZoneFit",

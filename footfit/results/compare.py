@@ -11,7 +11,7 @@ if TYPE_CHECKING:
     from footfit.geometry.docking import Docking
     from footfit.results.lasts import LastRecord
     from footfit.results.profile import Profiled
-    from footfit.results.values import Measured, Notice
+    from footfit.results.values import Measured, Notice, SideName
 
 
 @dataclass(frozen=True, slots=True)
@@ -36,6 +36,20 @@ class SectionComparison:
     foot_outline: tuple[Floats, ...]
     last_outline: tuple[Floats, ...]
     sizes: tuple[SizeDifference, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class SurfaceRoom:
+    """One foot of a customer laid into one last: the room between the surfaces, zone by zone.
+
+    ``swing_mm`` is how far the foot's tread had to go to medial to lie on the last's. ``reason``
+    says why the foot could not be laid in; there are no zones then.
+    """
+
+    side: SideName | None
+    swing_mm: float | None
+    zones: tuple[ZoneClearance, ...]
+    reason: str | None = None
 
 
 @dataclass(frozen=True, slots=True)

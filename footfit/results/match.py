@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
+    from footfit.results.compare import SurfaceRoom
     from footfit.results.fit import FitProfile, FootFit
     from footfit.results.lasts import LastRecord
     from footfit.results.profile import Profiled
@@ -23,7 +24,7 @@ class FlareDifference:
 
 @dataclass(frozen=True, slots=True)
 class Candidate:
-    """One last of the answer; None where a later version will measure it."""
+    """One last of the answer. ``surfaces`` is of each foot, and empty where nobody asked."""
 
     rank: int
     last: str
@@ -43,6 +44,7 @@ class Candidate:
     distance_sd: float | None = None
     fits: tuple[FootFit, ...] = ()
     not_judged: tuple[str, ...] = ()
+    surfaces: tuple[SurfaceRoom, ...] = ()
 
 
 @dataclass(frozen=True, slots=True)
