@@ -9,6 +9,7 @@ from contextlib import closing, contextmanager
 from pathlib import Path
 
 from footfit.catalogue.engine import connected
+from footfit.catalogue.handles import HANDLES
 from footfit.errors import CatalogueNotWritable, OutputExists
 
 
@@ -39,7 +40,7 @@ def synced(path: Path) -> None:
     try:
         os.fsync(handle)
     finally:
-        os.close(handle)
+        HANDLES.close(handle)
 
 
 def settled(partial: Path, final: Path, *, replace: bool) -> None:

@@ -9,10 +9,11 @@ import sqlite3
 from collections.abc import Iterator
 from contextlib import closing, contextmanager
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cached_property, partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Literal
 
+from footfit.catalogue.handles import HANDLES, FileConnection
 from footfit.errors import (
     CatalogueDamaged,
     CatalogueLocked,
@@ -130,12 +131,7 @@ def connected(
     sqlite3.Error
         Where SQLite cannot open the file; see :func:`worded`.
     """
-    connection = sqlite3.connect(
-        f"{path.absolute().as_uri()}?mode={mode}",
-        uri=True,
-        isolation_level=None,
-        timeout=busy_timeout_s,
-    )
+    connection = HANDLES.connect(path, partial(_opened, path, mode, busy_timeout_s))
     connection.text_factory = lenient_text
     try:
         for pragma in SETTINGS.for_all:
@@ -147,6 +143,16 @@ def connected(
         connection.close()
         raise
     return connection
+
+
+def _opened(path: Path, mode: OpenMode, busy_timeout_s: float) -> FileConnection:
+    return sqlite3.connect(
+        f"{path.absolute().as_uri()}?mode={mode}",
+        uri=True,
+        isolation_level=None,
+        timeout=busy_timeout_s,
+        factory=FileConnection,
+    )
 
 
 def connected_for_reading(path: Path, busy_timeout_s: float) -> sqlite3.Connection:

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Literal
 
+from footfit.catalogue.handles import HANDLES
 from footfit.errors import CatalogueNotWritable, NotACatalogue
 
 FileKind = Literal["missing", "empty", "catalogue", "interrupted"]
@@ -46,7 +47,7 @@ def kind_of_file(path: Path) -> FileKind:
     try:
         if not stat.S_ISREG(path.stat().st_mode):
             raise NotACatalogue("is not a regular file; name a catalogue file", str(path))
-        header = _first_bytes(path, MARKS.header_bytes)
+        header = HANDLES.first_bytes(path, MARKS.header_bytes)
     except FileNotFoundError:
         return "missing"
     except OSError as error:
@@ -64,15 +65,10 @@ def kind_of_file(path: Path) -> FileKind:
     raise NotACatalogue("is not a footfit catalogue and was left as it is", str(path))
 
 
-def _first_bytes(path: Path, count: int) -> bytes:
-    with path.open("rb") as file:
-        return file.read(count)
-
-
 def has_live_journal(path: Path) -> bool:
     """Is there a journal to undo a write that is going on, or that a kill or a power cut ended?"""
     journal = path.with_name(path.name + "-journal")
     try:
-        return _first_bytes(journal, len(MARKS.journal_magic)) == MARKS.journal_magic
+        return HANDLES.first_bytes(journal, len(MARKS.journal_magic)) == MARKS.journal_magic
     except OSError:
         return False

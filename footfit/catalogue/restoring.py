@@ -17,6 +17,7 @@ from typing import BinaryIO
 
 from footfit.catalogue.copying import said_of, settled, synced
 from footfit.catalogue.engine import connected, worded
+from footfit.catalogue.handles import opened
 from footfit.catalogue.opening import settled_kind
 from footfit.errors import CatalogueDamaged, CatalogueLocked, NotACatalogue
 
@@ -71,11 +72,10 @@ def _free_name(path: Path) -> Path:
 def _overwritten(whole: Path, path: Path, kept: Path, busy_timeout_s: float) -> None:
     """Write every page of ``whole`` over the catalogue in one transaction.
 
-    The old file is opened first and closed last: closing any handle of a file drops all the
-    locks that this process has on it, SQLite's too.
+    The old file is opened beside SQLite, which would lose its locks were it closed just so.
     """
     with (
-        path.open("rb") as old,
+        opened(path) as old,
         worded(path),
         closing(connected(whole, "ro")) as source,
         closing(connected(path, "rw", busy_timeout_s)) as target,
