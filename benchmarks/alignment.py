@@ -137,6 +137,17 @@ def with_leg(vertices, faces, height_mm):
     return np.concatenate([vertices, rings.reshape(-1, 3)]), np.concatenate([faces, *tube])
 
 
+def holed(vertices, faces, rng, count, radius_mm, front=0.70):
+    """Holes behind ``front`` of the length of a shape that lies along X: none bites off a toe."""
+    start, length = vertices[:, 0].min(), np.ptp(vertices[:, 0])
+    behind = np.flatnonzero(vertices[:, 0] < start + front * length)
+    middles, keep = vertices[faces].mean(axis=1), np.ones(len(faces), dtype=bool)
+    for centre in vertices[rng.choice(behind, count, replace=False)]:
+        keep &= np.linalg.norm(middles - centre, axis=1) > radius_mm
+    used, renamed = np.unique(faces[keep], return_inverse=True)
+    return vertices[used], renamed.reshape(-1, 3)
+
+
 DISTORTIONS = {
     "clean": lambda v, f, _: (v, f),
     "noise 0.3 mm": lambda v, f, rng: (distortions.white_noise(v, rng, 0.3), f),
@@ -145,7 +156,8 @@ DISTORTIONS = {
     "half subdivided": lambda v, f, _: distortions.half_subdivided(v, f),
     "leg cut 62-100 mm": lambda v, f, rng: distortions.leg_cut(v, f, rng.uniform(62, 100)),
     "leg cut 50-62 mm": lambda v, f, rng: distortions.leg_cut(v, f, rng.uniform(50, 62)),
-    "three holes": lambda v, f, rng: distortions.with_holes(v, f, rng, 3, 9.0),
+    "three holes of 18 mm": lambda v, f, rng: distortions.with_holes(v, f, rng, 3, 9.0),
+    "three of 24 mm, not in toes": lambda v, f, rng: holed(v, f, rng, 3, 12.0),
     "floor plate": lambda v, f, _: distortions.floor_plate(v, f),
     "leg to 250-500 mm": lambda v, f, rng: with_leg(v, f, rng.uniform(250.0, 500.0)),
     "inside out": lambda v, f, _: distortions.inside_out(v, f),
@@ -209,7 +221,7 @@ def repeatability(shapes_found, runs, rng, complain):
         shape = shapes_found[rng.integers(len(shapes_found))]
         name = names[index % len(names)]
         if shape.family == "lasts" and "leg" in name:
-            name = "three holes"  # a last has no leg to cut or to stretch
+            name = "three holes of 18 mm"  # a last has no leg to cut or to stretch
         row = one_run(shape, name, rng)
         rows[name].append((shape, row))
         if not row["pose"]:

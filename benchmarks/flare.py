@@ -21,7 +21,7 @@ sys.path.insert(0, str(ROOT))
 import numpy as np  # noqa: E402
 
 from benchmarks import bends  # noqa: E402
-from benchmarks.alignment import scan_of  # noqa: E402
+from benchmarks.alignment import holed, scan_of  # noqa: E402
 from benchmarks.tables import markdown, put  # noqa: E402
 from footfit.errors import FootfitError  # noqa: E402
 from footfit.geometry.centre_line import low_length  # noqa: E402
@@ -34,7 +34,7 @@ from footfit.geometry.flare import (  # noqa: E402
 )
 from footfit.meshes.read import read_scan  # noqa: E402
 from footfit.pipeline.align import aligned  # noqa: E402
-from footfit.pipeline.flare import profiled, right_shape  # noqa: E402
+from footfit.pipeline.flare import as_right, profiled, right_shape  # noqa: E402
 from footfit.results import Profiled  # noqa: E402
 from tests import distortions  # noqa: E402
 from tests.distortions import half_subdivided, rippled, white_noise  # noqa: E402
@@ -68,6 +68,11 @@ def turned(axis: str, angle_deg: float) -> Change:
     return change
 
 
+def closed(change: Change) -> Change:
+    """A change after which holes are closed, as they are between the frame and the flare."""
+    return lambda v, f, rng: as_right(*change(v, f, rng), "right")
+
+
 CHANGES: dict[str, Change] = {
     "noise 0.3 mm": lambda v, f, rng: (white_noise(v, rng, 0.3), f),
     "noise 1 mm": lambda v, f, rng: (white_noise(v, rng, 1.0), f),
@@ -77,7 +82,11 @@ CHANGES: dict[str, Change] = {
     "half of the mesh subdivided": lambda v, f, _: half_subdivided(v, f),
     "scaled by 1.7": lambda v, f, _: (v * 1.7, f),
     "leg cut": lambda v, f, _: distortions.leg_cut(v, f, 0.27 * np.ptp(v[:, 0])),
-    "3 holes": lambda v, f, rng: distortions.with_holes(v, f, rng, 3, 12.0),
+    "3 holes of 18 mm": closed(lambda v, f, rng: holed(v, f, rng, 3, 9.0)),
+    "3 holes of 24 mm": closed(lambda v, f, rng: holed(v, f, rng, 3, 12.0)),
+    "3 bites of 24 mm, toes too": closed(
+        lambda v, f, rng: distortions.with_holes(v, f, rng, 3, 12.0)
+    ),
     "roll of the frame 0.3 deg": turned("x", 0.3),
     "roll 2 deg": turned("x", 2.0),
     "pitch 0.3 deg": turned("y", 0.3),
@@ -90,6 +99,7 @@ POSED: dict[str, Change] = {
     "pose, 4x decimation": CHANGES["4x decimation"],
     "pose, half subdivided": CHANGES["half of the mesh subdivided"],
     "pose, leg cut": CHANGES["leg cut"],
+    "pose, 3 holes of 24 mm": lambda v, f, rng: holed(v, f, rng, 3, 12.0),
 }
 
 

@@ -5,9 +5,10 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from footfit.geometry.ends import missing_end, rims_of
+from footfit.geometry.ends import missing_end
 from footfit.geometry.feet import comparable, facing, gap, part_of, pieces, stand_apart
 from footfit.geometry.samples import quadrature
+from footfit.geometry.topology import boundary_loops
 from tests import distortions, shapes
 from tools.lasts import LastSpec, last_mesh
 
@@ -50,6 +51,10 @@ def test_facing_of_a_sheet_and_of_a_half_sphere():
     # a half sphere: the area vectors add up to its equator's disc, half of its area
     half = shapes.open_cap(50.0, 90.0)
     assert facing(*half).one_way == pytest.approx(0.5, abs=0.01)
+
+
+def rims_of(vertices, faces):
+    return [vertices[loop] for loop in boundary_loops(faces)]
 
 
 @pytest.mark.parametrize(("x", "towards", "missing"), [(80, -1, "heel"), (180, 1, "toes")])

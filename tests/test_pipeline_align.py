@@ -277,6 +277,25 @@ def test_a_plate_is_taken_off(last, home):
     assert angle_deg(turn, home.transform[:3, :3]) < 0.3
 
 
+@pytest.mark.parametrize(
+    "box", [(0.15, 0.5, 0.0), (0.65, 0.5, 0.0), (0.7, 1.0, 0.2), (0.0, 0.5, 0.3), (0.8, 0.0, 0.2)]
+)
+def test_holes_in_sole_wall_and_heel_are_bridged_and_said(last, home, box):
+    vertices, faces = last
+    low, high = vertices.min(axis=0), vertices.max(axis=0)
+    middle = vertices[np.argmin(np.abs((vertices - low) / (high - low) - box).sum(axis=1))]
+    keep = np.linalg.norm(vertices[faces].mean(axis=1) - middle, axis=1) > 11.0
+    found = aligned(scan_of(vertices, faces[keep]))
+    turn = angle_deg(found.alignment.transform[:3, :3], home.transform[:3, :3])
+    assert turn < 0.1
+    assert np.linalg.norm(found.alignment.transform[:3, 3] - home.transform[:3, 3]) < 0.3
+    assert found.alignment.length_mm == pytest.approx(home.length_mm, abs=0.3)
+    assert [code for code in codes(found.alignment) if "hole" in code] == ["holes_filled"]
+    flat = profiled(aligned(scan_of(vertices, faces))).flare.angle_deg
+    assert profiled(found).flare.angle_deg == pytest.approx(flat, abs=0.3)
+    assert len(found.faces) == keep.sum()  # what was scanned stays what it is
+
+
 def test_a_last_without_a_sole_is_said(last):
     down = np.array([0.0, 0.0, -1.0])
     cut = distortions.plane_cut(*last, np.array([0.0, 0.0, 12.0]), down)

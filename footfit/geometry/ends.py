@@ -7,9 +7,8 @@ from typing import Literal
 
 import numpy as np
 
-from footfit.geometry.arrays import Floats, Ints
+from footfit.geometry.arrays import Floats
 from footfit.geometry.samples import SurfaceSample
-from footfit.geometry.topology import boundary_loops
 
 
 @dataclass(frozen=True, slots=True)
@@ -55,11 +54,6 @@ def missing_end(
         if any(_is_open(part, length, settings) for part in near):
             return name
     return None
-
-
-def rims_of(vertices: Floats, faces: Ints) -> list[Floats]:
-    """The points (k, 3) of each boundary loop."""
-    return [vertices[loop] for loop in boundary_loops(faces)]
 
 
 def _is_open(rim: Floats, length: float, settings: EndSettings) -> bool:

@@ -10,8 +10,9 @@ import numpy as np
 from footfit.errors import HalfScan, NoReference
 from footfit.geometry import wpca
 from footfit.geometry.arrays import Floats, Ints
-from footfit.geometry.ends import missing_end, rims_of
+from footfit.geometry.ends import missing_end
 from footfit.geometry.frame import canonical_frame, length_of, turned_sample
+from footfit.geometry.holes import Filled, filled
 from footfit.geometry.moments import (
     moments_along,
     principal_axes,
@@ -90,8 +91,9 @@ def aligned(
     """
     _require_reference(method, reference)
     shape = posed(scan, length_windows(scan.info, known_length_mm))
-    frame = _Framed.of(shape)
-    _refuse_half(shape, frame)
+    whole = filled(shape.vertices, shape.faces, shape.orientation.length)
+    frame = _Framed.of(shape, whole)
+    _refuse_half(whole, frame)
     verdict = _verdict(frame, side)
     info = info_with_unit(scan.info, frame.length, known_length_mm)
     info = replace(info, vertices=len(shape.vertices), faces=len(shape.faces))
@@ -114,6 +116,7 @@ def aligned(
         warnings=(
             *read_notices(scan, info, length_mm),
             *shape.notices,
+            *_hole_notices(whole, factor),
             *_notices(frame, float(points_mm[:, 2].max()), length_mm, verdict),
             *length_notices(info, length_mm),
         ),
@@ -139,13 +142,13 @@ class _Framed:
     quality: PoseQuality
 
     @classmethod
-    def of(cls, shape: Posed) -> _Framed:
-        """Refine the rough pose of a shape."""
+    def of(cls, shape: Posed, whole: Filled) -> _Framed:
+        """Refine the rough pose of a shape, by its surface without holes."""
         rough = shape.orientation
-        about = applied(transform(rough.rotation, rough.shift), shape.vertices)
+        about = applied(transform(rough.rotation, rough.shift), whole.vertices)
         # The edge in steps of a tenth: two poses of one shape get the same points.
         step = np.round(np.log(rough.length) / np.log(1.1))
-        sample = quadrature(about, shape.faces, ALIGN.quadrature_edge * float(1.1**step))
+        sample = quadrature(about, whole.faces, ALIGN.quadrature_edge * float(1.1**step))
         fine = canonical_frame(sample, rough.length)
         rotation, shift = fine.rotation, fine.shift
         for _ in range(ALIGN.settling_rounds):  # until the pose it came from is forgotten
@@ -157,15 +160,16 @@ class _Framed:
         surface = replace(turned, points=turned.points + shift)
         shift = rotation @ rough.shift + shift
         rotation = nearest_rotation(rotation @ rough.rotation)
-        points = applied(transform(rotation, shift), shape.vertices)
+        points = applied(transform(rotation, shift), whole.vertices)
         quality = PoseQuality(rough.cost, rough.margin, fine.support, fine.sole, rough.kind)
         length = length_of(points, 0.0, fine.length)
+        points = points[: len(shape.vertices)]
         return cls(points, surface, rotation, shift, length, quality)
 
 
-def _refuse_half(shape: Posed, frame: _Framed) -> None:
+def _refuse_half(whole: Filled, frame: _Framed) -> None:
     """Raise HalfScan where an end was cut off, since length and flare would be another's."""
-    rims = rims_of(frame.points, shape.faces)
+    rims = [frame.points[rim] for rim in whole.rims]
     missing = missing_end(frame.surface, rims, frame.length)
     if missing is not None:
         raise HalfScan(f"no {missing}: the surface ends there in a cut; scan the whole foot")
@@ -181,6 +185,15 @@ def _verdict(frame: _Framed, side: str) -> SideVerdict:
     given: SideName = "left" if side == "left" else "right"
     contradicted = word != "undecided" and detected != given
     return SideVerdict(given, "low" if contradicted else "sure", score, "given")
+
+
+def _hole_notices(whole: Filled, factor: float) -> list[Notice]:
+    """What was closed, if anything."""
+    if not whole.extents:
+        return []
+    count, widest_mm = len(whole.extents), factor * whole.extents[0]
+    holes = "a hole" if count == 1 else f"{count} holes"
+    return [Notice("holes_filled", f"{holes} of up to {widest_mm:.0f} mm bridged")]
 
 
 def _notices(frame: _Framed, top_mm: float, length_mm: float, verdict: SideVerdict) -> list[Notice]:

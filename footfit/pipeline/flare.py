@@ -7,7 +7,10 @@ import numpy as np
 from footfit.errors import SideUndecided
 from footfit.geometry import measures
 from footfit.geometry.arrays import Floats, Ints
+from footfit.geometry.bottom_shape import low_length
 from footfit.geometry.flare import FlareDefinition, flare_profile
+from footfit.geometry.frame import FRAME
+from footfit.geometry.holes import filled
 from footfit.geometry.landmarks import Shape
 from footfit.results import AlignedScan, Measure, Measured, Profiled, SideName
 
@@ -43,15 +46,26 @@ def profiled(aligned: AlignedScan, definition: FlareDefinition | None = None) ->
 
 
 def right_shape(aligned: AlignedScan) -> tuple[Floats, Ints]:
-    """The canonical mesh as a right one: vertices (n, 3) in mm and faces (m, 3), wound outward."""
+    """The canonical mesh as a right one, as :func:`as_right` makes it."""
     return as_right(aligned.vertices_mm, aligned.faces, aligned.alignment.side.side)
 
 
 def as_right(vertices_mm: Floats, faces: Ints, side: SideName | None) -> tuple[Floats, Ints]:
-    """A canonical mesh as a right one; a left mesh is mirrored, its faces turned over."""
-    if side != "left":
-        return vertices_mm, faces
-    return vertices_mm * np.array([1.0, -1.0, 1.0]), faces[:, ::-1]
+    """A canonical mesh as a right one, wound outward, its small holes closed.
+
+    A left mesh is mirrored, its faces turned over. Without holes the vertices and their order
+    stay as they are; the caps' come last.
+
+    Parameters
+    ----------
+    vertices_mm : (n, 3)
+    faces : (m, 3)
+    side : {"left", "right"} or None
+    """
+    if side == "left":
+        vertices_mm, faces = vertices_mm * np.array([1.0, -1.0, 1.0]), faces[:, ::-1]
+    whole = filled(vertices_mm, faces, low_length(vertices_mm, FRAME.length_height)[1])
+    return whole.vertices, whole.faces
 
 
 def measured(vertices_mm: Floats, faces: Ints, kind: str = "foot") -> tuple[Measure, ...]:

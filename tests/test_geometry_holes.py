@@ -1,0 +1,148 @@
+"""Small holes are closed as the surface goes on; openings, patches and closed meshes are left."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from footfit.geometry.caps import extent_of
+from footfit.geometry.holes import HOLES, filled
+from footfit.geometry.surface import area_vectors, signed_volume
+from footfit.geometry.topology import (
+    boundary_loops,
+    is_closed,
+    is_consistently_wound,
+)
+from tests import distortions, shapes
+from tests.strategies import rotations, scales, shifts_mm
+from tools.lasts import LastSpec, last_mesh
+
+LENGTH_MM = 250.0
+
+
+@pytest.fixture(scope="module")
+def last():
+    return last_mesh(LastSpec(rings=60, segments=48))
+
+
+def holed_sphere(radius_mm, seed=1, subdivisions=5):
+    vertices, faces = shapes.sphere(50.0, subdivisions)
+    return distortions.with_holes(vertices, faces, np.random.default_rng(seed), 1, radius_mm)
+
+
+def caps_of(whole, vertices):
+    return whole.vertices[len(vertices) :]
+
+
+@pytest.mark.parametrize("radius_mm", [6.0, 12.0, 20.0])
+@pytest.mark.parametrize("subdivisions", [4, 5])
+def test_a_spheres_cap_is_the_spheres_to_a_seventh_of_what_a_flat_one_misses(
+    radius_mm, subdivisions
+):
+    vertices, faces = holed_sphere(radius_mm, subdivisions=subdivisions)
+    whole = filled(vertices, faces, LENGTH_MM)
+    assert is_closed(whole.faces)
+    assert is_consistently_wound(whole.faces)
+    assert len(whole.extents) == 1
+    flat_misses = 50.0 - np.sqrt(50.0**2 - radius_mm**2)
+    away = np.linalg.norm(caps_of(whole, vertices), axis=1) - 50.0
+    assert np.abs(away).max() < flat_misses / 7.0
+    assert signed_volume(whole.vertices, whole.faces) == pytest.approx(
+        signed_volume(*shapes.sphere(50.0, subdivisions)), rel=1e-3
+    )
+
+
+def test_noise_on_the_rim_does_not_make_a_cap_wild():
+    vertices, faces = holed_sphere(15.0)
+    noisy = distortions.white_noise(vertices, np.random.default_rng(2), 0.3)
+    whole = filled(noisy, faces, LENGTH_MM)
+    away = np.linalg.norm(caps_of(whole, vertices), axis=1) - 50.0
+    assert np.abs(away).max() < 0.75
+
+
+def test_a_cap_of_a_plane_lies_in_it():
+    vertices, faces = shapes.flat_sheet(cells=60)
+    middles = vertices[faces].mean(axis=1)
+    keep = np.hypot(middles[:, 0] - 130.0, (middles[:, 1] - 50.0) / 0.6) > 22.0
+    whole = filled(vertices, faces[keep], LENGTH_MM)
+    cap = caps_of(whole, vertices)
+    assert len(whole.extents) == 1
+    assert np.abs(cap[:, 2]).max() < 1e-9
+    vectors = area_vectors(whole.vertices, whole.faces)
+    assert vectors[:, 2].sum() == pytest.approx(260.0 * 100.0, rel=1e-9)
+
+
+def test_a_closed_mesh_comes_back_as_it_is(last):
+    whole = filled(*last, LENGTH_MM)
+    assert whole.vertices is last[0]
+    assert whole.faces is last[1]
+    assert whole.extents == ()
+
+
+def test_a_cut_leg_a_missing_sole_and_a_half_are_no_holes(last):
+    vertices, faces = last
+    sole = area_vectors(vertices, faces)[:, 2] < 0.0
+    cut_at = np.array([130.0, 0.0, 0.0])
+    for mesh in (
+        distortions.leg_cut(vertices, faces, 60.0),
+        (vertices, faces[~sole]),
+        distortions.plane_cut(vertices, faces, cut_at, np.array([1.0, 0.0, 0.0])),
+        distortions.plane_cut(vertices, faces, cut_at, np.array([-1.0, 0.0, 0.0])),
+        distortions.plane_cut(vertices, faces, np.zeros(3), np.array([0.0, 1.0, 0.0])),
+    ):
+        assert boundary_loops(mesh[1])
+        assert filled(*mesh, LENGTH_MM).extents == ()
+
+
+def test_a_patch_that_lies_on_its_own_is_not_turned_into_a_body():
+    whole = filled(*shapes.open_cap(40.0, 30.0), LENGTH_MM)
+    assert whole.extents == ()
+
+
+def test_a_mesh_whose_winding_breaks_at_the_rim_is_left_there():
+    vertices, faces = holed_sphere(12.0, subdivisions=4)
+    rim = np.isin(faces, boundary_loops(faces)[0]).any(axis=1)
+    turned = faces.copy()
+    turned[np.flatnonzero(rim)[::3]] = turned[np.flatnonzero(rim)[::3]][:, ::-1]
+    whole = filled(vertices, turned, LENGTH_MM)
+    assert np.isfinite(whole.vertices).all()
+
+
+def test_of_thousands_of_holes_the_largest_are_closed():
+    vertices, faces = shapes.sphere(60.0, 5)
+    vertices, faces = distortions.with_holes(vertices, faces, np.random.default_rng(4), 90, 4.0)
+    whole = filled(vertices, faces, LENGTH_MM)
+    known = sorted((extent_of(vertices[rim]) for rim in whole.rims), reverse=True)
+    assert len(whole.extents) == HOLES.most < len(known)
+    assert whole.extents == pytest.approx(known[: HOLES.most])
+
+
+@settings(max_examples=15, deadline=None)
+@given(
+    rotation=rotations(),
+    shift=shifts_mm(),
+    scale=scales(),
+    seed=st.integers(0, 2**32 - 1),
+    mirror=st.booleans(),
+)
+def test_caps_move_with_the_mesh_whatever_its_order(last, rotation, shift, scale, seed, mirror):
+    vertices, faces = distortions.with_holes(*last, np.random.default_rng(seed), 3, 10.0)
+    home = filled(vertices, faces, LENGTH_MM)
+    flip = np.array([1.0, -1.0, 1.0]) if mirror else np.ones(3)
+    order = faces[:, ::-1] if mirror else faces
+    there = (vertices * flip @ rotation.T + shift) * scale
+    there = filled(
+        *distortions.shuffled(there, order, np.random.default_rng(seed)), LENGTH_MM * scale
+    )
+    assert there.extents == pytest.approx([scale * extent for extent in home.extents])
+    # A mirrored rim is walked the other way round: the same surface, its faces in another order.
+    expected = _moments(home.vertices * flip @ rotation.T + shift, home.faces)
+    assert np.allclose(_moments(there.vertices / scale, there.faces), expected, atol=1e-6)
+
+
+def _moments(vertices, faces):
+    areas = np.linalg.norm(area_vectors(vertices, faces), axis=1)
+    middles = vertices[faces].mean(axis=1)
+    return [areas.sum(), *(areas @ middles / areas.sum()), *(areas @ middles**2 / areas.sum())]
