@@ -123,8 +123,13 @@ THICKNESS = (  # of the forepart over the sole's middle, at stations
 )
 
 
-def side_view(*, heel: float, spring: float, cone: float, cone_length: float) -> SideView:
-    """The side view of a last drafted on a heel of height ``heel``, laid onto its sole."""
+def side_view(
+    *, heel: float, spring: float, cone: float, cone_length: float, fullness: float = 1.0
+) -> SideView:
+    """The side view of a last drafted on a heel of height ``heel``, laid onto its sole.
+
+    The forepart is ``fullness`` times as thick as usual.
+    """
     x = np.linspace(0.0, 1.0, 1001)
     drafted = _drafted_bottom(x, heel, spring)
     touching = (x >= 0.02) & (x <= 0.95)
@@ -133,7 +138,7 @@ def side_view(*, heel: float, spring: float, cone: float, cone_length: float) ->
     above = x * np.sin(pitch) + drafted * np.cos(pitch)
     scale = 1.0 / (along[-1] - along[0])
     s, bottom = (along - along[0]) * scale, (above - above[touching].min()) * scale
-    thickness = CubicSpline(*THICKNESS)(np.clip(s + 0.34 - cone_length, 0.22, 1.0))
+    thickness = fullness * CubicSpline(*THICKNESS)(np.clip(s + 0.34 - cone_length, 0.22, 1.0))
     comb = cone + 0.5 * np.tan(pitch) * (s - 0.15)  # the shin leans half the way with the foot
     softness = 0.012
     crest = -softness * np.logaddexp(-(bottom + thickness) / softness, -comb / softness)

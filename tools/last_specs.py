@@ -23,7 +23,8 @@ class LastSpec:
 
     ``waist_cut_mm``, ``joint_bulge_mm`` and ``toe_turn_deg`` shape the planted centre line.
     ``arch_mm`` (the medial feather line's rise at the waist), ``arch_cut_mm`` (how far it goes
-    in under the widest row) and ``ridge_mm`` (the instep ridge's way to the medial side) do not.
+    in under the widest row), ``ridge_mm`` (the instep ridge's way to the medial side) and
+    ``fullness`` (the forepart's thickness over the usual) do not.
     """
 
     length_mm: float = 270.0
@@ -44,6 +45,7 @@ class LastSpec:
     ridge_mm: float = 9.0
     cone_height_mm: float | None = None
     cone_length: float = 0.34
+    fullness: float = 1.0
     side: Literal["left", "right"] = "right"
     rings: int = 160
     segments: int = 110

@@ -303,6 +303,7 @@ def _rings(spec: LastSpec, shape: Widths) -> Floats:
         spring=share(spec, "toe_spring_mm"),
         cone=share(spec, "cone_height_mm"),
         cone_length=spec.cone_length,
+        fullness=spec.fullness,
     )
     half = np.interp(s, _GRID, shape.half)
     half[[0, -1]] = 0.0

@@ -34,6 +34,14 @@ COLUMNS = (
 )
 PARIS_POINT_MM = 20.0 / 3.0  # an EU size is the last's length in Paris points
 SHIFT_MM = 400.0
+GRADED = (
+    "ball_width_mm",
+    "heel_width_mm",
+    "waist_width_mm",
+    "joint_bulge_mm",
+    "ridge_mm",
+    "arch_cut_mm",
+)
 
 
 @dataclass(frozen=True, slots=True)
@@ -55,11 +63,29 @@ def size_length_mm(size: int) -> float:
     return size * PARIS_POINT_MM
 
 
-MODEL = LastSpec(length_mm=size_length_mm(40), rings=58, segments=44)
+# The models' joints, heels and girths are those of mean feet of their size and width in a survey of
+# 6,068 people (ansur2 in docs/references.md). Size 40 is for a foot of 253 mm, whose ball girth is
+# 235 mm (G; E is 12 mm less, H 6 mm more), its breadth 95 mm, its heel 63 mm at L/6.
+MODEL = LastSpec(
+    length_mm=size_length_mm(40),
+    mt1_station=0.70,
+    mt5_station=0.55,
+    joint_bulge_mm=3.5,
+    rings=58,
+    segments=44,
+)
 STYLES = (
     Style(
         "derby",
-        replace(MODEL, heel_height_mm=25.0, toe_spring_mm=11.0, flare_deg=6.0, ball_width_mm=96.0),
+        replace(
+            MODEL,
+            heel_height_mm=25.0,
+            toe_spring_mm=11.0,
+            flare_deg=6.0,
+            ball_width_mm=97.0,
+            heel_width_mm=64.0,
+            fullness=1.08,
+        ),
         "G",
         (
             (38, "right", "mm"),
@@ -77,12 +103,13 @@ STYLES = (
             toe_spring_mm=9.0,
             flare_deg=9.5,
             toe_shape="almond",
-            ball_width_mm=93.0,
-            heel_width_mm=65.0,
-            waist_width_mm=70.0,
+            ball_width_mm=91.0,
+            heel_width_mm=61.0,
+            waist_width_mm=67.5,
+            fullness=1.02,
             arch_cut_mm=15.0,
         ),
-        "F",
+        "E",
         ((39, "right", "mm"), (40, "left", "mm"), (42, "right", "mm"), (43, "right", "mm")),
     ),
     Style(
@@ -92,9 +119,9 @@ STYLES = (
             heel_height_mm=10.0,
             toe_spring_mm=15.0,
             flare_deg=14.0,
-            ball_width_mm=101.0,
-            heel_width_mm=69.0,
-            waist_width_mm=78.0,
+            ball_width_mm=97.5,
+            heel_width_mm=65.5,
+            waist_width_mm=74.0,
             ridge_mm=7.0,
             arch_cut_mm=9.0,
         ),
@@ -114,9 +141,7 @@ def sized(model: LastSpec, size: int) -> LastSpec:
     """The model in an EU size: graded with its length, the heel and the toe spring kept."""
     ratio = size_length_mm(size) / model.length_mm
     grown = {
-        name: getattr(model, name) * ratio
-        for name in ("ball_width_mm", "heel_width_mm", "waist_width_mm", "ridge_mm", "arch_cut_mm")
-        if getattr(model, name) is not None
+        name: getattr(model, name) * ratio for name in GRADED if getattr(model, name) is not None
     }
     return replace(model, length_mm=size_length_mm(size), **grown)
 
