@@ -13,6 +13,7 @@ The whole tree (a test compares this drawing with the classes)::
     │   ├── DamagedMesh           damaged_mesh
     │   ├── EmptyMesh             empty_mesh
     │   ├── TooLarge              too_large
+    │   ├── TooSlow               too_slow
     │   ├── UnknownUnits          unknown_units
     │   ├── ImplausibleSize       implausible_size
     │   ├── BadManifest           bad_manifest
@@ -144,9 +145,15 @@ class EmptyMesh(InputError):
 
 
 class TooLarge(InputError):
-    """The file is past a stated limit."""
+    """The file is past a stated limit of size or memory."""
 
     code = "too_large"
+
+
+class TooSlow(InputError):
+    """The work on the file takes longer than one file may."""
+
+    code = "too_slow"
 
 
 class UnknownUnits(InputError):

@@ -2,7 +2,8 @@
 
 ``python -m tests.guarded_run LOG ARGS``. Python's audit events tell every socket, process and
 opened file, from the first moment on. What is noted is written to LOG as JSON at the end.
-GUARDED_BYTES, where set, bounds the address space.
+GUARDED_BYTES, where set, bounds the address space. A batch is done in this process, where it is
+seen, not in workers of its own.
 """
 
 from __future__ import annotations
@@ -39,6 +40,10 @@ def main(log: str, arguments: list[str]) -> int:
         resource.setrlimit(resource.RLIMIT_AS, (int(most), int(most)))
     from footfit.cli.app import application
     from footfit.cli.boundary import guarded
+    from footfit.pipeline import batch
+
+    apart = batch.outcomes
+    batch.outcomes = lambda work, items, _jobs: apart(work, items, batch.HERE)
 
     sys.argv = ["footfit", *arguments]
     code = guarded(application(), arguments)

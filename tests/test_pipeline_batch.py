@@ -10,8 +10,8 @@ import time
 
 import pytest
 
-from footfit.errors import DamagedMesh, NotAFoot, TooLarge, UnreadableFile
-from footfit.pipeline.batch import outcomes
+from footfit.errors import DamagedMesh, NotAFoot, TooLarge, TooSlow, UnreadableFile
+from footfit.pipeline.batch import HERE, outcomes
 from footfit.pipeline.limits import WorkLimits
 from footfit.pipeline.sources import Source
 
@@ -30,7 +30,7 @@ def length_of_name(source: Source) -> int:
 ITEMS = [Source(name) for name in ("a", "bad", "ccc", "odd", "eeeee", "ffffff")]
 
 
-@pytest.mark.parametrize("jobs", [1, 2])
+@pytest.mark.parametrize("jobs", [HERE, 1, 2])
 def test_order_values_and_errors_do_not_depend_on_the_jobs(jobs: int) -> None:
     found = list(outcomes(length_of_name, ITEMS, jobs))
     assert [outcome.item for outcome in found] == ITEMS
@@ -69,33 +69,43 @@ FATES = ["a", "slow", "b", "killed", "greedy", "c", "crashes", "hangs", "d"]
 TIGHT = WorkLimits(seconds=1.0, grace_seconds=1.0, address_bytes=1_000_000_000)
 
 
-def test_a_worker_that_dies_or_hangs_costs_its_own_file_only() -> None:
-    found = list(outcomes(fate_of, [Source(fate) for fate in FATES], 2, TIGHT))
+@pytest.mark.parametrize("jobs", [1, 2])
+def test_a_worker_that_dies_or_hangs_costs_its_own_file_only(jobs: int) -> None:
+    found = list(outcomes(fate_of, [Source(fate) for fate in FATES], jobs, TIGHT))
     assert [outcome.value for outcome in found if outcome.value] == ["a", "b", "c", "d"]
     errors = {outcome.item.path: outcome.error for outcome in found if outcome.error}
     assert {path: type(error) for path, error in errors.items()} == {
-        "slow": TooLarge,
+        "slow": TooSlow,
         "killed": TooLarge,
         "greedy": TooLarge,
         "crashes": UnreadableFile,
-        "hangs": TooLarge,
+        "hangs": TooSlow,
     }
     assert all(error.path == path for path, error in errors.items())
     assert not multiprocessing.active_children()
 
 
-def test_one_process_holds_to_time_and_memory_too() -> None:
+def test_this_process_holds_to_time_and_memory_too() -> None:
     before = resource.getrlimit(resource.RLIMIT_AS), signal.getsignal(signal.SIGALRM)
     fates = [Source(fate) for fate in ("a", "slow", "greedy", "b")]
-    found = list(outcomes(fate_of, fates, 1, TIGHT))
+    found = list(outcomes(fate_of, fates, HERE, TIGHT))
     assert [type(outcome.error) for outcome in found] == [
         type(None),
-        TooLarge,
+        TooSlow,
         TooLarge,
         type(None),
     ]
     assert (resource.getrlimit(resource.RLIMIT_AS), signal.getsignal(signal.SIGALRM)) == before
     assert signal.getitimer(signal.ITIMER_REAL) == (0.0, 0.0)
+
+
+def test_a_single_item_is_done_in_this_process() -> None:
+    (found,) = outcomes(own_process, [Source("a")], 2)
+    assert found.value == os.getpid()
+
+
+def own_process(source: Source) -> int:
+    return os.getpid()
 
 
 def test_a_bug_in_a_worker_is_raised_and_leaves_no_process() -> None:

@@ -10,6 +10,9 @@ from typing import Generic, Protocol, TypeVar
 from footfit.errors import ExitCode, FootfitError
 from footfit.pipeline.limits import WORK_LIMITS, WorkLimits, limited
 
+HERE = 0
+"""As ``jobs``: in this process, where a crash takes everything with it."""
+
 
 class Item(Protocol):
     """What a batch is made of: anything that names its file."""
@@ -35,17 +38,18 @@ class Outcome(Generic[S, T]):
 def outcomes(
     work: Callable[[S], T],
     items: Sequence[S],
-    jobs: int = 1,
+    jobs: int = HERE,
     limits: WorkLimits = WORK_LIMITS,
 ) -> Iterator[Outcome[S, T]]:
     """Do ``work`` on each item; yield in the items' order, whatever ``jobs``.
 
-    ``work`` must be picklable (a module's function, or a ``functools.partial`` of one). Its
-    FootfitErrors become outcomes, and so do time and memory past ``limits`` and a worker's death;
-    any other exception is a bug and is raised.
+    Several items are done by ``jobs`` other processes, also by a single one, so that one that dies
+    costs its own item only; ``work`` must then be picklable (a module's function, or a
+    ``functools.partial`` of one). FootfitErrors become outcomes, and so do time and memory past
+    ``limits`` and a worker's death; any other exception is a bug and is raised.
     """
     held = partial(_outcome, work, limits)
-    if jobs == 1 or len(items) < 2:
+    if jobs == HERE or len(items) < 2:
         yield from map(held, items)
         return
     from footfit.pipeline.workers import worked

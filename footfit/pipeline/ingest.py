@@ -17,7 +17,7 @@ from footfit.errors import (
     NameTaken,
     NoCatalogue,
 )
-from footfit.pipeline.batch import Outcome, outcomes
+from footfit.pipeline.batch import HERE, Outcome, outcomes
 from footfit.pipeline.manifest import ManifestRow
 from footfit.pipeline.reading import content_hash, profiled_source
 from footfit.pipeline.sources import ReadingOptions, Source
@@ -200,7 +200,7 @@ def ingest(
     batch: Sequence[Entry],
     path: Path,
     *,
-    jobs: int = 1,
+    jobs: int = HERE,
     replace: bool = False,
     dry_run: bool = False,
     steady: Steady = nullcontext,
@@ -232,7 +232,7 @@ def ingested(
     shelf: Shelf | None,
     stored: Sequence[LastRecord],
     *,
-    jobs: int = 1,
+    jobs: int = HERE,
     replace: bool = False,
     steady: Steady = nullcontext,
 ) -> Iterator[IngestOutcome]:

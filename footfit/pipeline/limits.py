@@ -9,7 +9,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from types import FrameType
 
-from footfit.errors import TooLarge
+from footfit.errors import TooLarge, TooSlow
 
 SLIM = "decimate the mesh first (100,000 faces are plenty)"
 
@@ -48,14 +48,14 @@ def limited(limits: WorkLimits = WORK_LIMITS) -> Iterator[None]:
 
     Raises
     ------
-    TooLarge
-        The time or the memory is used up.
+    TooSlow, TooLarge
+        The time is used up, or the memory.
     """
     try:
         with _alarm(limits.seconds), _address_space(limits.address_bytes):
             yield
     except _OutOfTime:
-        raise TooLarge(out_of_time(limits)) from None
+        raise TooSlow(out_of_time(limits)) from None
     except MemoryError as error:
         most = limits.address_bytes / 1e9
         raise TooLarge(f"took more than {most:.2g} GB of memory: {SLIM}") from error

@@ -1,7 +1,7 @@
 """A few processes that work on items one at a time, each watched by this one.
 
 ``concurrent.futures`` cannot say which item a dead worker had, nor end one that hangs; here each
-worker has its own pipe, so that both are known, and the others go on.
+worker has its own pipes, so that both are known, and the others go on.
 """
 
 from __future__ import annotations
@@ -17,7 +17,7 @@ from multiprocessing.connection import Connection, wait
 from multiprocessing.context import SpawnProcess
 from typing import Any, Generic, TypeVar
 
-from footfit.errors import FootfitError, TooLarge, UnreadableFile
+from footfit.errors import FootfitError, TooLarge, TooSlow, UnreadableFile
 from footfit.pipeline.limits import SLIM, WorkLimits, out_of_time
 
 S = TypeVar("S")
@@ -28,22 +28,24 @@ AHEAD_PER_JOB = 2
 
 @dataclass(slots=True)
 class _Worker(Generic[S]):
-    """A process, this end of its pipe, and which item it has since when."""
+    """A process, this end of its two pipes, and which item it has since when."""
 
     process: SpawnProcess
-    pipe: Connection
+    orders: Connection
+    answers: Connection
     place: int | None = None
     since: float = 0.0
 
     def begin(self, place: int, item: S) -> None:
         self.place, self.since = place, time.monotonic()
         with suppress(OSError):  # dead already: its pipe's end tells
-            self.pipe.send(item)
+            self.orders.send(item)
 
     def end(self) -> None:
         self.process.kill()
         self.process.join()
-        self.pipe.close()
+        self.orders.close()
+        self.answers.close()
 
 
 def worked(
@@ -76,12 +78,14 @@ def _idle(crew: list[_Worker[S]], work: Callable[[S], T], jobs: int) -> list[_Wo
     """The workers that have no item, once there are ``jobs`` of them again."""
     context = get_context("spawn")
     while len(crew) < jobs:
-        here, there = context.Pipe()
-        process = context.Process(target=_serve, args=(there, work), daemon=True)
+        taken, orders = context.Pipe(duplex=False)  # one both ways would be a socket
+        answers, given = context.Pipe(duplex=False)
+        process = context.Process(target=_serve, args=(taken, given, work), daemon=True)
         with _signals_put_off():  # or a worker could be begun that nobody knows of and ends
             process.start()
-            crew.append(_Worker(process, here))
-        there.close()
+            crew.append(_Worker(process, orders, answers))
+        taken.close()
+        given.close()
     return [worker for worker in crew if worker.place is None]
 
 
@@ -109,20 +113,20 @@ def _answered(crew: list[_Worker[S]], limits: WorkLimits) -> dict[int, Any]:
     """Wait until a worker answers, dies or runs out of time: its item's place and answer."""
     busy = [worker for worker in crew if worker.place is not None]
     deadline = min(worker.since for worker in busy) + limits.seconds + limits.grace_seconds
-    ready = wait([worker.pipe for worker in busy], max(0.0, deadline - time.monotonic()))
+    ready = wait([worker.answers for worker in busy], max(0.0, deadline - time.monotonic()))
     found: dict[int, Any] = {}
     for worker in busy:
         assert worker.place is not None
         place = worker.place
-        if worker.pipe in ready:
+        if worker.answers in ready:
             found[place] = _received(worker)
         elif time.monotonic() >= worker.since + limits.seconds + limits.grace_seconds:
             worker.end()
-            found[place] = TooLarge(out_of_time(limits))
+            found[place] = TooSlow(out_of_time(limits))
         else:
             continue
         worker.place = None
-        if worker.pipe.closed:
+        if worker.answers.closed:
             crew.remove(worker)
     return found
 
@@ -136,7 +140,7 @@ def _received(worker: _Worker[S]) -> Any:
         Whatever ``work`` raised.
     """
     try:
-        answer, error = worker.pipe.recv()
+        answer, error = worker.answers.recv()
     except (EOFError, OSError):
         worker.process.join()
         code = worker.process.exitcode or 0
@@ -157,14 +161,14 @@ def _obituary(exit_code: int) -> FootfitError:
     )
 
 
-def _serve(pipe: Connection, work: Callable[[S], T]) -> None:
-    """In a worker: answer items until the pipe closes. The parent alone answers Ctrl-C."""
+def _serve(orders: Connection, answers: Connection, work: Callable[[S], T]) -> None:
+    """In a worker: answer items until the orders end. The parent alone answers Ctrl-C."""
     signal.signal(signal.SIGINT, signal.SIG_IGN)
     if hasattr(signal, "pthread_sigmask"):  # as it was begun, it hears nothing
         signal.pthread_sigmask(signal.SIG_UNBLOCK, {signal.SIGTERM})
     while True:
         try:
-            item = pipe.recv()
+            item = orders.recv()
         except EOFError:
             return
         try:
@@ -173,6 +177,6 @@ def _serve(pipe: Connection, work: Callable[[S], T]) -> None:
             error.add_note(f"in a worker: {traceback.format_exc()}")
             answer = None, error
         try:
-            pipe.send(answer)
+            answers.send(answer)
         except OSError:  # the parent is gone
             return
