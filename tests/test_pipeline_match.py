@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import shutil
 from dataclasses import replace
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -10,14 +12,18 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from footfit.errors import NoCandidate
+from footfit.catalogue.store import open_catalogue
+from footfit.errors import BadOption, NoCandidate
 from footfit.pipeline.choice import choice
 from footfit.pipeline.match import Library, Question, matched, meets
 from footfit.pipeline.profile import fit_profile
 from footfit.pipeline.ranking import TIE_DISTANCE
+from footfit.pipeline.reading import profiled_source
+from footfit.pipeline.sources import ReadingOptions, Source
 from footfit.pipeline.zones import BALL_SHARE, ball_line, pitch_gain_mm, zone_shape
 from footfit.results import Candidate, LastRecord, Match, Measure, Measured, Profiled
-from tests import answers
+from tests import answers, records
+from tests.conftest import SAMPLES
 
 WALKING = fit_profile("walking")
 FOOT = {"ball_girth": 240.0, "ball_width": 98.0, "heel_width": 62.0, "ball_length": 188.0}
@@ -362,4 +368,38 @@ def test_a_size_system_that_no_last_has_ranks_all_and_says_so(stocked: Any) -> N
     assert found.lasts
     assert [notice.code for notice in found.warnings] == ["other_systems"]
     assert choice(stocked, None, "EU").warnings == ()
-    assert not choice(stocked, None, "the shop's own").lasts
+    with pytest.raises(BadOption, match=r"'shop size'.*there are eu, uk, us-men"):
+        choice(stocked, None, "shop size")
+
+
+def test_a_size_system_of_the_shops_own_is_one_where_a_last_is_labelled_in_it(
+    stocked: Any, tmp_path: Path
+) -> None:
+    path = tmp_path / "own.footfit"
+    with open_catalogue(path, write=True) as catalogue:
+        catalogue.add(records.last("a", size="7", size_system="house"), records.mesh_copy(1))
+    assert [last.labels.name for last in choice(path, None, "house").lasts] == ["a"]
+    assert not choice(path, "no such style", "house").lasts
+
+
+def test_lasts_that_were_measured_otherwise_are_said(stocked: Any, tmp_path: Path) -> None:
+    path = tmp_path / "older.footfit"
+    shutil.copy(stocked, path)
+    assert choice(path, None, None).warnings == ()
+    with open_catalogue(path, write=True) as catalogue:
+        (old,) = (one for one in catalogue.records() if one.labels.name == "derby-40")
+        rows = [replace(row, definition=f"{row.name}/0") for row in old.measures]
+        catalogue.replace(replace(old, measures=tuple(rows)), catalogue.mesh_copy("derby-40"))
+    (notice,) = choice(path, None, None).warnings
+    assert notice.code == "other_measures"
+    assert notice.message.startswith("derby-40 was measured by other definitions")
+
+
+def test_a_last_that_is_searched_for_is_as_long_as_itself(stocked: Any) -> None:
+    """Along its bottom, as every last of the library: the pitch is no clearance."""
+    found = choice(stocked, None, None)
+    path = SAMPLES / "lasts" / "derby-40.stl"
+    mesh = profiled_source(Source(str(path)), ReadingOptions())
+    best = matched([mesh], found, Question(by="shape")).candidates[0]
+    assert best.last == "derby-40"
+    assert dict(best.clearance_mm)["length"].value == pytest.approx(0.0, abs=0.05)

@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 from pathlib import Path
 
+from footfit.errors import BadOption
 from footfit.geometry.sizes import SYSTEMS, system_named
 from footfit.pipeline.lasts import library
 from footfit.pipeline.match import Library
@@ -19,11 +20,19 @@ def choice(path: Path, style: str | None, size_system: str | None) -> Library:
     ------
     NoCatalogue, EmptyCatalogue
         There is nothing to match against; the message says what to type.
+    BadOption
+        Neither footfit nor any last's label knows the size system.
     """
     found = library(path, style, size_system)
     system = system_named(size_system)
-    if found.lasts or system is None:
+    if found.lasts or size_system is None:
         return found
+    if system is None:
+        if style is not None and library(path, None, size_system).lasts:
+            return found
+        known = ", ".join(SYSTEMS)
+        words = f"no size system is named {size_system!r}, nor is a last labelled in it"
+        raise BadOption(f"{words}; there are {known}")
     everything = library(path, style, None)
     if not everything.lasts:
         return found

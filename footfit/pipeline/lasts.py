@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from pathlib import Path
 
 from footfit.catalogue.store import open_catalogue
 from footfit.errors import BadOption, EmptyCatalogue, NoReference
+from footfit.geometry.measures import of_kind
 from footfit.pipeline.match import Library
 from footfit.results import (
     CatalogueFacts,
@@ -128,6 +130,7 @@ def library(path: Path, style: str | None = None, size_system: str | None = None
         warnings=(
             *(_damaged(name) for name in rows.damaged),
             *(_outdated(name) for name in rows.outdated),
+            *_measured_otherwise(rows.records),
         ),
     )
 
@@ -140,6 +143,22 @@ def _damaged(name: str) -> Notice:
 def _outdated(name: str) -> Notice:
     words = f"{name} was left out: its profile is older; type: footfit upgrade-catalogue"
     return Notice("outdated_last", words)
+
+
+def _measured_otherwise(records: Sequence[LastRecord]) -> list[Notice]:
+    """What to do where lasts were measured by other definitions than this version's."""
+    wanted = {kind: {entry.definition_id for entry in of_kind(kind)} for kind in ("foot", "last")}
+    other = [
+        record.labels.name
+        for record in records
+        if {measure.definition for measure in record.measures} != wanted[record.pose.kind]
+    ]
+    if not other:
+        return []
+    which = other[0] if len(other) == 1 else f"{len(other)} of {len(records)} lasts"
+    verb = "was" if len(other) == 1 else "were"
+    words = f"{which} {verb} measured by other definitions: zones whose definition changed are not"
+    return [Notice("other_measures", f"{words} judged; type: footfit upgrade-catalogue")]
 
 
 def alignment_reference(path: Path, method: Method, to: str | None) -> Reference | None:

@@ -105,7 +105,8 @@ def clearances(
     foot: Profiled, lasts: Sequence[LastRecord], rules: Sequence[ZoneRule]
 ) -> Clearances:
     """The clearance of a foot in each of n lasts, in the zones of the rules."""
-    one = ZoneShape(foot.aligned.alignment.length_mm, foot.flare, _by_name(foot.measures), None)
+    measures = _by_name(foot.measures)
+    one = ZoneShape(foot.aligned.alignment.length_mm, foot.flare, measures, _heel_mm(measures))
     shapes = [zone_shape(last) for last in lasts]
     asked_mm = next((rule.target for rule in rules if rule.zone == "length"), 0.0)
     table = [[_taken(one, shape, rule, asked_mm) for rule in rules] for shape in shapes]
@@ -128,9 +129,14 @@ class ZoneShape:
 def zone_shape(last: LastRecord) -> ZoneShape:
     """What zones read of a last."""
     measures = _by_name(last.measures)
-    heel = measures["heel_height"][0].value if "heel_height" in measures else None
+    heel = _heel_mm(measures)
     heel = last.labels.heel_height_mm if heel is None else heel
     return ZoneShape(last.length_mm, last.flare, measures, heel)
+
+
+def _heel_mm(measures: Mapping[str, tuple[Measured, str]]) -> float | None:
+    """The measured heel height; a foot has none."""
+    return measures["heel_height"][0].value if "heel_height" in measures else None
 
 
 def _by_name(measures: Sequence[object]) -> dict[str, tuple[Measured, str]]:
@@ -169,11 +175,14 @@ def _difference(foot: ZoneShape, last: ZoneShape, name: str) -> Taken:
 
 
 def _length(foot: ZoneShape, last: ZoneShape) -> Taken:
-    """The toe room: functional lengths where both are measured, along the bottom of the last."""
+    """The toe room: functional lengths where both are measured, along the bottom of the last. A
+    last in the foot's place, as in a search by shape, is measured along its bottom too.
+    """
     taken = _difference(foot, last, "functional_length")
     if taken.reason is not None:
         taken = Taken(last.length_mm - foot.length_mm, LENGTH_SD_MM, LENGTH_SD_MM)
-    return Taken(taken.value + pitch_gain_mm(last), taken.foot_sd, taken.last_sd)
+    gain = pitch_gain_mm(last) - pitch_gain_mm(foot)
+    return Taken(taken.value + gain, taken.foot_sd, taken.last_sd)
 
 
 def pitch_gain_mm(last: ZoneShape) -> float:
