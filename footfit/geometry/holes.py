@@ -29,7 +29,7 @@ class HoleSettings:
         The distance between the rings of a cap.
     """
 
-    largest: float = 0.22
+    largest: float = 0.26
     smallest: float = 0.012
     most: int = 64
     fewest_vertices: int = 4
