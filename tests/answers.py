@@ -260,6 +260,7 @@ def facts(**more):
         "mesh_copies": 12,
         "mesh_copy_bytes": 1_400_000,
         "worst_copy_error_mm": 0.18,
+        "kept": (("last", 12), ("mesh_copy", 12)),
     } | more
     return CatalogueFacts(**values)
 

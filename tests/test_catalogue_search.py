@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import sqlite3
 import subprocess
 import sys
@@ -9,6 +10,7 @@ from collections.abc import Iterator
 from dataclasses import replace
 from pathlib import Path
 
+import numpy as np
 import pytest
 
 from footfit.catalogue.blobs import definition_of, definition_text
@@ -104,6 +106,15 @@ def test_a_definition_comes_back_equal_from_its_text() -> None:
     definition = FlareDefinition()
     assert definition_of(definition_text(definition)) == definition
     hash(definition_of(definition_text(definition)))
+
+
+def test_a_parameter_that_a_stored_definition_lacks_is_not_filled_in() -> None:
+    stored = json.loads(definition_text(FlareDefinition()))
+    del stored["band_height"], stored["seat"]
+    found = definition_of(json.dumps(stored))
+    assert found != FlareDefinition()
+    assert np.isnan([found.band_height, *found.seat]).all()
+    assert replace(found, band_height=0.1, seat=FlareDefinition().seat) == FlareDefinition()
 
 
 def test_reading_opens_neither_sqlalchemy_nor_alembic_nor_a_mesh_library(path: Path) -> None:

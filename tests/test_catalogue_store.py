@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import sqlite3
 from collections.abc import Iterator
+from contextlib import closing
 from dataclasses import replace
 from pathlib import Path
 
@@ -12,6 +14,7 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
 from footfit.catalogue import references
+from footfit.catalogue.schema import Base
 from footfit.catalogue.store import Catalogue, open_catalogue
 from footfit.errors import BadOption, CatalogueDamaged, NameTaken, UnknownLast
 from footfit.results import LastRecord, Measure, Measured, Notice
@@ -331,6 +334,20 @@ def test_facts_count_what_is_there(catalogue: Catalogue, path: Path) -> None:
     assert facts.sides == (("left", 2), ("right", 3))
     assert (facts.mesh_copies, facts.mesh_copy_bytes) == (4, 8_000)
     assert facts.worst_copy_error_mm == 0.12
+
+
+def test_facts_count_the_rows_of_every_table_also_of_a_strange_one(
+    catalogue: Catalogue, path: Path
+) -> None:
+    tables = {table.name for table in Base.metadata.sorted_tables}
+    kept = dict(catalogue.facts().kept)
+    assert set(kept) == tables
+    assert (kept["last"], kept["reference"], kept["mesh_copy"]) == (4, 1, 4)
+    with closing(sqlite3.connect(path)) as connection:
+        connection.execute('CREATE TABLE "customer""s feet" (name TEXT)')
+        connection.execute("""INSERT INTO "customer""s feet" VALUES ('somebody')""")
+        connection.commit()
+    assert dict(catalogue.facts().kept)['customer"s feet'] == 1
 
 
 def test_no_folder_and_no_user_is_in_the_file(catalogue: Catalogue, path: Path) -> None:

@@ -15,6 +15,7 @@ from pathlib import Path
 import pytest
 
 from footfit.pipeline import ingest
+from footfit.pipeline.batch import HERE, outcomes
 from tests.conftest import SAMPLES, Footfit
 
 ROOT = Path(__file__).resolve().parents[1]
@@ -75,6 +76,10 @@ def test_a_match_leaves_the_catalogue_as_it_was(footfit: Footfit, foot: Path, ca
     assert catalogue.read_bytes() == before
     assert sorted(path.name for path in catalogue.parent.iterdir()) == [catalogue.name]
     assert "forgotten" in footfit("catalogue-info", "--catalogue", catalogue).out
+    kept = footfit("catalogue-info", "--catalogue", catalogue, "--json").document
+    assert kept["feet_kept"] == 0
+    of_lasts = {"last", "frame", "flare", "measure", "notice", "mesh_copy", "reference"}
+    assert set(kept["kept"]) == of_lasts
     with sqlite3.connect(catalogue) as connection:
         names = {name for (name,) in connection.execute("SELECT name FROM sqlite_schema")}
     assert not {name for name in names if "foot" in name or "feet" in name or "customer" in name}
@@ -96,10 +101,12 @@ def test_a_file_that_takes_too_long_is_named_and_the_rest_is_stored(
         return usual(entry, known)
 
     monkeypatch.setattr(ingest, "prepared", prepared)
+    in_this_process = lambda work, items, _jobs: outcomes(work, items, HERE)  # noqa: E731
+    monkeypatch.setattr(ingest, "outcomes", in_this_process)
     got = footfit("ingest-last", tmp_path, "--catalogue", tmp_path / "c", "--json")
     status = {Path(line["path"]).name: line["status"] for line in got.lines if "status" in line}
     assert status.pop(slow) == "refused"
     assert list(status.values()) == ["added", "added"]
     error = json.loads(got.last_error)
-    assert (got.code, error["code"]) == (3, "too_large")
+    assert (got.code, error["code"]) == (3, "too_slow")
     assert "longer than 60 s" in error["message"]

@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
+import json
 from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
 import pytest
 
+from footfit.catalogue import writing
+from footfit.catalogue.blobs import definition_text
 from footfit.catalogue.store import open_catalogue
 from footfit.errors import NoCatalogue
 from footfit.geometry.flare import FlareDefinition
@@ -33,6 +36,27 @@ def test_profiles_of_another_definition_are_recomputed_and_marked(catalogue: Pat
     assert again.flare.definition == FlareDefinition()
     assert again.flare.angle_deg == pytest.approx(record.flare.angle_deg, abs=0.1)
     assert upgrade(catalogue).recomputed == ()
+
+
+@pytest.mark.parametrize("other", [{"band_height": None}, {"band_width": 0.3}])
+def test_a_parameter_more_or_less_is_another_definition_whatever_its_version(
+    catalogue: Path, monkeypatch: pytest.MonkeyPatch, other: dict[str, float | None]
+) -> None:
+    stored = {**json.loads(definition_text(FlareDefinition())), **other}
+    text = json.dumps({name: value for name, value in stored.items() if value is not None})
+    with open_catalogue(catalogue, write=True) as opened, monkeypatch.context() as patch:
+        record = opened.records()[0]
+        patch.setattr(writing, "definition_text", lambda _: text)
+        opened.update_profile(record.labels.name, replace(record.flare, angle_deg=19.0))
+    assert [notice.code for notice in library(catalogue).warnings] == ["outdated_last"]
+    with open_catalogue(catalogue) as opened:
+        assert opened.record(record.labels.name).flare.definition.version == "flare/1"
+        assert [finding.code for finding in opened.findings()] == ["definition"]
+
+    assert upgrade(catalogue).recomputed == (record.labels.name,)
+    assert library(catalogue).warnings == ()
+    with open_catalogue(catalogue) as opened:
+        assert opened.record(record.labels.name).flare.angle_deg != 19.0
 
 
 def test_measures_of_older_definitions_are_taken_anew_and_the_profile_stays(

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import json
-from dataclasses import asdict, fields
+import math
+from dataclasses import asdict
 from functools import lru_cache
 from typing import Any
 
@@ -45,13 +46,22 @@ def definition_text(definition: FlareDefinition) -> str:
 def definition_of(text: str) -> FlareDefinition:
     """The definition of a stored text.
 
-    An older definition may lack a parameter that this footfit knows, or have one that it no
-    longer knows: such a one keeps its version, by which everyone tells that its profile is not
-    comparable; ``upgrade-catalogue`` makes it anew.
+    Another footfit's may lack a parameter that this one knows: it is then not a number, since
+    nobody knows what it was, and equal to none. One that this footfit does not know is passed
+    over. Whether a profile is comparable is therefore asked of the text, which has everything.
     """
-    known = {field.name for field in fields(FlareDefinition)}
-    stored = {name: _frozen(value) for name, value in json.loads(text).items() if name in known}
-    return FlareDefinition(**stored)
+    stored = {name: _frozen(value) for name, value in json.loads(text).items()}
+    default = asdict(FlareDefinition())
+    return FlareDefinition(
+        **{name: stored.get(name, _unknown(value)) for name, value in default.items()}
+    )
+
+
+def _unknown(like: Any) -> Any:
+    """A value of the kind of ``like`` that stands for one that is not known."""
+    if isinstance(like, str):
+        return ""
+    return tuple(_unknown(item) for item in like) if isinstance(like, tuple) else math.nan
 
 
 def _frozen(value: Any) -> Any:

@@ -8,6 +8,8 @@ from pathlib import Path
 from footfit.results import CatalogueFacts
 
 Counts = tuple[tuple[str, int], ...]
+MARK_TABLE = "alembic_version"
+"""Keeps the schema's revision alone."""
 
 
 def facts(connection: sqlite3.Connection, path: Path) -> CatalogueFacts:
@@ -33,6 +35,18 @@ def facts(connection: sqlite3.Connection, path: Path) -> CatalogueFacts:
         mesh_copies=copies,
         mesh_copy_bytes=copy_bytes,
         worst_copy_error_mm=worst,
+        kept=_kept(connection),
+    )
+
+
+def _kept(connection: sqlite3.Connection) -> Counts:
+    """Every table that keeps something of somebody, with its rows."""
+    select = "SELECT name FROM sqlite_schema WHERE type = 'table' ORDER BY name"
+    tables = [str(name) for (name,) in connection.execute(select) if name != MARK_TABLE]
+    quoted = ((name, name.replace('"', '""')) for name in tables)
+    return tuple(
+        (name, int(connection.execute(f'SELECT count(*) FROM "{safe}"').fetchone()[0]))
+        for name, safe in quoted
     )
 
 

@@ -24,9 +24,10 @@ def upgrade(path: Path) -> UpgradeOutcome:
     """
     definition = FlareDefinition()
     with open_catalogue(path, write=True, create=False) as catalogue:
-        older = [r for r in catalogue.records() if _is_older(r, definition)]
+        outdated = catalogue.rows_for_search().outdated
+        older = [r for r in catalogue.records() if r.labels.name in outdated or _is_older(r)]
         for record in older:
-            _renew(catalogue, record, definition)
+            _renew(catalogue, record, definition if record.labels.name in outdated else None)
         revisions = catalogue.revisions
     return UpgradeOutcome(
         path=str(path),
@@ -38,18 +39,18 @@ def upgrade(path: Path) -> UpgradeOutcome:
     )
 
 
-def _is_older(record: LastRecord, definition: FlareDefinition) -> bool:
-    """Whether the profile or a measure follows another definition, or a measure is missing."""
+def _is_older(record: LastRecord) -> bool:
+    """Whether a measure follows another definition, or is missing."""
     stored = {measure.definition for measure in record.measures}
     wanted = {entry.definition_id for entry in of_kind(record.pose.kind)}
-    return record.flare.definition != definition or stored != wanted
+    return stored != wanted
 
 
-def _renew(catalogue: Catalogue, record: LastRecord, definition: FlareDefinition) -> None:
-    """Profile and measure a last anew; a profile of this definition stays as it is."""
+def _renew(catalogue: Catalogue, record: LastRecord, definition: FlareDefinition | None) -> None:
+    """Measure a last anew, and profile it by ``definition``; None leaves the profile as it is."""
     vertices_mm, faces = expanded(catalogue.mesh_copy(record.labels.name).data)
     right, kind = as_right(vertices_mm, faces, record.side.side), record.pose.kind
     flare, upgraded_from = record.flare, record.upgraded_from
-    if flare.definition != definition:
+    if definition is not None:
         flare, upgraded_from = flare_profile(*right, definition, kind), flare.definition.version
     catalogue.update_profile(record.labels.name, flare, upgraded_from, measured(*right, kind))

@@ -105,6 +105,10 @@ def export_last_document(last: str, output: str, copy: MeshCopy | None) -> Json:
     )
 
 
+NO_FEET = 0
+"""How many feet a catalogue keeps: it has no table for any."""
+
+
 def catalogue_info_document(facts: CatalogueFacts) -> Json:
     """``footfit.catalogue-info/1``: where the catalogue is, and what it keeps."""
     return document(
@@ -124,6 +128,8 @@ def catalogue_info_document(facts: CatalogueFacts) -> Json:
                 "bytes": facts.mesh_copy_bytes,
                 "worst_error_mm": millimetres(facts.worst_copy_error_mm),
             },
+            "kept": dict(facts.kept),
+            "feet_kept": NO_FEET,
         },
     )
 

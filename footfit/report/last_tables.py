@@ -125,6 +125,7 @@ def catalogue_info_table(info: CatalogueFacts) -> RenderableType:
             ("size systems", _counts(info.size_systems)),
             ("definitions", _counts(info.definitions)),
             ("mesh copies", f"{info.mesh_copies}, {size} MB{worst}"),
+            ("rows kept", _counts(info.kept)),
             ("feet", "none: a foot is read, matched and forgotten"),
         ]
     )

@@ -31,7 +31,10 @@ class IngestOutcome:
 
 @dataclass(frozen=True, slots=True)
 class CatalogueFacts:
-    """What ``catalogue-info`` says: where the file is, what it holds, what it keeps of whom."""
+    """What ``catalogue-info`` says: where the file is, what it holds, what it keeps of whom.
+
+    ``kept`` is every table of the file with its rows: there is none for feet or customers.
+    """
 
     path: str
     bytes: int
@@ -45,6 +48,7 @@ class CatalogueFacts:
     mesh_copies: int
     mesh_copy_bytes: int
     worst_copy_error_mm: float | None
+    kept: tuple[tuple[str, int], ...] = ()
 
 
 @dataclass(frozen=True, slots=True)
