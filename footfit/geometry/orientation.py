@@ -23,7 +23,7 @@ from footfit.geometry.pose_fit import (
     size_of,
 )
 from footfit.geometry.reference_shapes import ReferenceShape, ReferenceShapes, Singles
-from footfit.geometry.rotations import nearest_rotation, super_fibonacci
+from footfit.geometry.rotations import nearest_rotation, super_fibonacci, turned_by
 from footfit.geometry.samples import even_sample, farthest_points
 
 MIRROR = np.diag([1.0, -1.0, 1.0])
@@ -46,6 +46,9 @@ class OrientationSettings:
     final_steps: int = 10
     final_stride: int = 3
     rival_deg: float = 37.0
+    rival_steps: int = 14
+    rivals_finished: int = 2
+    middle: tuple[float, float] = (0.5, 0.17)  # x and z that a rival is turned about
     reverse_height: float = 0.30
     reverse_points: int = 400
     reverse_share: float = 0.75
@@ -55,7 +58,7 @@ class OrientationSettings:
     margin_minimum: float = 0.04
     doubtful_cost: float = 0.42
     margin_per_cost: float = 1.5
-    margin_without_rival: float = 1.0
+    margin_without_rival: float = 1.0  # only where even the turned poses fall back to the winner
     long_leg: float = 0.70  # over L: a scan that reaches higher is searched again
     crop: float = 0.60  # without what lies higher than this
 
@@ -140,11 +143,15 @@ def _found(
     """The pose of a mesh as it is, searched more finely where the first search leaves a doubt."""
     centre = _centre(vertices[faces].reshape(-1, 3))
     clouds = _clouds(vertices - centre, faces, settings)
-    first = _candidates(clouds, references, windows, settings.rotations, settings)
-    found = _chosen(first, settings)
+    candidates = _candidates(clouds, references, windows, settings.rotations, settings)
+    found = _chosen(candidates, settings)
     if found.cost > settings.retry_cost or found.margin < settings.retry_margin:
-        more = _candidates(clouds, references, windows, settings.more_rotations, settings)
-        found = _chosen(more, settings)
+        candidates += _candidates(clouds, references, windows, settings.more_rotations, settings)
+        candidates += _rivals(candidates, clouds, windows, settings)
+        found = _chosen(candidates, settings)
+    elif found.margin == settings.margin_without_rival:
+        candidates += _rivals(candidates, clouds, windows, settings)
+        found = _chosen(candidates, settings)
     return replace(found, shift=found.shift - found.rotation @ centre)
 
 
@@ -191,6 +198,52 @@ def _candidates(
             pose = poses.at(np.array([place]))
             result.append(_finished(pose, cloud, shape, bool(mirrored[place]), settings))
     return result
+
+
+def _rivals(
+    candidates: list[_Candidate],
+    clouds: tuple[_Cloud, _Cloud],
+    windows: tuple[tuple[float, float], ...],
+    settings: OrientationSettings,
+) -> list[_Candidate]:
+    """The best of each reference turned upside down, on its sides and end for end, and fitted.
+
+    Which poses the search keeps depends on the pose the mesh came in; where all of them lie in
+    one valley the margin would measure nothing. The turned ones are there whatever was kept.
+    """
+    result = []
+    for kind in dict.fromkeys(candidate.shape.kind for candidate in candidates):
+        best = min((c for c in candidates if c.shape.kind == kind), key=lambda one: one.cost)
+        cloud = clouds[int(best.mirrored)]
+        poses = turned_about(best.pose, _turns(), best.shape.middle_y, settings.middle)
+        poses = icp_steps(
+            poses, cloud.few, cloud.few_normals, best.shape, settings.rival_steps, settings.fit
+        )
+        costs = forward_costs(poses, cloud.few, cloud.few_normals, best.shape, settings.fit)
+        limits = _limits(cloud.few, windows, settings.fit)
+        costs += np.where(plausible(1 / poses.scale, limits), 0.0, settings.fit.implausible_cost)
+        for place in np.argsort(costs, kind="stable")[: settings.rivals_finished]:
+            pose = poses.at(np.array([place]))
+            result.append(_finished(pose, cloud, best.shape, best.mirrored, settings))
+    return result
+
+
+def _turns() -> Singles:
+    """The seven turns (7, 3, 3), but for the identity, that leave the line of X in place."""
+    half = np.diag([-1.0, -1.0, 1.0])
+    rolls = [turned_by(np.array([[angle, 0.0, 0.0]]))[0] for angle in np.pi / 2 * np.arange(4)]
+    every = [roll @ end for end in (np.eye(3), half) for roll in rolls]
+    return np.array(every[1:], dtype=np.float32)
+
+
+def turned_about(
+    pose: Poses, turns: Singles, middle_y: float, middle: tuple[float, float]
+) -> Poses:
+    """One pose turned (k, 3, 3) about the middle of the shape, as k poses."""
+    centre = np.array([middle[0], middle_y, middle[1]], dtype=np.float32)
+    rotation = np.asarray(turns @ pose.rotation[0])
+    shift = (pose.shift[0] - centre) @ turns.transpose(0, 2, 1) + centre
+    return Poses(rotation, np.asarray(shift), np.repeat(pose.scale, len(turns)))
 
 
 def _coarse(
