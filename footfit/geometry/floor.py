@@ -22,7 +22,6 @@ class FloorSettings:
     narrowing_steps: int = 12
     final_steps: int = 15
     still: float = 1e-7
-    down_power: int = 4
     reach: float = 0.25  # what lies higher cannot be sole
     support_height: float = 0.06
     rim_stations: int = 14
@@ -51,10 +50,9 @@ LEVEL = Plane(np.array([0.0, 0.0, 1.0]), 0.0)
 
 def fitted_plane(points: Floats, weights: Floats, up: Floats) -> Plane:
     """The plane with the least weighted square distance from points (n, 3), looking up."""
-    total = weights.sum()
-    centre = weights @ points / total
-    away = points - centre
-    normal = np.linalg.eigh((weights[:, None] * away).T @ away)[1][:, 0]
+    centre = weights @ points / weights.sum()
+    away = points.T - centre[:, None]
+    normal = np.linalg.eigh((weights * away) @ away.T)[1][:, 0]
     normal = normal * np.where(normal @ up < 0, -1.0, 1.0)
     return Plane(normal, float(normal @ centre))
 
@@ -69,20 +67,27 @@ def sole_plane(
     """
     heights = start.heights(sample.points)
     near = (np.abs(heights) < settings.reach * length) & (sample.normals @ start.normal < 0)
-    points, normals, areas = sample.points[near], sample.normals[near], sample.areas[near]
+    columns = np.asfortranarray  # one coordinate after the other: the steps read them so
+    points, normals = columns(sample.points[near]), columns(sample.normals[near])
+    areas = sample.areas[near]
     narrowing = np.geomspace(settings.tau_first, settings.tau_last, settings.narrowing_steps)
     widths = np.append(narrowing, np.full(settings.final_steps, settings.tau_last)) * length
     plane = start
     for width in widths:
-        down = np.maximum(0.0, -(normals @ plane.normal))
         weights = areas * np.exp(-((plane.heights(points) / width) ** 2))
-        weights *= down**settings.down_power
+        weights *= squareness(normals, plane.normal)
         if np.count_nonzero(weights) < 3:
             return start
         before, plane = plane, fitted_plane(points, weights, plane.normal)
         if width == widths[-1] and _unmoved(before, plane, settings.still, length):
             break
     return plane
+
+
+def squareness(normals: Floats, up: Floats) -> Floats:
+    """How squarely normals (n, 3) look down: the cosine's fourth power, 0 for one that looks up."""
+    down = np.maximum(0.0, -(normals @ up))
+    return np.asarray(np.square(np.square(down)))
 
 
 def _unmoved(before: Plane, after: Plane, still: float, length: float) -> bool:
@@ -95,7 +100,7 @@ def support(
     sample: SurfaceSample, plane: Plane, length: float, settings: FloorSettings = FLOOR
 ) -> float:
     """The area facing down at the plane, over L squared: .11-.24 with a sole, <= .07 without."""
-    down = np.maximum(0.0, -(sample.normals @ plane.normal)) ** settings.down_power
+    down = squareness(sample.normals, plane.normal)
     near = np.abs(plane.heights(sample.points)) < settings.support_height * length
     return float((sample.areas * down)[near].sum() / length**2)
 
