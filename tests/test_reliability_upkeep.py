@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import os
 import shutil
 import sqlite3
@@ -161,6 +162,21 @@ def test_a_restore_writes_over_no_foreign_file(
     assert "move it away" in run.err
     assert place.read_text() == "years of work"
     assert list(tmp_path.iterdir()) == [place]
+
+
+def test_a_restore_writes_over_no_newer_catalogue(
+    footfit: Footfit, catalogue: Path, stocked: Path
+) -> None:
+    with sqlite3.connect(catalogue) as connection:
+        connection.execute("PRAGMA user_version = 907")
+    connection.close()
+    before, files = catalogue.read_bytes(), sorted(catalogue.parent.iterdir())
+    run = footfit("restore-catalogue", stocked, "--catalogue", catalogue, "--json")
+    assert (run.code, json.loads(run.last_error)["code"]) == (6, "newer_catalogue")
+    for words in ("0907", "0001", "move the file away"):
+        assert words in run.last_error
+    assert catalogue.read_bytes() == before
+    assert sorted(catalogue.parent.iterdir()) == files
 
 
 def test_a_restore_over_a_wreck_keeps_the_wreck(

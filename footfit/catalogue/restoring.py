@@ -16,10 +16,11 @@ from pathlib import Path
 from typing import BinaryIO
 
 from footfit.catalogue.copying import said_of, settled, synced
-from footfit.catalogue.engine import connected, worded
+from footfit.catalogue.engine import connected, connected_for_reading, worded
 from footfit.catalogue.handles import opened
+from footfit.catalogue.migrate import Schema, stored_revision
 from footfit.catalogue.opening import settled_kind
-from footfit.errors import CatalogueDamaged, CatalogueLocked, NotACatalogue
+from footfit.errors import CatalogueDamaged, CatalogueLocked, NewerCatalogue, NotACatalogue
 
 KEPT = "before-restore"
 PAGES_PER_STEP = 1
@@ -37,6 +38,8 @@ def put_in_place(whole: Path, path: Path, busy_timeout_s: float) -> Path | None:
     ------
     NotACatalogue
         What lies there is no catalogue and is left as it is.
+    NewerCatalogue
+        A later footfit's lies there, whose lasts this one cannot judge; it is left as it is.
     CatalogueLocked, CatalogueNotWritable
         Another program holds it; the folder or the disk takes no write.
     """
@@ -46,6 +49,8 @@ def put_in_place(whole: Path, path: Path, busy_timeout_s: float) -> Path | None:
     except NotACatalogue as error:
         words = "is not a footfit catalogue and was left as it is; move it away, then try again"
         raise NotACatalogue(words, str(path)) from error
+    if kind == "catalogue":
+        _refuse_newer(path, busy_timeout_s)
     with said_of(path):
         if kind in ("missing", "empty"):
             settled(whole, path, replace=kind == "empty")
@@ -57,6 +62,17 @@ def put_in_place(whole: Path, path: Path, busy_timeout_s: float) -> Path | None:
             _moved(path, kept)
             settled(whole, path, replace=False)
         return kept
+
+
+def _refuse_newer(path: Path, busy_timeout_s: float) -> None:
+    try:
+        with worded(path), closing(connected_for_reading(path, busy_timeout_s)) as connection:
+            stored_revision(connection, Schema(), path)
+    except (CatalogueDamaged, NotACatalogue):
+        return  # a restore is what it needs
+    except NewerCatalogue as error:
+        words = f"{error.message}, or move the file away, then try again"
+        raise NewerCatalogue(words, str(path)) from error
 
 
 def _free_name(path: Path) -> Path:
