@@ -103,6 +103,20 @@ def test_a_small_patch_stays_where_it_touches_the_shape_and_goes_where_it_does_n
     assert len(cleaned(*distortions.joined(FOOT, away)).faces) == len(FOOT[1])
 
 
+def test_many_strays_about_a_shape_go_and_its_own_patches_stay():
+    """They hold more than a tenth of the area, as the pieces of a cracked scan may."""
+    draw = rng(0)
+    middle, reach = FOOT[0].mean(axis=0), np.ptp(FOOT[0], axis=0).max()
+    around = [u / np.linalg.norm(u) * 1.2 * reach for u in draw.normal(size=(60, 3))]
+    strays = [small(4.0, middle + one) for one in around]
+    toe = small(4.0, [120.0, 20.0, 0.0])
+    mesh = cleaned(*distortions.joined(FOOT, toe, *strays))
+    assert message(mesh, "specks_removed").startswith("60 ")
+    assert len(mesh.faces) == len(FOOT[1]) + len(toe[1])
+    strays_share = 60 * surface_area(*strays[0]) / surface_area(*FOOT)
+    assert strays_share > 0.12  # else they are dust by their area alone
+
+
 def test_a_surface_in_a_few_pieces_is_kept_whole():
     vertices, faces = FOOT
     beyond = vertices[faces].mean(axis=1) > np.median(vertices, axis=0)

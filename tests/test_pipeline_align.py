@@ -268,6 +268,15 @@ def test_things_beside_the_last_are_left_out(last, home):
     assert angle_deg(found.alignment.transform[:3, :3], home.transform[:3, :3]) < 1e-6
 
 
+def test_a_ball_as_large_as_the_last_does_not_join_it(last, home):
+    ball = shapes.sphere(55.0, 3)
+    both = distortions.joined(last, (ball[0] + [130.0, 260.0, 55.0], ball[1]))
+    found = aligned(scan_of(*both))
+    assert "pieces_removed" in codes(found.alignment)
+    assert len(found.faces) == len(last[1])
+    assert angle_deg(found.alignment.transform[:3, :3], home.transform[:3, :3]) < 1e-6
+
+
 def test_a_plate_is_taken_off(last, home):
     pose = distortions.random_pose(np.random.default_rng(0))
     vertices, faces = distortions.floor_plate(*last)

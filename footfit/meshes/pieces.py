@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from itertools import product
 
 import numpy as np
 
@@ -25,7 +26,7 @@ class PieceSettings:
         largest piece's diagonal) of the largest piece's box: a patch of a cracked scan.
     dust_share : float
         Where all that would go holds more than this share of the whole area, it is no dust: the
-        scan is in pieces and nothing goes.
+        scan is in pieces, and only what stands off by ``near_gap`` from all that stays goes.
     plate_thickness : float
         A plate is thinner than this, relative to its longest extent; a foot is thicker than
         ``foot_thickness``.
@@ -37,6 +38,8 @@ class PieceSettings:
         have sunk in by less than ``plate_sinking`` of the plate's extent: a sole is noisy.
     most_pieces : int
         More pieces than this that are no dust are not a surface.
+    most_strays : int
+        Nor are more than this, where they hold more than ``dust_share``.
     """
 
     kept_share: float = 0.10
@@ -49,9 +52,12 @@ class PieceSettings:
     plate_side: float = 0.95
     plate_sinking: float = 0.01
     most_pieces: int = 100
+    most_strays: int = 1000
 
 
 PIECE_SETTINGS = PieceSettings()
+_FARTHEST = 2**19  # cells from the largest piece: what lies farther is far
+_PACKING = np.array([1, 2**21, 2**42])
 _MOST_BIG = 16  # a scan with more pieces of comparable size is no foot on a plate
 
 
@@ -98,11 +104,15 @@ def kept_faces(
     if plates.any():
         notices.append(Notice("plate_removed", "a floor plate was taken off"))
     if rest[dust].sum() > settings.dust_share * rest.sum():
-        if len(areas) > settings.most_pieces:
+        if len(areas) > settings.most_strays:
             raise DamagedMesh(_in_pieces(len(areas)))
-        message = f"the surface is in {len(areas)} pieces that touch nowhere: all are kept"
-        notices.append(Notice("many_pieces", message))
-        dust[:] = False
+        dust &= ~_reached(vertices, faces, labels, matter, settings)
+        kept = int((~dust & ~plates).sum())
+        if kept > settings.most_pieces:
+            raise DamagedMesh(_in_pieces(len(areas)))
+        if kept > 1:
+            message = f"the surface is in {kept} pieces that touch nowhere: all are kept"
+            notices.append(Notice("many_pieces", message))
     if (~dust).sum() > settings.most_pieces:
         raise DamagedMesh(_in_pieces(int((~dust).sum())))
     if dust.any():
@@ -130,6 +140,33 @@ def _mattering(
     share = areas / areas[largest] if areas[largest] > 0.0 else np.ones(len(areas))
     big, patch = share >= settings.kept_share, share >= settings.near_share
     return np.asarray(big | (near & patch))
+
+
+def _reached(
+    vertices: Floats, faces: Ints, labels: Ints, matter: Bools, settings: PieceSettings
+) -> Bools:
+    """Which pieces lie near one that matters, or near one that is reached already, (k,).
+
+    Near is by cells of space: a piece is reached where it has a point in the cell, or beside the
+    cell, of a point that is. A crack is narrower than a cell, a stray stands off by more than two.
+    """
+    low, high = _boxes(vertices, faces, labels)
+    largest = int(np.argmax(np.bincount(labels, minlength=len(matter)) * matter))
+    cell = settings.near_gap * float(np.linalg.norm(high[largest] - low[largest]))
+    corners = vertices[faces]
+    places = np.concatenate([corners, 0.5 * (corners + corners[:, [1, 2, 0]])], axis=1)
+    cells = np.floor((places - low[largest]) / cell)
+    packed = np.clip(cells, -_FARTHEST, _FARTHEST).astype(np.int64) @ _PACKING
+    steps = np.array(list(product((-1, 0, 1), repeat=3))) @ _PACKING
+    reached = matter.copy()
+    fresh = matter
+    while fresh.any():
+        around = np.unique(np.unique(packed[fresh[labels]])[:, None] + steps)
+        touched = np.zeros_like(matter)
+        touched[labels[np.isin(packed, around).any(axis=1)]] = True
+        fresh = touched & ~reached
+        reached |= fresh
+    return reached
 
 
 def _boxes(vertices: Floats, faces: Ints, labels: Ints) -> tuple[Floats, Floats]:

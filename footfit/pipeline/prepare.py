@@ -111,17 +111,21 @@ def _without_strays(body: _Body) -> _Body:
     """The largest piece with what lies close to it; lesser things beside it are left out."""
     if len(body.pieces) == 1:
         return body
-    largest = part_of(body.vertices, body.faces, body.pieces[0])[0]
-    size = float(np.ptp(largest, axis=0).max())
-    near = [
-        piece
-        for piece in body.pieces
-        if gap(largest, part_of(body.vertices, body.faces, piece)[0]) < PIECES.gap * size
-    ]
+    near = _near(body, part_of(body.vertices, body.faces, body.pieces[0])[0])
     if len(near) == len(body.pieces):
         return body
     vertices, faces = part_of(body.vertices, body.faces, np.sort(np.concatenate(near)))
     return _Body(vertices, faces, near, (*body.notices, _STRAYS))
+
+
+def _near(body: _Body, points: Floats) -> list[Ints]:
+    """The pieces that come close to points (n, 3) of the shape, itself among them."""
+    size = float(np.ptp(points, axis=0).max())
+    return [
+        piece
+        for piece in body.pieces
+        if gap(points, part_of(body.vertices, body.faces, piece)[0]) < PIECES.gap * size
+    ]
 
 
 def separate_feet(scan: Scan, windows: Windows) -> list[tuple[Floats, Ints]]:
@@ -157,10 +161,15 @@ def _the_one_foot(body: _Body, found: list[Ints], windows: Windows) -> Posed:
     feet = _feet(body, found, windows)
     if _beside(feet):
         raise SeveralFeet(f"{len(feet)} feet or lasts in one file; add --split to take them apart")
-    whole = _oriented(body.vertices, body.faces, windows, body.notices)
     if not feet:
-        return whole
+        return _oriented(body.vertices, body.faces, windows, body.notices)
     best = min(feet, key=lambda shape: shape.orientation.cost)
+    together = _near(body, best.vertices)
+    if len(together) == 1:
+        return replace(best, notices=(*best.notices, _STRAYS))
+    notices = body.notices if len(together) == len(body.pieces) else (*body.notices, _STRAYS)
+    chosen = np.sort(np.concatenate(together))
+    whole = _oriented(*part_of(body.vertices, body.faces, chosen), windows, notices)
     if whole.orientation.accepted and whole.orientation.cost <= best.orientation.cost:
         return whole
     return replace(best, notices=(*best.notices, _STRAYS))
