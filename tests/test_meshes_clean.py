@@ -8,7 +8,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from footfit.errors import DamagedMesh, EmptyMesh
-from footfit.geometry.surface import signed_volume, surface_area
+from footfit.geometry.surface import signed_volume, surface_area, unit
 from footfit.geometry.topology import is_closed, is_consistently_wound
 from footfit.meshes.clean import cleaned
 from tests import distortions, shapes
@@ -115,6 +115,32 @@ def test_many_strays_about_a_shape_go_and_its_own_patches_stay():
     assert len(mesh.faces) == len(FOOT[1]) + len(toe[1])
     strays_share = 60 * surface_area(*strays[0]) / surface_area(*FOOT)
     assert strays_share > 0.12  # else they are dust by their area alone
+
+
+@pytest.mark.parametrize("scale", [1.0, 0.001])
+def test_spikes_are_pressed_back_and_the_surface_stays_closed(scale):
+    vertices, faces = FOOT
+    tips = rng(4).choice(len(vertices), 4, replace=False)
+    thrown = vertices.copy()
+    thrown[tips] += 150.0 * unit(vertices[tips] - vertices.mean(axis=0))
+    mesh = cleaned(scale * thrown, faces)
+    assert message(mesh, "spikes_pressed").startswith("4 ")
+    assert mesh.watertight
+    off = np.linalg.norm(mesh.vertices / scale - vertices, axis=1)
+    assert off.max() < 0.02 * np.ptp(vertices, axis=0).max()
+    assert np.count_nonzero(off > 1e-9) == 4
+
+
+def test_needles_that_are_no_spikes_stay():
+    """A slender corner of a sheet, the tip of a tall cone, a lone needle of a triangle."""
+    sheet = shapes.flat_sheet()
+    cone = np.array([[0, 0, 40.0], [9, 0, 0], [0, 9, 0], [-9, 0, 0], [0, -9, 0], [0, 0, 0]])
+    sides = np.array([[0, 1, 2], [0, 2, 3], [0, 3, 4], [0, 4, 1]])
+    floor = np.array([[5, 2, 1], [5, 3, 2], [5, 4, 3], [5, 1, 4]])
+    for mesh in (sheet, (cone[:5] * [1, 1, 0.6], sides), (cone * [1, 1, 0.6], np.r_[sides, floor])):
+        assert "spikes_pressed" not in codes(cleaned(*mesh))
+    needle = np.array([[0.0, 0, 0], [1, 0, 0], [0.5, 30, 0]])
+    assert "spikes_pressed" not in codes(cleaned(needle, np.array([[0, 1, 2]])))
 
 
 def test_a_surface_in_a_few_pieces_is_kept_whole():

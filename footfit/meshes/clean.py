@@ -17,6 +17,7 @@ from footfit.geometry.topology import (
     welded,
 )
 from footfit.meshes.pieces import kept_faces
+from footfit.meshes.spikes import pressed_spikes
 from footfit.results import Notice
 
 
@@ -78,8 +79,8 @@ def cleaned(vertices: Floats, faces: Ints, settings: CleanSettings = CLEAN_SETTI
     -------
     Cleaned
         With notices ``near_vertices_welded``, ``degenerate_removed``, ``duplicates_removed``,
-        those of :func:`footfit.meshes.pieces.kept_faces`, ``winding_fixed``, ``non_manifold``,
-        ``open_mesh``.
+        ``spikes_pressed``, those of :func:`footfit.meshes.pieces.kept_faces`, ``winding_fixed``,
+        ``non_manifold``, ``open_mesh``.
 
     Raises
     ------
@@ -91,6 +92,8 @@ def cleaned(vertices: Floats, faces: Ints, settings: CleanSettings = CLEAN_SETTI
     vertices, faces, source, notices = _welded(vertices, faces, settings)
     faces, collapsed, found = _each_once(faces)
     notices += found
+    vertices, pressed = pressed_spikes(vertices, faces)
+    notices += _counted("spikes_pressed", pressed, "spikes were pressed back into the surface")
     vectors = area_vectors(vertices, faces)
     areas = np.sqrt(np.einsum("ij,ij->i", vectors, vectors))
     flat = areas <= settings.sliver * areas.mean() if len(areas) else areas == 0.0
