@@ -58,11 +58,15 @@ def judged_match(feet=None):
 
 
 @cache
-def drawn(feet: int = 1) -> str:
-    """The page of one foot, or of two, with its pictures."""
+def drawn(feet: int = 1, roomy: bool = False) -> str:
+    """The page of one foot, or of two, with its pictures; ``roomy``: laid into every last."""
     sides = ((False, True),) if feet == 1 else ((True, True), (False, True))
     rooms = [comparison(*side, path=("r.stl", "l.stl")[side[0]]) for side in sides]
     match = judged_match() if feet == 1 else judged_match(pair().feet)
+    if roomy:
+        surfaces = answers.roomy_candidate().surfaces * feet
+        lasts = tuple(replace(one, surfaces=surfaces) for one in match.candidates)
+        match = replace(match, candidates=lasts)
     return match_report(match, {"derby-42": answers.tube(271.5)}, rooms)
 
 
@@ -255,10 +259,19 @@ def test_a_browser_draws_the_page_and_complains_of_nothing(tmp_path) -> None:
 def test_a_customer_prints_on_two_sheets(tmp_path) -> None:
     assert browsing.printed_sheets(drawn(), tmp_path / "one") in (1, 2)
     assert browsing.printed_sheets(drawn(2), tmp_path / "two") in (1, 2)
+    assert browsing.printed_sheets(drawn(2, roomy=True), tmp_path / "roomy") in (1, 2)
+
+
+@needs_browser
+def test_a_telephone_shows_the_page_in_its_width(tmp_path) -> None:
+    shown = browsing.browse(drawn(2, roomy=True), tmp_path / "narrow", size=(390, 5000)).picture
+    assert shown.shape[1] == 390
+    assert np.all(shown[:, :6] == 1.0)
+    assert np.all(shown[:, -6:] == 1.0)  # what is wider scrolls in a box of its own
 
 
 def test_the_room_in_every_last_is_on_the_page_where_it_was_asked_for():
     roomy = answers.roomy_candidate()
     asked = match_report(replace(answers.match(), candidates=(roomy,)))
-    assert "tight: medial -6.2 mm (26 cm2); loose: toe +12.3 mm (18 cm2)" in asked
-    assert "Surface against surface" not in match_report(answers.match())
+    assert "tight: medial -6.2 mm (26 cm²); loose: toe +12.3 mm (18 cm²)" in asked
+    assert "tight or loose on the foot" not in match_report(answers.match())

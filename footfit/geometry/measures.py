@@ -85,7 +85,7 @@ MEASURES: tuple[Measure, ...] = (
             waist_girth),
     Measure("instep_girth", 1, 0.45, "around the section at half the length", instep_girth),
     Measure("long_heel_girth", 1, 0.4, "around the heel's base and the instep", long_heel_girth),
-    Measure("short_heel_girth", 1, 0.7, "the least girth around the heel's base and the ankle's "
+    Measure("short_heel_girth", 1, 0.6, "the least girth around the heel's base and the ankle's "
             "bend, or a last's cone", short_heel_girth, usual_share=(1.12, 1.47)),
     Measure("heel_width", 2, 0.2, "across the heel at 1/6 of the length", heel_width,
             usual_share=(0.19, 0.35)),
@@ -94,9 +94,9 @@ MEASURES: tuple[Measure, ...] = (
     Measure("instep_height", 1, 0.3, "the top of the section at half the length", instep_height),
     Measure("toe_height", 1, 0.3, "lowest to highest point of the section at .92 of the length",
             toe_height),
-    Measure("toe_spring", 2, 0.35, "the underside at .94 of the length, over the ground",
+    Measure("toe_spring", 2, 0.3, "the underside at .94 of the length, over the ground",
             toe_spring),
-    Measure("heel_height", 2, 0.9, "how high a last's heel stands when its tread lies level",
+    Measure("heel_height", 2, 0.6, "how high a last's heel stands when its tread lies level",
             heel_height),
     Measure("bottom_width_ball", 1, 0.4, "feather edge to feather edge at .66 of the length",
             bottom_width_ball, LAST),

@@ -76,7 +76,7 @@ def flare_document(profiled: Profiled) -> Json:
             "mesh": mesh_part(alignment.info),
             **side_part(alignment.side),
             **flare_part(profiled.flare),
-            "warnings": warnings_part(alignment.warnings),
+            "warnings": warnings_part((*alignment.warnings, *profiled.suspects)),
         },
     )
 

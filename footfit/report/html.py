@@ -88,6 +88,7 @@ def match_report(
             "Flare: the foot against the lasts",
             _side_by_side([_flare(match, index, shapes) for index in range(len(match.feet))]),
         ),
+        _legend(match),
     ]
     return page(f"footfit: {_names(match)}", body, scene=bool(scene))
 
@@ -213,11 +214,11 @@ def _lasts(match: Match) -> list[str]:
         title = "<h2>The lasts, best first</h2>"
         how = f"<p>{text(HOW[match.by])}</p>"
         shown = match.candidates
-        return [title, how, _table(shown), left_out, _legend(match), _zones(shown), _rooms(shown)]
+        return [title, how, _table(shown), left_out, _zones(shown), _rooms(shown)]
     if match.nearest:
         title = "<h2>The nearest lasts, and what they miss by</h2>"
         shown = match.nearest
-        return [title, _table(shown), left_out, _legend(match), _zones(shown), _rooms(shown)]
+        return [title, _table(shown), left_out, _zones(shown), _rooms(shown)]
     return [left_out]
 
 
@@ -271,11 +272,15 @@ def _zones(candidates: Sequence[Candidate]) -> str:
 def _rooms(candidates: Sequence[Candidate]) -> str:
     """Where the surfaces are tight or loose in every last, for those that asked."""
     rows: list[list[Cell]] = [
-        [(text(candidate.last), "name"), ("<br>".join(map(text, lines)), "why")]
+        [
+            (text(candidate.last), "name"),
+            ("<br>".join(text(line).replace("cm2", "cm²") for line in lines), ""),
+        ]
         for candidate in candidates
         if (lines := surfaces_words(candidate.surfaces))
     ]
-    return table([("Surface against surface", ""), ("", "")], rows, kind="zones") if rows else ""
+    heads = [("Last", ""), ("Where its surface is tight or loose on the foot", "")]
+    return table(heads, rows, kind="zones rooms") if rows else ""
 
 
 def _zone(zone: ZoneFit) -> str:

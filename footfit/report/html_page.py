@@ -77,20 +77,24 @@ def shape_of(verdict: str | None) -> str:
 def table(heads: Sequence[tuple[str, str]], rows: Iterable[Sequence[Cell]], kind: str = "") -> str:
     """A table; ``heads`` are words with a class, cells are HTML with a class.
 
-    Each row's first cell of class "name" is the row's head.
+    Each row's first cell of class "name" is the row's head. A cell knows its column's head, since a
+    narrow screen shows a row as a paragraph.
     """
     head = "".join(f'<th scope="col" class="{style}">{text(name)}</th>' for name, style in heads)
-    lines = "\n".join(f"<tr>{''.join(_cell(*cell) for cell in row)}</tr>" for row in rows)
+    names = [name for name, _ in heads]
+    cells = (map(_cell, row, names) for row in rows)
+    lines = "\n".join(f"<tr>{''.join(row)}</tr>" for row in cells)
     return (
-        f'<table class="{kind}">\n<thead><tr>{head}</tr></thead>\n'
-        f"<tbody>\n{lines}\n</tbody>\n</table>"
+        f'<div class="scroll"><table class="{kind}">\n<thead><tr>{head}</tr></thead>\n'
+        f"<tbody>\n{lines}\n</tbody>\n</table></div>"
     )
 
 
-def _cell(content: str, kind: str) -> str:
+def _cell(cell: Cell, head: str) -> str:
+    content, kind = cell
     if kind.startswith("name"):
         return f'<th scope="row" class="{kind}">{content}</th>'
-    return f'<td class="{kind}">{content}</td>'
+    return f'<td class="{kind}" data-head="{text(head)}">{content}</td>'
 
 
 def together(title: str, content: str) -> str:

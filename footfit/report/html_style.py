@@ -57,6 +57,7 @@ td.verdict { white-space: nowrap; }
 tbody th.name { min-width: 7em; }
 th small { display: block; font-weight: 400; color: var(--quiet); }
 table.zones td, table.zones th { padding-top: 3px; padding-bottom: 3px; }
+table.rooms { margin-top: 10px; }
 table.first tbody tr:first-child > * { background: var(--wash); }
 .warn { max-width: none; border-left: 4px solid #b45309; padding: 4px 12px; margin: 8px 0;
   background: #fff8ee; overflow-wrap: anywhere; }
@@ -78,6 +79,32 @@ figcaption { color: var(--quiet); font-size: 13px; margin-top: 4px; overflow-wra
 .read { color: var(--quiet); font-size: 13px; }
 .read p { max-width: none; margin: 3px 0; }
 footer { margin-top: 26px; color: var(--quiet); font-size: 13px; }
+.scroll { overflow-x: auto; }
+@media screen and (max-width: 640px) {
+  body { padding: 18px 14px 30px; }
+  .best { padding: 12px 14px; }
+  .best .light { float: none; margin: 0; display: block; }
+  .foot { padding: 10px 12px; flex-basis: 100%; }
+  .foot dl, .pair .foot dl { grid-template-columns: max-content 1fr; gap: 1px 12px;
+    font-size: 14px; }
+  .scene { padding: 8px 10px; }
+  .scene canvas { height: 320px; }
+  .legend { overflow: visible; }
+  .legend text { font-size: 17px; }
+  .legend text:nth-of-type(3n):not(.end), .legend text:nth-of-type(3n+2):not(.start) {
+    display: none; }
+  figure.wide, figure.flare { overflow-x: auto; }
+  figure.wide img, figure.flare img { width: 680px; max-width: none; }
+  th, td { padding-right: 10px; }
+  table.first thead { display: none; }
+  table.first tr { display: flex; flex-wrap: wrap; align-items: baseline; gap: 0 12px;
+    padding: 8px 6px; border-bottom: 1px solid var(--line); }
+  table.first tr > * { border: 0; padding: 0; }
+  table.first th.name { flex: 1 1 60%; }
+  table.first td.n[data-head]:not([data-head=""])::before { content: attr(data-head) " ";
+    color: var(--quiet); font-size: 13px; }
+  table.first td.why { flex: 1 1 100%; }
+}
 @page { size: A4; margin: 11mm 12mm; }
 @media print {
   body { padding: 0; max-width: none; font-size: 8.6pt; line-height: 1.38; }
@@ -88,13 +115,18 @@ footer { margin-top: 26px; color: var(--quiet); font-size: 13px; }
   th, td { padding: 2.5px 8px 2.5px 0; }
   thead th { font-size: 8pt; }
   table.zones td, table.zones th { padding-top: 1px; padding-bottom: 1px; }
+  table.zones { font-size: 8pt; line-height: 1.28; }
+  table.rooms { font-size: 7.2pt; line-height: 1.3; margin-top: 3px; }
+  table.rooms th.name { min-width: 0; white-space: nowrap; }
+  .scroll { overflow: visible; }
   .best { margin: 7px 0 4px; padding: 7px 12px; }
   .best b { font-size: 13pt; }
   .best .light { font-size: 11pt; }
   .foot { padding: 6px 10px; flex: 1 1 45%; }
   .foot dl { grid-template-columns: repeat(3, max-content 1fr); gap: 0 10px; }
-  .pair .foot { font-size: 8pt; }
+  .pair .foot { font-size: 7.6pt; line-height: 1.28; }
   .pair .foot dl { grid-template-columns: max-content 1fr; }
+  .pair .sizes li { padding: 0 5px; }
   .lacking { font-size: 7.5pt; }
   .sizes { margin: 0 0 4px; gap: 4px; }
   .sizes li { padding: 0 7px; }
@@ -102,20 +134,22 @@ footer { margin-top: 26px; color: var(--quiet); font-size: 13px; }
   .controls { display: none; }
   figure { margin: 4px 0 6px; }
   figcaption { font-size: 7.2pt; margin-top: 1px; }
-  figure.wide img { width: 92%; margin: 0 auto; }
-  figure.flare img { width: 70%; margin: 0 auto; }
+  figure.wide img { width: 85%; margin: 0 auto; }
+  figure.flare img { width: 57%; margin: 0 auto; }
   .two { display: flex; gap: 10px; }
   .two > * { flex: 1 1 50%; min-width: 0; }
-  .two figure img, .two figure.wide img, .two figure.flare img { width: 100%; }
-  .two table { font-size: 7.4pt; }
+  .two figure img, .two figure.wide img { width: 100%; }
+  .two figure.flare img { width: 94%; }
+  .two table, .two p { font-size: 7.2pt; }
   .two th, .two td { padding-right: 4px; }
   .two thead th { font-size: 7pt; }
   .screen { display: none; }
-  .read { font-size: 7.2pt; line-height: 1.25; }
+  .read { font-size: 7pt; line-height: 1.22; columns: 2; column-gap: 14px; margin-top: 4px; }
+  .read h2 { column-span: all; margin: 4px 0 3px; font-size: 9pt; }
   .read p { margin: 1px 0; }
   footer { display: none; }
   .two figcaption { display: none; }
-  .two ~ div figure.wide img { width: 80%; }
+  .two ~ div figure.wide img { width: 68%; }
   figure, .foot, .best, tr, .read, .together { break-inside: avoid; }
   .best, .warn, .first tr > *, .sizes li { print-color-adjust: exact;
     -webkit-print-color-adjust: exact; }

@@ -65,7 +65,8 @@ def match_figure(match: Match, shapes: Shapes | None = None, foot: int = 0) -> F
         _plan_curvature(figure.add_subplot(grid[2, 1], sharex=heading), profiled, lasts)
         handles, labels = heading.get_legend_handles_labels()
         figure.legend(handles, labels, loc="outside lower center", ncols=2)
-        title = f"{file_name(profiled.aligned.alignment.info.path)} against the best lasts"
+        against = visible(lasts[0].last) if len(lasts) == 1 else "the best lasts"
+        title = f"{file_name(profiled.aligned.alignment.info.path)} against {against}"
         figure.suptitle(title, x=0.01, ha="left", fontsize=12, fontweight="bold")
     return figure
 

@@ -17,6 +17,7 @@ if TYPE_CHECKING:
 AREA_DIGITS = 1
 WORTH_SAYING = 0.10
 """The share of a zone that must be tight, or loose, to be worth a word."""
+MOST_ZONES = 2
 
 
 def zone_clearance_part(zone: ZoneClearance) -> Json:
@@ -82,8 +83,12 @@ def surface_words(room: SurfaceRoom) -> str:
         if zone.p95_mm is not None and zone.loose_cm2 > WORTH_SAYING * zone.area_cm2
     ]
     said = [
-        f"{word}: {', '.join(words for _, words in sorted(zones, key=lambda zone: -zone[0]))}"
+        f"{word}: {', '.join(words for _, words in _worst(zones))}"
         for word, zones in (("tight", tight), ("loose", loose))
         if zones
     ]
     return "; ".join(said) or "nowhere tight by 2 mm, nowhere loose by 8 mm"
+
+
+def _worst(zones: list[tuple[float, str]]) -> list[tuple[float, str]]:
+    return sorted(zones, key=lambda zone: -zone[0])[:MOST_ZONES]
