@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+from dataclasses import astuple
+
 import numpy as np
 import pytest
 
-from footfit.geometry.samples import farthest_points, quadrature
+from footfit.geometry.samples import SurfaceSample, farthest_points, gathered, quadrature
 from footfit.geometry.surface import surface_area
 from tests import distortions, shapes
 
@@ -24,6 +26,26 @@ def test_quadrature_splits_large_triangles_and_keeps_the_area():
 def test_quadrature_stops_after_its_rounds():
     vertices, faces = shapes.tetrahedron(1e6)
     assert len(quadrature(vertices, faces, 1.0, rounds=3).points) == 4 * 4**3
+
+
+def test_gathered_points_keep_area_and_moments_in_any_order():
+    whole = quadrature(*shapes.ellipsoid((130.0, 50.0, 40.0), 5), 10.0)
+    shuffled = np.random.default_rng(1).permutation(len(whole.areas))
+    fewer = gathered(whole, 5.0)
+    again = gathered(SurfaceSample(*(part[shuffled] for part in astuple(whole))), 5.0)
+    assert len(fewer.areas) < len(whole.areas) / 5
+    assert fewer.areas.sum() == pytest.approx(whole.areas.sum())
+    assert fewer.areas @ fewer.points == pytest.approx(whole.areas @ whole.points, abs=1e-3)
+    moments = [(s.areas[:, None] * s.points).T @ s.points for s in (whole, fewer)]
+    assert np.diag(moments[1]) == pytest.approx(np.diag(moments[0]), rel=2e-3)
+    assert again.points == pytest.approx(fewer.points)
+    assert np.linalg.norm(fewer.normals, axis=1) == pytest.approx(1.0)
+
+
+def test_points_of_two_sides_of_a_thin_sheet_are_not_gathered_into_one():
+    points, normals = np.zeros((2, 3)), np.array([[0.0, 0, 1], [0, 0, -1]])
+    sheet = SurfaceSample(points, normals, np.ones(2))
+    assert gathered(sheet, 1.0).normals.tolist() == [[0, 0, -1], [0, 0, 1]]
 
 
 def test_noise_does_not_enlarge_the_areas():

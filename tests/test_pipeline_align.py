@@ -26,6 +26,7 @@ from footfit.geometry.moments import printed_covariance, surface_second_moment
 from footfit.geometry.rotations import angle_deg, applied
 from footfit.meshes.read import read_scan
 from footfit.meshes.units import UNIT_NAMES, UNIT_SCALES
+from footfit.pipeline import align
 from footfit.pipeline.align import aligned
 from footfit.pipeline.flare import profiled
 from footfit.pipeline.units import unit_notes
@@ -55,6 +56,16 @@ def scan_of(vertices_mm, faces, *, units="mm", source="detected", scale=None):
     scale = UNIT_SCALES[units] if scale is None else scale
     info = MeshInfo(None, "0" * 64, "stl", len(vertices_mm), len(faces), True, units, source, scale)
     return Scan(info, vertices_mm, faces, (), np.arange(len(vertices_mm)))
+
+
+def test_many_faces_lie_as_they_would_if_nothing_were_gathered(last, monkeypatch):
+    fine = distortions.subdivided(*distortions.subdivided(*last))
+    whole = aligned(scan_of(*fine)).alignment
+    monkeypatch.setattr(align, "ALIGN", replace(align.ALIGN, many_points=len(fine[1]) - 1))
+    gathered = aligned(scan_of(*fine)).alignment
+    there, here = gathered.canonical_transform, whole.canonical_transform
+    assert 0.0 < angle_deg(there[:3, :3], here[:3, :3]) < 0.01
+    assert np.abs(applied(there, last[0]) - applied(here, last[0])).max() < 0.05
 
 
 def reference_of(alignment):
