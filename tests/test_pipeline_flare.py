@@ -115,3 +115,13 @@ def test_a_planted_bend_keeps_what_lies_across_the_line(right):
         before, after = vertices[part], moved[part]
         away = np.linalg.norm(before - before[0], axis=1)
         assert np.allclose(np.linalg.norm(after - after[0], axis=1), away, atol=0.01)
+
+
+def test_a_flare_that_no_foot_has_is_said(right):
+    """The forefoot turned by a quarter, as of a foot that hangs in the air."""
+    assert profiled(right).suspects == ()
+    vertices = right.vertices_mm
+    turned = bends.bent(vertices, bends.x_axis(right.alignment.length_mm), 30.0)
+    (found,) = profiled(replace(right, vertices_mm=turned)).suspects
+    assert found.code == "suspect_flare"
+    assert "(-3 to +33)" in found.message

@@ -77,7 +77,10 @@ ALIGN: Answer[AlignedScan] = Answer(
 FLARE: Answer[Profiled] = Answer(
     documents.flare_document,
     tables.flare_table,
-    lambda shape: (shape.aligned.alignment.info.path, _said(shape.aligned.alignment)),
+    lambda shape: (
+        shape.aligned.alignment.info.path,
+        (*_said(shape.aligned.alignment), *shape.suspects),
+    ),
 )
 MEASURE: Answer[MeasuredScan] = Answer(
     measure_documents.measure_document,

@@ -12,7 +12,11 @@ from footfit.geometry.flare import FlareDefinition, flare_profile
 from footfit.geometry.frame import FRAME
 from footfit.geometry.holes import filled
 from footfit.geometry.landmarks import Shape
-from footfit.results import AlignedScan, Measure, Measured, Profiled, SideName
+from footfit.results import AlignedScan, Measure, Measured, Notice, Profiled, SideName
+
+PLAUSIBLE_FLARE_DEG = {"foot": (-3.0, 33.0), "last": (-20.0, 35.0)}
+"""Feet: the mean of 15 and five of the standard deviations of 3.5 deg between people; lasts: a
+round range far beyond the trade's straight of 4 to 12, since no survey of lasts is known to us."""
 
 
 def profiled(aligned: AlignedScan, definition: FlareDefinition | None = None) -> Profiled:
@@ -42,7 +46,27 @@ def profiled(aligned: AlignedScan, definition: FlareDefinition | None = None) ->
         )
     vertices_mm, faces = right_shape(aligned)
     flare = flare_profile(vertices_mm, faces, definition, alignment.pose.kind)
-    return Profiled(aligned, flare, measured(vertices_mm, faces, alignment.pose.kind))
+    kind = alignment.pose.kind
+    found = measured(vertices_mm, faces, kind)
+    return Profiled(aligned, flare, found, flare_suspects(flare.angle_deg, kind))
+
+
+def flare_suspects(angle_deg: float, kind: str) -> tuple[Notice, ...]:
+    """A warning for a flare that hardly any foot, or last, has: the value stays.
+
+    Examples
+    --------
+    >>> flare_suspects(15.0, "foot")
+    ()
+    >>> print(flare_suspects(61.2, "last")[0].message)
+    flare +61.2 deg is hardly a last's (-20 to +35): is it whole?
+    """
+    least, most = PLAUSIBLE_FLARE_DEG[kind]
+    if least <= angle_deg <= most:
+        return ()
+    ask = "does the scan show the whole foot, standing?" if kind == "foot" else "is it whole?"
+    words = f"flare {angle_deg:+.1f} deg is hardly a {kind}'s ({least:+.0f} to {most:+.0f}): {ask}"
+    return (Notice("suspect_flare", words),)
 
 
 def right_shape(aligned: AlignedScan) -> tuple[Floats, Ints]:

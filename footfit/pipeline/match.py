@@ -287,7 +287,9 @@ def _notices(
     """What the reader must know beside the table."""
     feet = answer.feet
     notices = [
-        notice for one in feet for notice in suspects(one.measures, one.aligned.alignment.pose.kind)
+        notice
+        for one in feet
+        for notice in (*one.suspects, *suspects(one.measures, one.aligned.alignment.pose.kind))
     ]
     if question.by == "flare":
         notices.append(

@@ -15,11 +15,15 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, slots=True)
 class Profiled:
-    """A mesh aligned, measured and profiled: what ingest stores and match ranks."""
+    """A mesh aligned, measured and profiled: what ingest stores and match ranks.
+
+    ``suspects`` says what is hardly a foot's, or a last's, of the flare.
+    """
 
     aligned: AlignedScan
     flare: FlareProfile
     measures: tuple[Measure, ...]
+    suspects: tuple[Notice, ...] = ()
 
     @property
     def length_mm(self) -> float:
