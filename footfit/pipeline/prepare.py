@@ -142,7 +142,7 @@ def separate_feet(scan: Scan, windows: Windows) -> list[tuple[Floats, Ints]]:
 
 
 def _feet(body: _Body, found: list[Ints], windows: Windows) -> list[Posed]:
-    """The pieces that each look like a foot or last."""
+    """The pieces that each look like a foot or last, the largest first."""
     parts = (part_of(body.vertices, body.faces, piece) for piece in found)
     shapes = [_oriented(*part, windows, body.notices) for part in parts]
     return [shape for shape in shapes if shape.orientation.accepted]
@@ -163,7 +163,7 @@ def _the_one_foot(body: _Body, found: list[Ints], windows: Windows) -> Posed:
         raise SeveralFeet(f"{len(feet)} feet or lasts in one file; add --split to take them apart")
     if not feet:
         return _oriented(body.vertices, body.faces, windows, body.notices)
-    best = min(feet, key=lambda shape: shape.orientation.cost)
+    best = feet[0]  # the largest: of two shells of one surface always the same
     together = _near(body, best.vertices)
     if len(together) == 1:
         return replace(best, notices=(*best.notices, _STRAYS))
