@@ -48,13 +48,19 @@ def signal_trials(folder: Path, count: int, seed: int, jobs: int, until_s: float
             start_new_session=True,
             preexec_fn=_hearing,
         )
-        time.sleep(generator.uniform(0.0, until_s))
+        told = ""
+        if trial % 2:  # in the midst of the work, however slow the machine is
+            told = _lines(process, generator.randrange(1, 4))
+            time.sleep(generator.uniform(0.0, until_s / 10))
+        else:
+            time.sleep(generator.uniform(0.0, until_s))
         begun = time.monotonic()
         if generator.random() < 0.5:
             process.send_signal(number)  # as a service manager does
         else:
             os.killpg(process.pid, number)  # as a terminal does
         out, said = process.communicate(timeout=60)
+        out = told + out
         slowest_s = max(slowest_s, time.monotonic() - begun)
         tally.trials += 1
         tally.struck += process.returncode != 0
@@ -62,6 +68,15 @@ def signal_trials(folder: Path, count: int, seed: int, jobs: int, until_s: float
         shutil.rmtree(path.parent)
     tally.facts["slowest s"] = round(slowest_s, 2)
     return tally
+
+
+def _lines(process: subprocess.Popen[str], count: int) -> str:
+    """The first lines that a process answers, byte by byte: ``communicate`` gets the rest."""
+    assert process.stdout is not None
+    told = b""
+    while told.count(b"\n") < count and (byte := os.read(process.stdout.fileno(), 1)):
+        told += byte
+    return told.decode()
 
 
 def _hearing() -> None:
