@@ -17,6 +17,7 @@ from tests import records
 from tests.conftest import ROOT, Footfit
 from tests.torture.migrations import OLD_FILE
 from tests.torture.scripts import content
+from tests.torture.signals import gone
 
 WRITING = (
     ("set-reference", "LAST"),
@@ -258,6 +259,48 @@ def test_every_command_refuses_what_it_does_not_know_and_leaves_it(
     assert kind != "newer" or ("0907" in run.err and "0001" in run.err)
     assert catalogue.read_bytes() == before
     assert sorted(catalogue.parent.iterdir()) == files
+
+
+@pytest.mark.parametrize(
+    ("words", "code"),
+    [(("align", "SCANS", "--json"), 0), (("ingest-last", "SCANS", "--json", "--style", "s"), 2)],
+    ids=["align", "ingest-last"],
+)
+def test_a_reader_that_goes_ends_the_work_in_words_and_leaves_no_process(
+    tmp_path: Path, words: tuple[str, ...], code: int
+) -> None:
+    """``footfit ... | head -1``: reading is done, storing is not."""
+    scans = str(ROOT / "sample_data" / "lasts")
+    place = tmp_path / "lasts.footfit"
+    command = [sys.executable, "-m", "footfit", *(w if w != "SCANS" else scans for w in words)]
+    process = subprocess.Popen(
+        [*command, *(["--catalogue", str(place)] if code else []), "--quiet"],
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+        start_new_session=True,
+    )
+    assert process.stdout is not None
+    assert process.stderr is not None
+    first = process.stdout.readline()
+    process.stdout.close()
+    said = process.stderr.read().decode()
+    assert process.wait(60) == code, said
+    assert json.loads(first)
+    assert len(said.splitlines()) == (code != 0), said
+    assert gone(process.pid)
+    if code:
+        with open_catalogue(place) as catalogue:
+            assert json.loads(first)["last"] in catalogue.names()
+            assert catalogue.findings() == []
+
+
+def test_a_full_stderr_changes_no_answer(stocked: Path) -> None:
+    if not Path("/dev/full").exists():
+        pytest.skip("there is no /dev/full")
+    with Path("/dev/full").open("wb") as full:
+        command = [sys.executable, "-m", "footfit", "show-last", "none", "--catalogue", stocked]
+        done = subprocess.run(command, stderr=full, stdout=subprocess.PIPE, check=False)
+    assert (done.returncode, done.stdout) == (4, b"")
 
 
 def test_a_full_stdout_is_said(stocked: Path) -> None:

@@ -7,7 +7,7 @@ import sys
 from collections.abc import Callable, Sequence
 from typing import Any
 
-from footfit.cli.console import error_line, say
+from footfit.cli.console import ReaderGone, error_line, say
 from footfit.cli.signals import CODES, LISTENER, Stopped
 from footfit.errors import BadOption, ExitCode, FootfitError
 
@@ -34,8 +34,7 @@ def _answered(application: Callable[..., Any], arguments: Sequence[str]) -> int:
     except FootfitError as error:
         say(error_line(error, as_json=as_json))
         return int(error.exit)
-    except BrokenPipeError:
-        # The reader has gone (| head): keep the interpreter from complaining at its exit.
+    except ReaderGone:  # keep the interpreter from complaining at its exit
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
         return int(ExitCode.OK)
     except Exception as error:  # noqa: BLE001 - the boundary: nothing may pass it as a traceback

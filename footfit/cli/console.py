@@ -6,6 +6,7 @@ import os
 import shutil
 import sys
 from collections.abc import Iterable
+from contextlib import suppress
 from typing import TYPE_CHECKING
 
 from footfit.errors import BadOption, FootfitError
@@ -20,6 +21,10 @@ if TYPE_CHECKING:
 PLAIN_WIDTH = 80
 
 
+class ReaderGone(Exception):
+    """Nobody reads stdout any more (``| head``). No OSError: of one Typer makes an exit 1."""
+
+
 def answer(text: str) -> None:
     """Write to stdout as UTF-8, whatever the locale says.
 
@@ -27,15 +32,15 @@ def answer(text: str) -> None:
     ------
     BadOption
         The disk that stdout goes to takes no more.
-    BrokenPipeError
-        The reader has gone.
+    ReaderGone
+        Nobody reads it.
     """
     data = text if text.endswith("\n") else text + "\n"
     try:
         sys.stdout.buffer.write(data.encode("utf-8", "backslashreplace"))
         sys.stdout.flush()
-    except BrokenPipeError:
-        raise
+    except BrokenPipeError as error:
+        raise ReaderGone from error
     except OSError as error:
         raise BadOption(f"the answer could not be written to stdout: {error.strerror}") from error
 
@@ -53,8 +58,9 @@ def say(message: str, *, quiet: bool = False) -> None:
     """One line on stderr, unless ``quiet``."""
     if not quiet:
         data = visible(message) + "\n"
-        sys.stderr.buffer.write(data.encode("utf-8", "backslashreplace"))
-        sys.stderr.flush()
+        with suppress(OSError):  # a full disk or a reader gone: there is nobody else to tell
+            sys.stderr.buffer.write(data.encode("utf-8", "backslashreplace"))
+            sys.stderr.flush()
 
 
 def say_notices(notices: Iterable[Notice], path: str | None, *, quiet: bool) -> None:

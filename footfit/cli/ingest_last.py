@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
@@ -97,7 +99,7 @@ def ingest_last(
         dry_run=dry_run,
         steady=LISTENER.hold,
     )
-    with failures_last(voice) as tell_failure:
+    with heard(), failures_last(voice) as tell_failure:
         for outcome in counted(ingesting, voice):
             tell(outcome, INGEST_LAST, voice)
             if outcome.exit:
@@ -106,6 +108,25 @@ def ingest_last(
     if dry_run:
         say("a dry run: nothing was stored", quiet=quiet)
     raise typer.Exit(common_code(refused))
+
+
+@contextmanager
+def heard() -> Iterator[None]:
+    """Say it where nobody reads the answers any more: the batch is not done, and 0 would say so.
+
+    Raises
+    ------
+    BadOption
+        The reader of stdout has gone.
+    """
+    from footfit.cli.console import ReaderGone
+    from footfit.errors import BadOption
+
+    try:
+        yield
+    except ReaderGone as error:
+        words = "nobody reads the answers any more; what was stored is whole, run it again"
+        raise BadOption(words) from error
 
 
 def refusal_line(outcome: IngestOutcome, voice: Voice) -> str:

@@ -108,7 +108,7 @@ def _judge(
         tally.breach(f"{what}: it said {counted[1]} files and answered {len(lines)}")
     if code > 0 and lines and not counted:  # without a line the batch had not begun
         tally.breach(f"{what}: no count: {said}")
-    if not _gone(process.pid):
+    if not gone(process.pid):
         tally.breach(f"{what}: a child is left: {_left(process.pid)}")
 
 
@@ -163,7 +163,7 @@ def _left(group: int) -> str:
     )
 
 
-def _gone(group: int) -> bool:
+def gone(group: int) -> bool:
     """Is nobody of a process group left, or soon?"""
     for _ in range(40):
         try:
