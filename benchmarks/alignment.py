@@ -21,6 +21,7 @@ import numpy as np
 from footfit.errors import FootfitError
 from footfit.geometry import wpca
 from footfit.geometry.rotations import angle_deg
+from footfit.geometry.surface import face_normals
 from footfit.geometry.topology import boundary_loops
 from footfit.meshes.read import read_scan
 from footfit.meshes.units import UNIT_SCALES
@@ -148,6 +149,15 @@ def holed(vertices, faces, rng, count, radius_mm, front=0.70):
     return vertices[used], renamed.reshape(-1, 3)
 
 
+def soleless(vertices, faces, steepest=-0.5):
+    """A shape that stands along X and Z without the faces below .35 L that look down."""
+    low = vertices[faces].mean(axis=1)[:, 2] < vertices[:, 2].min() + 0.35 * np.ptp(vertices[:, 0])
+    used, renamed = np.unique(
+        faces[~(low & (face_normals(vertices, faces)[:, 2] < steepest))], return_inverse=True
+    )
+    return vertices[used], renamed.reshape(-1, 3)
+
+
 DISTORTIONS = {
     "clean": lambda v, f, _: (v, f),
     "noise 0.3 mm": lambda v, f, rng: (distortions.white_noise(v, rng, 0.3), f),
@@ -158,6 +168,7 @@ DISTORTIONS = {
     "leg cut 50-62 mm": lambda v, f, rng: distortions.leg_cut(v, f, rng.uniform(50, 62)),
     "three holes of 18 mm": lambda v, f, rng: distortions.with_holes(v, f, rng, 3, 9.0),
     "three of 24 mm, not in toes": lambda v, f, rng: holed(v, f, rng, 3, 12.0),
+    "no sole": lambda v, f, _: soleless(v, f),
     "floor plate": lambda v, f, _: distortions.floor_plate(v, f),
     "leg to 250-500 mm": lambda v, f, rng: with_leg(v, f, rng.uniform(250.0, 500.0)),
     "inside out": lambda v, f, _: distortions.inside_out(v, f),
@@ -289,6 +300,7 @@ def negatives():
     """Shapes that must be refused, by name."""
     last = last_mesh(LastSpec(rings=60, segments=40))
     across = {"heel half of a last": (1.0, 140.0), "toe half of a last": (-1.0, 130.0)}
+    slabs = {"sole slab of 12 mm": 12.0, "sole slab of 20 mm": 20.0}
     box, box_faces = shapes.cube(1.0, 8)
     found = {
         "cylinder": shapes.cylinder(),
@@ -309,6 +321,8 @@ def negatives():
         found[name] = distortions.plane_cut(
             *last, np.array([x, 0.0, 0.0]), np.array([sign, 0.0, 0.0])
         )
+    for name, height in slabs.items():
+        found[name] = distortions.leg_cut(*last, height)
     return found
 
 

@@ -324,6 +324,25 @@ def test_a_last_without_a_sole_is_said(last):
     assert "no_sole" in codes(found)
 
 
+@pytest.mark.parametrize("height_mm", [8.0, 15.0])
+@pytest.mark.parametrize("name", ["mh008_R", "mh007_L"])
+def test_a_foot_without_its_sole_is_posed_by_the_rest(name, height_mm):
+    """Whatever the pose: the reference's sole is not looked for where faces are missing below."""
+    found = aligned(read_scan(SAMPLES / "feet" / f"{name}.stl"))
+    whole = found.alignment
+    up = np.array([0.0, 0.0, 1.0])
+    cut = distortions.plane_cut(found.vertices_mm, found.faces, height_mm * up, -up)
+    rng = np.random.default_rng(11)
+    for _ in range(3):
+        pose = distortions.random_pose(rng)
+        alone = aligned(scan_of(distortions.moved(cut[0], pose), cut[1])).alignment
+        assert "no_sole" in codes(alone)
+        assert alone.side.side == whole.side.side
+        assert alone.length_mm == pytest.approx(whole.length_mm, abs=2.0)
+        turn = alone.transform[:3, :3] @ pose[:3, :3]
+        assert min(turn[0, 0], turn[2, 2]) > np.cos(np.radians(10))
+
+
 # ---------------------------------------------------------------- the paper's methods
 
 

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from footfit.geometry.arrays import Bools, Floats, Ints
-from footfit.geometry.surface import area_vectors, face_areas
+from footfit.geometry.surface import area_vectors, face_areas, unit
 from footfit.geometry.topology import face_components
 
 
@@ -24,6 +24,9 @@ class PiecesSettings:
     gap_many: int = 1500
     inside_out: float = 0.20
     sheet: float = 0.40  # |sum of area vectors| over the area; a foot cut at the leg has .1
+    shell: float = 0.20  # from here on a foot may lack its sole
+    flat_shell: float = 0.60  # the most that a foot without sole has; a sheet has more
+    upward: float = 0.80  # cosine with Z of where the faces of such a foot look on the whole
 
 
 PIECES = PiecesSettings()
@@ -75,11 +78,13 @@ class Facing:
     """Where a mesh's faces look.
 
     ``outward`` is about 1 for a convex body and -1 for one turned inside out; ``one_way`` is
-    |sum of area vectors| over the area: 0 for a closed surface, 1 for a flat sheet.
+    |sum of area vectors| over the area: 0 for a closed surface, 1 for a flat sheet; ``toward``
+    (3,) is the direction of that sum.
     """
 
     outward: float
     one_way: float
+    toward: Floats
 
 
 def facing(vertices: Floats, faces: Ints) -> Facing:
@@ -90,10 +95,24 @@ def facing(vertices: Floats, faces: Ints) -> Facing:
     away -= areas @ away / areas.sum()
     distance = float(areas @ np.sqrt(np.einsum("ij,ij->i", away, away)))
     outward = float(np.einsum("ij,ij->", away, vectors))
+    total = vectors.sum(axis=0)
     return Facing(
         outward=outward / distance if distance > 0.0 else 0.0,  # one face has no middle to leave
-        one_way=float(np.linalg.norm(vectors.sum(axis=0)) / areas.sum()),
+        one_way=float(np.linalg.norm(total) / areas.sum()),
+        toward=unit(total[None])[0],
     )
+
+
+def lacks_its_sole(
+    toward: Floats, one_way: float, up: Floats, settings: PiecesSettings = PIECES
+) -> bool:
+    """Whether faces that look ``toward`` on the whole are a foot's without the sole.
+
+    Area vectors of a closed surface add up to nothing: what is missing is what they add up to,
+    turned over. A missing sole leaves them looking up (3,); a sole alone looks down.
+    """
+    within = settings.shell < one_way < settings.flat_shell
+    return within and float(toward @ up) > settings.upward
 
 
 def part_of(vertices: Floats, faces: Ints, kept: Ints | Bools) -> tuple[Floats, Ints]:

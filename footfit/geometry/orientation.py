@@ -52,6 +52,7 @@ class OrientationSettings:
     reverse_height: float = 0.30
     reverse_points: int = 400
     reverse_share: float = 0.75
+    reverse_normal: float = -1.0  # points whose normal's z lies below it are not looked for
     retry_cost: float = 0.40
     retry_margin: float = 0.07
     cost_maximum: float = 0.62
@@ -64,6 +65,8 @@ class OrientationSettings:
 
 
 ORIENTATION = OrientationSettings()
+SOLELESS = OrientationSettings(reverse_normal=-0.5, cost_maximum=0.46)
+"""For a scan whose sole is missing: the reference's sole is not looked for in it."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -334,7 +337,8 @@ def _finished(
     every = slice(None, None, settings.final_stride)
     pose = icp_steps(pose, points[every], normals[every], shape, settings.final_steps, fit)
     forward = float(forward_costs(pose, points, normals, shape, fit)[0])
-    low = np.flatnonzero(shape.points[:, 2] < settings.reverse_height)
+    sought = shape.normals[:, 2] >= settings.reverse_normal
+    low = np.flatnonzero(sought & (shape.points[:, 2] < settings.reverse_height))
     low = low[np.linspace(0, len(low) - 1, settings.reverse_points).astype(int)]
     sparse = shape.points[low], shape.normals[low]
     back = reverse_cost(pose, points, normals, sparse, settings.reverse_share, fit)

@@ -11,14 +11,16 @@ from footfit.errors import HalfScan, NotAFoot, SeveralFeet
 from footfit.geometry.arrays import Floats, Ints
 from footfit.geometry.feet import (
     PIECES,
+    Facing,
     comparable,
     facing,
     gap,
+    lacks_its_sole,
     part_of,
     pieces,
     stand_apart,
 )
-from footfit.geometry.orientation import Orientation, orientation
+from footfit.geometry.orientation import SOLELESS, Orientation, orientation
 from footfit.geometry.plate import is_flat, without_plate
 from footfit.pipeline.references import shipped_references
 from footfit.results import Notice, Scan
@@ -183,18 +185,26 @@ def _oriented(
     turned = (*notices, Notice("winding_fixed", "the faces looked inward and were turned"))
     ways = []
     if looks.outward > -PIECES.inside_out:
-        ways.append((faces, notices))
+        ways.append((faces, 1.0, notices))
     if looks.outward < PIECES.inside_out:
-        ways.append((faces[:, [0, 2, 1]], turned))
-    sheet = looks.one_way > PIECES.sheet
+        ways.append((faces[:, [0, 2, 1]], -1.0, turned))
     shapes = [
-        Posed(
-            vertices,
-            wound,
-            orientation(vertices, wound, shipped_references(), windows),
-            sheet,
-            said,
-        )
-        for wound, said in ways
+        _wound(vertices, wound, windows, replace(looks, toward=sign * looks.toward), said)
+        for wound, sign, said in ways
     ]
     return min(shapes, key=lambda shape: shape.orientation.cost)
+
+
+def _wound(
+    vertices: Floats, faces: Ints, windows: Windows, looks: Facing, notices: tuple[Notice, ...]
+) -> Posed:
+    """One mesh, wound as it is; where it fits badly, tried again as one without its sole."""
+    references = shipped_references()
+    found = orientation(vertices, faces, references, windows)
+    if not found.accepted and looks.one_way > PIECES.shell:
+        again = orientation(vertices, faces, references, windows, SOLELESS)
+        if again.accepted and lacks_its_sole(looks.toward, looks.one_way, again.rotation[2]):
+            found = again
+    open_below = lacks_its_sole(looks.toward, looks.one_way, found.rotation[2])
+    sheet = looks.one_way > PIECES.sheet and not open_below
+    return Posed(vertices, faces, found, sheet, notices)
