@@ -36,6 +36,7 @@ SCANS = Path(__file__).resolve().parents[2] / "shared" / "scans" / "makehuman"
 FOOT_MM = (215.0, 300.0)
 LENGTHS, WIDTHS, FLARES_DEG = 9, (0.345, 0.365, 0.385), (4.0, 9.0, 14.0)
 BALL = {"mt1_station": 0.655, "mt5_station": 0.56}  # under the foot's, at the toe room asked for
+HEEL, FULLNESS = 0.240, 1.08  # over the length, and as the sample derby: a survey's mean foot's
 JITTER = 0.3  # of the step between two widths, by which a foot's girth is off its group's
 NOISE_MM, DECIMATION = 0.3, 4.0
 GRADES_MM = np.arange(-2, 3) * 20.0 / 3.0
@@ -82,7 +83,12 @@ def grid_specs() -> dict[str, LastSpec]:
     """The grid of lasts by name: length, width, flare."""
     return {
         f"{i}{j}{k}": LastSpec(
-            length_mm=float(mm), ball_width_mm=float(mm) * width, flare_deg=flare, **BALL
+            length_mm=float(mm),
+            ball_width_mm=float(mm) * width,
+            heel_width_mm=float(mm) * HEEL,
+            flare_deg=flare,
+            fullness=FULLNESS,
+            **BALL,
         )
         for i, mm in enumerate(grid_lengths())
         for j, width in enumerate(WIDTHS)

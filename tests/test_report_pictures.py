@@ -279,6 +279,13 @@ def test_a_match_without_lasts_still_draws_the_foot() -> None:
     assert "foot, flare +10.0° ± 0.2°" in said
 
 
+def test_where_no_last_fits_the_nearest_are_drawn() -> None:
+    near = answers.match().candidates[:2]
+    figure = match_figure(answers.match(candidates=(), nearest=near))
+    assert "1  derby-42, flare -2.0°" in texts(figure)
+    assert figure.get_suptitle().endswith("against the nearest lasts")
+
+
 @pytest.mark.parametrize("name", ["$x^$", "a\\b$", "<svg onload=alert(1)>", "x\x1b]\n"])
 def test_names_are_drawn_and_not_read_as_formulas(name: str) -> None:
     foot = answers.foot(name.replace("\\", "_"))

@@ -24,12 +24,12 @@ DRAWN_FACES = 10_000
 
 
 def candidate_shapes(path: Path, match: Match) -> dict[str, tuple[Floats, Ints]]:
-    """The mesh copies of the best lasts by name, canonical mm, each on its own side; a last
-    without a sound copy is left out.
+    """The mesh copies of the best lasts by name, or of the nearest where none fits, canonical mm,
+    each on its own side; a last without a sound copy is left out.
     """
     shapes = {}
     with open_catalogue(path) as catalogue:
-        for candidate in match.candidates[:DRAWN]:
+        for candidate in (match.candidates or match.nearest)[:DRAWN]:
             try:
                 shapes[candidate.last] = expanded(catalogue.mesh_copy(candidate.last).data)
             except (UnknownLast, CatalogueDamaged):

@@ -324,8 +324,10 @@ def _flare(match: Match, index: int, shapes: Shapes | None) -> str:
 
     foot = match.feet[index]
     name = file_name(foot.aligned.alignment.info.path)
-    lasts = ", ".join(visible(candidate.last) for candidate in match.candidates[:SHOWN])
-    against = f"{name} with the best lasts: {lasts}" if lasts else name
+    shown = (match.candidates or match.nearest)[:SHOWN]
+    lasts = ", ".join(visible(candidate.last) for candidate in shown)
+    which = "best" if match.candidates else "nearest"
+    against = f"{name} with the {which} lasts: {lasts}" if lasts else name
     words = (
         f"{against}. Sole from above, profile from the side, heading and plan curvature along the "
         "centre line."

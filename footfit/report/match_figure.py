@@ -45,7 +45,7 @@ def match_figure(match: Match, shapes: Shapes | None = None, foot: int = 0) -> F
     Parameters
     ----------
     match : Match
-        At least one candidate is drawn; without any, the foot alone.
+        Its best lasts are drawn, or the nearest where none fits; without any, the foot alone.
     shapes : mapping of str to (vertices_mm, faces), optional
         The lasts' meshes; a last without one is drawn by its centre line alone.
     foot : int
@@ -53,7 +53,7 @@ def match_figure(match: Match, shapes: Shapes | None = None, foot: int = 0) -> F
     """
     from matplotlib.figure import Figure
 
-    profiled, lasts = match.feet[foot], match.candidates[:SHOWN]
+    profiled, lasts = match.feet[foot], (match.candidates or match.nearest)[:SHOWN]
     known = {} if shapes is None else shapes
     with house_style():
         figure = Figure(figsize=(10.5, 6.4), layout="constrained")
@@ -65,7 +65,8 @@ def match_figure(match: Match, shapes: Shapes | None = None, foot: int = 0) -> F
         _plan_curvature(figure.add_subplot(grid[2, 1], sharex=heading), profiled, lasts)
         handles, labels = heading.get_legend_handles_labels()
         figure.legend(handles, labels, loc="outside lower center", ncols=2)
-        against = visible(lasts[0].last) if len(lasts) == 1 else "the best lasts"
+        several = "the best lasts" if match.candidates else "the nearest lasts"
+        against = visible(lasts[0].last) if len(lasts) == 1 else several
         title = f"{file_name(profiled.aligned.alignment.info.path)} against {against}"
         figure.suptitle(title, x=0.01, ha="left", fontsize=12, fontweight="bold")
     return figure
