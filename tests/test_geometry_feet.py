@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from footfit.geometry.ends import missing_end
+from footfit.geometry.ends import doubtful_end, missing_part
 from footfit.geometry.feet import comparable, facing, gap, part_of, pieces, stand_apart
 from footfit.geometry.samples import quadrature
 from footfit.geometry.topology import boundary_loops
@@ -61,13 +61,13 @@ def rims_of(vertices, faces):
 def test_a_cut_end_is_missed(last, x, towards, missing):
     cut = distortions.plane_cut(*last, np.array([x, 0.0, 0.0]), np.array([towards, 0.0, 0.0]))
     sample = quadrature(*cut, 8.0)
-    assert missing_end(sample, rims_of(*cut), 270.0) == missing
+    assert missing_part(sample, rims_of(*cut), 270.0) == missing
 
 
 def test_a_closed_cut_end_is_missed_too():
     vertices, faces = shapes.cube(1.0, 8)
-    box = vertices * [200.0, 90.0, 60.0]
-    assert missing_end(quadrature(box, faces, 8.0), [], 270.0) == "heel"
+    box = vertices * [200.0, 90.0, 60.0] + [0.0, 0.0, 30.0]
+    assert missing_part(quadrature(box, faces, 8.0), [], 270.0) == "heel"
 
 
 @pytest.mark.parametrize("toe", ["round", "square", "pointed", "almond"])
@@ -75,4 +75,54 @@ def test_whole_lasts_and_cut_legs_miss_nothing(toe):
     last = last_mesh(LastSpec(toe_shape=toe, rings=60, segments=48))
     holed = distortions.with_holes(*last, np.random.default_rng(0), 40, 7.0)
     for mesh in (last, distortions.leg_cut(*last, 60.0), holed):
-        assert missing_end(quadrature(*mesh, 8.0), rims_of(*mesh), 270.0) is None
+        assert missing_part(quadrature(*mesh, 8.0), rims_of(*mesh), 270.0) is None
+
+
+def along(last, share, towards, axis):
+    """The last beyond or below a share of its extent along an axis."""
+    vertices, faces = last
+    low, high = vertices[:, axis].min(), vertices[:, axis].max()
+    at, normal = np.zeros(3), np.zeros(3)
+    at[axis], normal[axis] = low + share * (high - low), towards
+    return distortions.plane_cut(vertices, faces, at, normal)
+
+
+def closed(mesh):
+    """The mesh with each opening closed by a flat fan."""
+    vertices, faces = mesh
+    for loop in boundary_loops(faces):
+        fan = np.stack([np.roll(loop, -1), loop, np.full(len(loop), len(vertices))], axis=1)
+        vertices, faces = (
+            np.vstack([vertices, vertices[loop].mean(axis=0)]),
+            np.vstack([faces, fan]),
+        )
+    return vertices, faces
+
+
+@pytest.mark.parametrize("share", [0.3, 0.5, 0.7])
+@pytest.mark.parametrize("towards", [1.0, -1.0])
+@pytest.mark.parametrize("lid", [False, True])
+def test_a_half_along_the_foot_misses_a_side(last, share, towards, lid):
+    cut = along(last, share, towards, 1)
+    mesh = closed(cut) if lid else cut
+    assert missing_part(quadrature(*mesh, 8.0), rims_of(*mesh), 270.0) == "side"
+
+
+@pytest.mark.parametrize("height_mm", [15.0, 25.0, 38.0])
+@pytest.mark.parametrize("lid", [False, True])
+def test_a_sole_slab_misses_its_upper_part_and_a_cut_at_50_mm_does_not(last, height_mm, lid):
+    slab = distortions.leg_cut(*last, height_mm)
+    mesh = closed(slab) if lid else slab
+    assert missing_part(quadrature(*mesh, 8.0), rims_of(*mesh), 270.0) == "upper part"
+    cut = distortions.leg_cut(*last, 50.0)
+    assert missing_part(quadrature(*cut, 8.0), rims_of(*cut), 270.0) is None
+
+
+def test_an_end_that_is_open_but_no_more_is_doubtful(last):
+    cut = along(last, 0.97, 1.0, 0)
+    sample, rims = quadrature(*cut, 8.0), rims_of(*cut)
+    assert missing_part(sample, rims, 270.0) is None
+    assert doubtful_end(sample, rims, 270.0) == "toes"
+    assert doubtful_end(quadrature(*last, 8.0), [], 270.0) is None
+    shorter = along(last, 0.90, 1.0, 0)
+    assert missing_part(quadrature(*shorter, 8.0), rims_of(*shorter), 270.0) == "toes"

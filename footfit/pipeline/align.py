@@ -10,7 +10,7 @@ import numpy as np
 from footfit.errors import HalfScan, NoReference
 from footfit.geometry import wpca
 from footfit.geometry.arrays import Floats, Ints
-from footfit.geometry.ends import missing_end
+from footfit.geometry.ends import doubtful_end, missing_part
 from footfit.geometry.frame import canonical_frame, length_of, turned_sample
 from footfit.geometry.holes import Filled, filled
 from footfit.geometry.moments import (
@@ -51,6 +51,12 @@ class AlignSettings:
 
 
 ALIGN = AlignSettings()
+_MISSING = {
+    "heel": "no heel: the surface ends there in a cut; scan the whole foot",
+    "toes": "no toes: the surface ends there in a cut; scan the whole foot",
+    "side": "one side is cut off along the foot; scan the whole foot",
+    "upper part": "only the lowest part of a foot or last; scan at least 50 mm from the floor up",
+}
 
 
 def aligned(
@@ -119,6 +125,7 @@ def aligned(
             *read_notices(scan, info, length_mm),
             *shape.notices,
             *_hole_notices(whole, factor),
+            *_end_notices(whole, frame),
             *_notices(frame, float(points_mm[:, 2].max()), length_mm, verdict),
             *length_notices(info, length_mm),
         ),
@@ -173,11 +180,19 @@ class _Framed:
 
 
 def _refuse_half(whole: Filled, frame: _Framed) -> None:
-    """Raise HalfScan where an end was cut off, since length and flare would be another's."""
+    """Raise HalfScan where a part was cut off, since length and flare would be another's."""
     rims = [frame.points[rim] for rim in whole.rims]
-    missing = missing_end(frame.surface, rims, frame.length)
+    missing = missing_part(frame.surface, rims, frame.length)
     if missing is not None:
-        raise HalfScan(f"no {missing}: the surface ends there in a cut; scan the whole foot")
+        raise HalfScan(_MISSING[missing])
+
+
+def _end_notices(whole: Filled, frame: _Framed) -> list[Notice]:
+    """The end, if any, that may be longer than it was scanned."""
+    end = doubtful_end(frame.surface, [frame.points[rim] for rim in whole.rims], frame.length)
+    if end is None:
+        return []
+    return [Notice("open_end", f"the surface is open at the {end}: its length may be short")]
 
 
 def _verdict(frame: _Framed, side: str) -> SideVerdict:
@@ -206,7 +221,7 @@ def _notices(frame: _Framed, top_mm: float, length_mm: float, verdict: SideVerdi
     found = []
     if not frame.quality.sole:
         found.append(Notice("no_sole", "there is no sole: the frame rests on the lowest rim"))
-    if frame.quality.kind == "foot" and top_mm < ALIGN.low_leg * length_mm:
+    if top_mm < ALIGN.low_leg * length_mm:
         found.append(Notice("leg_cut_low", f"the scan ends {top_mm:.0f} mm above the floor"))
     if verdict.source == "detected" and verdict.confidence != "sure":
         found.append(
