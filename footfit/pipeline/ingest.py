@@ -19,6 +19,7 @@ from footfit.errors import (
 )
 from footfit.pipeline.batch import HERE, Outcome, outcomes
 from footfit.pipeline.manifest import ManifestRow
+from footfit.pipeline.measure import suspects
 from footfit.pipeline.reading import content_hash, profiled_source
 from footfit.pipeline.sources import ReadingOptions, Source
 from footfit.pipeline.units import unit_notes
@@ -154,8 +155,11 @@ def prepared(entry: Entry, known: frozenset[str] = frozenset()) -> Prepared:
 def last_record(shape: Profiled, labels: LastLabels) -> LastRecord:
     """A profiled shape as a last of the catalogue; the file's folder is not kept."""
     alignment = shape.aligned.alignment
-    notices = alignment.warnings
-    if alignment.pose.kind == "foot":
+    kind = alignment.pose.kind
+    notices = (*alignment.warnings, *shape.suspects)
+    if kind == "last":
+        notices = (*notices, *suspects(shape.measures, kind))
+    if kind == "foot":
         looks = Notice("looks_like_a_foot", "its shape is nearer to a foot's than to a last's")
         notices = (*notices, looks)
     return LastRecord(
