@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import reduce
 
 import numpy as np
 
@@ -81,10 +82,10 @@ def quadrature(vertices: Floats, faces: Ints, edge: float, rounds: int = 5) -> S
         large = longest > edge
         if not large.any():
             break
-        finished.append((corners[~large].mean(axis=1), vectors[~large]))
+        finished.append((_middles(corners[~large]), vectors[~large]))
         corners, vectors = _quartered(corners[large]), np.tile(vectors[large] / 4, (4, 1))
         longest = np.tile(longest[large] / 2, 4)
-    finished.append((corners.mean(axis=1), vectors))
+    finished.append((_middles(corners), vectors))
     vectors = np.concatenate([part for _, part in finished])
     areas = np.sqrt(np.einsum("ij,ij->i", vectors, vectors))
     return SurfaceSample(
@@ -122,7 +123,7 @@ def calmed(vectors: Floats, faces: Ints, n_vertices: int) -> Floats:
     worst turn over 45 cases fell from .40 to .24 deg.
     """
     around = unit(vertex_sums(vectors, faces, n_vertices))
-    normals = unit(around[faces].sum(axis=1))
+    normals = unit(around[faces[:, 0]] + around[faces[:, 1]] + around[faces[:, 2]])
     along = np.einsum("ij,ij->i", vectors, normals)
     lengths = np.sqrt(np.einsum("ij,ij->i", vectors, vectors))
     smooth = along > CREASE_COSINE * lengths
@@ -130,8 +131,14 @@ def calmed(vectors: Floats, faces: Ints, n_vertices: int) -> Floats:
 
 
 def _longest_sides(corners: Floats) -> Floats:
-    sides = corners - corners[:, [1, 2, 0]]
-    return np.asarray(np.sqrt(np.einsum("kci,kci->kc", sides, sides).max(axis=1)))
+    a, b, c = (corners[:, i] for i in range(3))  # NumPy is slow along an axis of three
+    squares = (np.einsum("ki,ki->k", side, side) for side in (a - b, b - c, c - a))
+    return np.asarray(np.sqrt(reduce(np.maximum, squares)))
+
+
+def _middles(corners: Floats) -> Floats:
+    middles: Floats = (corners[:, 0] + corners[:, 1] + corners[:, 2]) / 3.0
+    return middles
 
 
 def _quartered(corners: Floats) -> Floats:
