@@ -126,3 +126,16 @@ def test_an_end_that_is_open_but_no_more_is_doubtful(last):
     assert doubtful_end(quadrature(*last, 8.0), [], 270.0) is None
     shorter = along(last, 0.90, 1.0, 0)
     assert missing_part(quadrature(*shorter, 8.0), rims_of(*shorter), 270.0) == "toes"
+
+
+def test_a_slanting_cut_through_the_toes_is_doubtful_and_a_slanting_leg_is_not(last):
+    vertices, faces = last
+    at = np.array([0.94 * vertices[:, 0].max(), 0.0, 6.0])
+    toes = distortions.plane_cut(vertices, faces, at, np.array([0.35, 0.0, 0.94]))
+    leg = distortions.plane_cut(
+        vertices, faces, np.array([60.0, 0.0, 62.0]), np.array([-0.3, 0.0, 0.95])
+    )
+    assert missing_part(quadrature(*toes, 8.0), rims_of(*toes), 270.0) is None
+    assert doubtful_end(quadrature(*toes, 8.0), rims_of(*toes), 270.0) == "toes"
+    assert missing_part(quadrature(*leg, 8.0), rims_of(*leg), 270.0) is None
+    assert doubtful_end(quadrature(*leg, 8.0), rims_of(*leg), 270.0) is None

@@ -25,6 +25,7 @@ class EndSettings:
     rim_height: float = 0.08
     open_area: float = 0.015  # seen along X: toes cut off at .92 L have .016-.025
     doubtful_area: float = 0.004  # toes cut off at .98 L have .004-.009, a hole of 24 mm .005
+    slant_area: float = 0.010  # the same of one loop that only reaches the end
     side_low: float = 0.06  # a rim that comes down so far
     side_high: float = 0.18  # and goes up so far
     side_area: float = 0.06  # seen along Y: half a foot has .15 or more
@@ -86,7 +87,16 @@ def doubtful_end(
     for name, end in _ends(sample, settings.height * length):
         if _open_area(rims, end, length, settings) > settings.doubtful_area * length**2:
             return name
+        if any(_is_oblique(rim, end, length, settings) for rim in rims):
+            return name
     return None
+
+
+def _is_oblique(rim: Floats, end: float, length: float, settings: EndSettings) -> bool:
+    """Whether a loop, an opening slantwise through an end, comes down to the floor there."""
+    there = np.abs(rim[:, 0] - end) < settings.reach * length
+    there &= rim[:, 2] < settings.side_low * length
+    return bool(there.any() and abs(_vector_area(rim)[0]) > settings.slant_area * length**2)
 
 
 def _ends(
