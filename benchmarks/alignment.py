@@ -300,7 +300,7 @@ def negatives():
     """Shapes that must be refused, by name."""
     last = last_mesh(LastSpec(rings=60, segments=40))
     across = {"heel half of a last": (1.0, 140.0), "toe half of a last": (-1.0, 130.0)}
-    slabs = {"sole slab of 12 mm": 12.0, "sole slab of 20 mm": 20.0}
+    slabs = {f"sole slab of {height:.0f} mm": height for height in (12.0, 20.0, 25.0, 30.0)}
     box, box_faces = shapes.cube(1.0, 8)
     found = {
         "cylinder": shapes.cylinder(),
@@ -323,7 +323,22 @@ def negatives():
         )
     for name, height in slabs.items():
         found[name] = distortions.leg_cut(*last, height)
+    low, high = last[0].min(axis=0), last[0].max(axis=0)
+    for share in (0.3, 0.5, 0.7):
+        at = low + share * (high - low)
+        cut = distortions.plane_cut(*last, at, np.array([0.0, 1.0, 0.0]))
+        found[f"lateral {100 * share:.0f} % of a last"] = cut
+        found[f"the same {100 * share:.0f} %, closed"] = with_lids(*cut)
     return found
+
+
+def with_lids(vertices, faces):
+    """Every opening closed by a flat fan."""
+    for loop in boundary_loops(faces):
+        fan = np.stack([np.roll(loop, -1), loop, np.full(len(loop), len(vertices))], axis=1)
+        vertices = np.vstack([vertices, vertices[loop].mean(axis=0)])
+        faces = np.vstack([faces, fan])
+    return vertices, faces
 
 
 def negative_table(rng, poses=6):

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from dataclasses import replace
 from itertools import permutations, product
 from pathlib import Path
@@ -470,3 +471,15 @@ def test_a_mirrored_copy_has_the_mirrored_frame_to_rounding() -> None:
     assert np.allclose(left.vertices_mm * [1, -1, 1], right.vertices_mm, atol=1e-6)
     ours, theirs = profiled(left).flare, profiled(right).flare
     assert ours.angle_deg == pytest.approx(theirs.angle_deg, abs=1e-6)
+
+
+@pytest.mark.parametrize("axis", [0, 1])
+def test_a_half_that_cannot_be_posed_is_said_to_be_open(last, axis):
+    vertices, faces = last
+    cut = np.zeros(3)
+    cut[axis] = 1.0
+    at = 0.5 * (vertices.min(axis=0) + vertices.max(axis=0))
+    half = distortions.plane_cut(vertices, faces, at, cut)
+    with pytest.raises((NotAFoot, HalfScan)) as refused:
+        aligned(scan_of(*half))
+    assert re.search(r"open over \d+ % of its size|cut|sheet", refused.value.message)

@@ -23,6 +23,7 @@ class PiecesSettings:
     gap_few: int = 150
     gap_many: int = 1500
     inside_out: float = 0.20
+    wide_open: float = 0.30  # of the size: a loop that is worth a word
     sheet: float = 0.40  # |sum of area vectors| over the area; a foot cut at the leg has .1
     shell: float = 0.20  # from here on a foot may lack its sole
     flat_shell: float = 0.60  # the most that a foot without sole has; a sheet has more

@@ -9,6 +9,7 @@ import numpy as np
 
 from footfit.errors import HalfScan, NotAFoot, SeveralFeet
 from footfit.geometry.arrays import Floats, Ints
+from footfit.geometry.caps import extent_of
 from footfit.geometry.feet import (
     PIECES,
     Facing,
@@ -22,6 +23,7 @@ from footfit.geometry.feet import (
 )
 from footfit.geometry.orientation import SOLELESS, Orientation, orientation
 from footfit.geometry.plate import is_flat, without_plate
+from footfit.geometry.topology import boundary_loops
 from footfit.pipeline.references import shipped_references
 from footfit.results import Notice, Scan
 
@@ -71,10 +73,18 @@ def posed(scan: Scan, windows: Windows) -> Posed:
     if not shape.orientation.accepted:
         raise NotAFoot(
             "neither a foot nor a last, as far as the shape tells"
-            f" (cost {shape.orientation.cost:.2f}, margin {shape.orientation.margin:.2f});"
-            " check that the file holds one whole foot or last"
+            f" (cost {shape.orientation.cost:.2f}, margin {shape.orientation.margin:.2f}"
+            f"{_opening_words(shape)}); check that the file holds one whole foot or last"
         )
     return shape
+
+
+def _opening_words(shape: Posed) -> str:
+    """How wide the surface is open, where that is wide enough to be a part of something."""
+    rims = [shape.vertices[rim] for rim in boundary_loops(shape.faces)]
+    widest = max((extent_of(rim) for rim in rims), default=0.0)
+    share = widest / float(np.ptp(shape.vertices, axis=0).max())
+    return f", open over {100 * share:.0f} % of its size" if share > PIECES.wide_open else ""
 
 
 @dataclass(frozen=True, slots=True)
