@@ -28,6 +28,7 @@ from footfit.pipeline.flare import measured, profiled, right_shape
 from footfit.pipeline.ingest import last_record
 from footfit.pipeline.match import Library, Question, matched
 from footfit.pipeline.profile import fit_profile
+from footfit.pipeline.zones import pitch_gain_mm, zone_shape
 from footfit.results import LastLabels, LastRecord, Profiled
 from tests.distortions import decimated, moved, random_pose, white_noise
 from tools.lasts import LastSpec, graded, last_mesh, varied
@@ -123,13 +124,14 @@ def planned_foot(
     return Planned((vertices * scale, faces), length_mm, group)
 
 
-def right_lengths(foot_mm: float) -> set[int]:
+def right_lengths(foot_mm: float, gains_mm: np.ndarray) -> set[int]:
     """The grid's lengths that are right: the nearest to the target by the profile's own scale,
-    and one that is not further off by more than the length's repeatability.
+    and one that is not further off by more than the length's repeatability. A last is longer along
+    its bottom by ``gains_mm`` (9,).
     """
     rule = PROFILE.zones[0]
     below, above = scales(rule)
-    off = grid_lengths() - foot_mm - rule.target
+    off = grid_lengths() + gains_mm - foot_mm - rule.target
     score = np.abs(np.where(off < 0, off / below, off / above))
     return {int(i) for i in np.nonzero(score <= score.min() + 0.7 / below)[0]}
 
@@ -141,16 +143,17 @@ def grid_rows(count: int, seed: int) -> Iterator[list[str]]:
     meshes = {name: last_mesh(spec) for name, spec in specs.items()}
     girths = {name: girth_mm(mesh, "last") for name, mesh in meshes.items()}
     lasts = tuple(stored(mesh, name, rng) for name, mesh in meshes.items())
+    gains = np.array([pitch_gain_mm(zone_shape(last)) for last in lasts[:: len(lasts) // LENGTHS]])
     library = Library(lasts, len(lasts), None)
     feet = true_feet(sorted(SCANS.glob("*.stl")))
     length, width, both, verdicts, missed = 0, 0, 0, [], []
     for at, foot_mm in enumerate(np.linspace(*FOOT_MM, count)):
-        right = min(right_lengths(foot_mm))
+        right = min(right_lengths(foot_mm, gains))
         own = [girths[f"{right}{j}1"] for j in range(3)]
         planned = planned_foot(feet[at % len(feet)], foot_mm, own, at % 3, rng)
         found = matched([scanned(planned.mesh, "right", rng)], library, Question(profile=PROFILE))
         first = found.candidates[0].last if found.candidates else "---"
-        good = first[0] in {str(i) for i in right_lengths(foot_mm)}
+        good = first[0] in {str(i) for i in right_lengths(foot_mm, gains)}
         fits = first[1] == str(planned.group)
         length, width, both = length + good, width + fits, both + (good and fits)
         verdicts.append(found.candidates[0].verdict if found.candidates else "none")

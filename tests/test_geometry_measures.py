@@ -205,6 +205,25 @@ def test_a_leg_cut_at_the_instep_has_no_instep(closed: bool) -> None:
         assert found[name] == pytest.approx(whole[name], abs=0.1), name
 
 
+def test_a_last_that_is_sawn_off_low_has_no_girth_over_its_top() -> None:
+    whole = taken(*last_of(), "last")
+    sawn = taken(*capped(*leg_cut(*last_of(), 0.8 * whole["instep_height"])), "last")
+    for name in ("instep_girth", "long_heel_girth", "short_heel_girth"):
+        assert isinstance(sawn[name], str), name
+    assert "sawn off below the instep" in sawn["instep_girth"]
+    assert sawn["ball_girth"] == pytest.approx(whole["ball_girth"], abs=0.1)
+
+
+def test_an_outline_that_goes_on_outward_has_no_joint_there() -> None:
+    """As over a big toe that is turned in: what is farthest inward is no ball."""
+    vertices, faces = last_of()
+    inward = vertices.copy()
+    inward[:, 1] += 0.5 * np.clip(vertices[:, 0] - 0.6 * 270.0, 0.0, None)
+    found = taken(inward, faces, "last")
+    for name in ("ball_length", "ball_width", "ball_girth"):
+        assert "no joint" in found[name], name
+
+
 def test_a_sole_that_is_missing_gives_reasons() -> None:
     vertices, faces = foot()
     low = vertices[faces].mean(axis=1)[:, 2] < 8.0

@@ -9,14 +9,26 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from footfit.errors import SideUndecided
+from footfit.errors import HalfScan, SideUndecided
 from footfit.meshes.read import read_scan
 from footfit.pipeline.align import aligned
+from footfit.pipeline.choice import choice
+from footfit.pipeline.flare import profiled
+from footfit.pipeline.match import Question, matched
 from footfit.pipeline.measure import measured_scan, suspects
 from footfit.results import Measure, Measured
 from tests.conftest import SAMPLES, Footfit
-from tests.distortions import decimated, in_metres, mirrored, moved, random_pose, white_noise
+from tests.distortions import (
+    decimated,
+    in_metres,
+    mirrored,
+    moved,
+    plane_cut,
+    random_pose,
+    white_noise,
+)
 
+AHEAD = np.array([1.0, 0.0, 0.0])
 BOUNDS_MM = {"length": 0.5, "width": 1.0, "girth": 2.0}
 
 
@@ -145,3 +157,19 @@ def test_metres_measure_as_millimetres(footfit: Footfit, foot: Path, tmp_path: P
     for name, measured in one.items():
         if measured["value"] is not None:
             assert other[name]["value"] == pytest.approx(measured["value"], abs=0.02), name
+
+
+def test_toes_that_were_not_scanned_give_no_length_and_no_match(stocked: Path) -> None:
+    scan = read_scan(SAMPLES / "feet" / "mh008_R.stl")
+    whole = aligned(scan, side="right")
+    length_mm = whole.alignment.length_mm
+    cut = plane_cut(whole.vertices_mm, whole.faces, np.array([0.965 * length_mm, 0, 0]), AHEAD)
+    short = profiled(aligned(moved_scan(scan, *cut), side="right"))
+    assert "open_end" in {notice.code for notice in short.aligned.alignment.warnings}
+    rows = {row.name: row.measured for row in short.measures}
+    assert rows["length"].value is None
+    assert "open at the toes" in rows["length"].reason
+    assert rows["ball_girth"].value is not None
+    with pytest.raises(HalfScan, match="open at the toes"):
+        matched([short], choice(stocked, None, None))
+    assert matched([short], choice(stocked, None, None), Question(by="flare")).candidates

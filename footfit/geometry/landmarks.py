@@ -28,6 +28,7 @@ class LandmarkSettings:
     width_height: float = 0.20  # over the floor; over it ankles may stand out
     inner_joint: tuple[float, float] = (0.60, 0.82)  # MT1 of a foot lies at .72, MT5 at .63
     outer_joint: tuple[float, float] = (0.52, 0.76)
+    joint_edge: float = 0.008  # nearer to its window's end no joint is believed
     instep: float = 0.50
     cone: float = 0.15  # a place on a last's cone
     lid_crossed: float = 0.05  # a section that runs on a lid farther than that is of a cut leg
@@ -96,12 +97,23 @@ class Shape:
     @cached_property
     def mt1(self) -> Floats | None:
         """The most medial point of the inner joint (first metatarsal head), (3,)."""
-        return self.outermost(1.0, LANDMARKS.inner_joint)
+        return self._joint(1.0, LANDMARKS.inner_joint)
 
     @cached_property
     def mt5(self) -> Floats | None:
         """The most lateral point of the outer joint (fifth metatarsal head), (3,)."""
-        return self.outermost(-1.0, LANDMARKS.outer_joint)
+        return self._joint(-1.0, LANDMARKS.outer_joint)
+
+    def _joint(self, side: float, window: tuple[float, float]) -> Floats | None:
+        """The outermost point of a joint; None where the outline goes on outward over the window's
+        end, as over a big toe that is turned in: that is no joint.
+        """
+        found = self.outermost(side, window)
+        if found is None:
+            return None
+        share = (float(found[0]) - self.x_mm(0.0)) / self.length_mm
+        inside = window[0] + LANDMARKS.joint_edge < share < window[1] - LANDMARKS.joint_edge
+        return found if inside else None
 
     def outermost(self, side: float, window: tuple[float, float]) -> Floats | None:
         """The outermost point (3,) of one side (+1 medial, -1 lateral) between two shares of the

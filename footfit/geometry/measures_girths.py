@@ -55,11 +55,11 @@ def short_heel_girth(shape: Shape) -> Reading:
     section = shortest_around_heel(shape)
     if section is None:
         return Reading(None, CUT.format(place="bend of the ankle"))
-    return _girth(shape, section, "heel")
+    return _girth(shape, section, "heel", over_cone=True)
 
 
-def _girth(shape: Shape, section: Outline, place: str) -> Reading:
-    missing = lacking(shape, section, place)
+def _girth(shape: Shape, section: Outline, place: str, *, over_cone: bool = False) -> Reading:
+    missing = lacking(shape, section, place, over_cone=over_cone)
     if missing is not None:
         return Reading(None, missing)
     return Reading(hull_girth(section.points))

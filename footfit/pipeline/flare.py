@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
+from dataclasses import replace
+
 import numpy as np
 
 from footfit.errors import SideUndecided
@@ -47,7 +50,7 @@ def profiled(aligned: AlignedScan, definition: FlareDefinition | None = None) ->
     vertices_mm, faces = right_shape(aligned)
     flare = flare_profile(vertices_mm, faces, definition, alignment.pose.kind)
     kind = alignment.pose.kind
-    found = measured(vertices_mm, faces, kind)
+    found = believed(measured(vertices_mm, faces, kind), alignment.warnings)
     return Profiled(aligned, flare, found, flare_suspects(flare.angle_deg, kind))
 
 
@@ -90,6 +93,21 @@ def as_right(vertices_mm: Floats, faces: Ints, side: SideName | None) -> tuple[F
         vertices_mm, faces = vertices_mm * np.array([1.0, -1.0, 1.0]), faces[:, ::-1]
     whole = filled(vertices_mm, faces, low_length(vertices_mm, FRAME.length_height)[1])
     return whole.vertices, whole.faces
+
+
+END_MEASURES = frozenset({"length", "functional_length", "tape_length", "ball_length"})
+"""What is counted from the pternion or to the toes."""
+
+
+def believed(rows: tuple[Measure, ...], warnings: Iterable[Notice]) -> tuple[Measure, ...]:
+    """The measures without those that are another's where an end is open: nothing, with the reason,
+    instead of a number that is short by what was not scanned.
+    """
+    reason = next((notice.message for notice in warnings if notice.code == "open_end"), None)
+    if reason is None:
+        return rows
+    unknown = Measured(None, reason=reason)
+    return tuple(replace(r, measured=unknown) if r.name in END_MEASURES else r for r in rows)
 
 
 def measured(vertices_mm: Floats, faces: Ints, kind: str = "foot") -> tuple[Measure, ...]:

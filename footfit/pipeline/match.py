@@ -9,7 +9,7 @@ from pathlib import Path
 
 import numpy as np
 
-from footfit.errors import BadOption, NoCandidate
+from footfit.errors import BadOption, HalfScan, NoCandidate
 from footfit.geometry.arrays import Bools
 from footfit.pipeline import explain
 from footfit.pipeline.batch import Outcome, outcomes
@@ -86,9 +86,13 @@ def matched(feet: Sequence[Profiled], library: Library, question: Question = Que
     ------
     NoCandidate
         No last passes the filters that were given.
+    HalfScan
+        By fit: a foot's length is not known, as where its toes were not scanned.
     """
     if not library.lasts:
         raise NoCandidate(_nothing_left(library))
+    if question.by == "fit":
+        _refuse_unknown_length(feet)
     profile = question.profile or fit_profile()
     found = field(feet, library.lasts, profile, question.by)
     answer = _Answer(feet, found, profile, question.by)
@@ -151,12 +155,26 @@ def _answered(
     if errors:
         return Outcome(source, None, errors[0])
     shapes = [foot.value for foot in feet if foot.value is not None]
-    answer = matched(shapes, library, question)
+    try:
+        answer = matched(shapes, library, question)
+    except HalfScan as error:
+        return Outcome(source, None, error)
     if question.surfaces_in is not None:
         from footfit.pipeline.surfaces import with_surfaces
 
         answer = with_surfaces(answer, question.surfaces_in)
     return Outcome(source, answer, None)
+
+
+def _refuse_unknown_length(feet: Sequence[Profiled]) -> None:
+    """Raise HalfScan for a foot that was measured and whose length was not to be had: the length
+    is the gate, and a short one would open it to lasts that are too small.
+    """
+    for foot in feet:
+        length = next((row.measured for row in foot.measures if row.name == "length"), None)
+        if length is not None and length.value is None:
+            path = foot.aligned.alignment.info.path
+            raise HalfScan(f"{length.reason}; no last is judged without it: scan again", path)
 
 
 def _best_verdict(found: Field, placing: Placing, by: SearchBy) -> Verdict | None:

@@ -6,7 +6,7 @@ from collections.abc import Iterable
 
 from footfit.errors import SideUndecided
 from footfit.geometry.measures import MEASURES, unusual
-from footfit.pipeline.flare import measured, right_shape
+from footfit.pipeline.flare import believed, measured, right_shape
 from footfit.pipeline.reading import aligned_source
 from footfit.pipeline.sources import ReadingOptions, Source
 from footfit.results import AlignedScan, Measure, MeasuredScan, Notice
@@ -27,6 +27,7 @@ def measured_scan(aligned: AlignedScan) -> MeasuredScan:
             alignment.info.path,
         )
     measures = measured(*right_shape(aligned), alignment.pose.kind)
+    measures = believed(measures, alignment.warnings)
     return MeasuredScan(alignment, measures, suspects(measures, alignment.pose.kind))
 
 
