@@ -74,29 +74,28 @@ def filled(vertices: Floats, faces: Ints, length: float, settings: HoleSettings 
     small = (extents > settings.smallest * length) & (extents < settings.largest * length)
     small &= np.array([len(rim) >= settings.fewest_vertices for rim in rims], dtype=bool)
     order = [int(place) for place in np.argsort(-extents, kind="stable") if small[place]]
-    if order:
-        edges = boundary_edges(faces)
-        order = [place for place in order if _is_closed(rims[place], edges)]
     if not order:
         return Filled(vertices, faces, rims, ())
-    facets, closed = Facets.of(vertices, faces), []
+    edges, facets, closed = boundary_edges(faces), Facets.of(vertices, faces), []
     points, triangles, count = [vertices], [faces], len(vertices)
-    for place in order[: settings.most]:
-        rim = rims[place][::-1]
+    for rim in (rims[place][::-1] for place in order[: settings.most]):
         rim = np.roll(rim, -farthest_of(vertices[rim]))
-        found = cap(vertices[rim], facets, settings.ring * length)
+        found = cap(vertices[rim], facets, settings.ring * length) if _closes(rim, edges) else None
         if found is None:
             continue
         points.append(found.points)
         triangles.append(_numbered(found, rim, count))
-        closed.append(float(extents[place]))
+        closed.append(extent_of(vertices[rim]))
         count += len(found.points)
     return Filled(np.concatenate(points), np.concatenate(triangles), rims, tuple(closed))
 
 
-def _is_closed(rim: Ints, edges: Ints) -> bool:
-    """Whether a loop's last vertex is joined to its first: where winding breaks, it may not be."""
-    return bool(np.any((edges[:, 0] == rim[-1]) & (edges[:, 1] == rim[0])))
+def _closes(rim: Ints, edges: Ints) -> bool:
+    """Whether each vertex of a rim is joined to the next: where winding breaks, one may not be."""
+    span = int(edges.max()) + 1
+    known = np.sort(edges[:, 1] * span + edges[:, 0])  # against the surface's way
+    wanted = rim * span + np.roll(rim, -1)
+    return bool(np.isin(wanted, known, assume_unique=True).all())
 
 
 def _numbered(found: Cap, rim: Ints, count: int) -> Ints:
