@@ -54,14 +54,14 @@ def sound(raw: RawMesh, limits: Limits) -> RawMesh:
             f"a face names a vertex that is not there (the file has {len(raw.vertices)} vertices):"
             " export the mesh again"
         )
-    finite = np.isfinite(raw.vertices)
-    if not finite.all():
-        bad = np.flatnonzero(~finite.all(axis=1))
+    low, high = raw.vertices.min(), raw.vertices.max()  # a NaN comes through both
+    if not np.isfinite([low, high]).all():
+        bad = np.flatnonzero(~np.isfinite(raw.vertices).all(axis=1))
         raise DamagedMesh(
-            f"{len(bad):,} vertices are not finite numbers (the first is vertex {bad[0] + 1:,}):"
-            " export the mesh again"
+            f"{len(bad):,} {'vertex is' if len(bad) == 1 else 'vertices are'} not of finite numbers"
+            f" (the first is vertex {bad[0] + 1:,}): export the mesh again"
         )
-    if np.abs(raw.vertices).max() > limits.coordinate:
+    if max(-low, high) > limits.coordinate:
         raise DamagedMesh(
             f"a coordinate is past {limits.coordinate:g}: the file is damaged, export it again"
         )

@@ -96,7 +96,7 @@ def read_ascii_stl(data: bytes, limits: Limits) -> RawMesh:
     text = unix_text(data)
     corners, facets = [], 0
     for chunk in _chunks(text):
-        corners.append(_facet_corners(_without_solid_lines(chunk.lower())))
+        corners.append(_corners_of(chunk))
         facets += len(corners[-1]) // 3
         check_counts(0, facets, limits)
     if facets == 0:
@@ -115,6 +115,14 @@ def _chunks(text: bytes) -> Iterator[bytes]:
             end = following.end() if following else len(text)
         yield text[begin:end]
         begin = end
+
+
+def _corners_of(chunk: bytes) -> Floats:
+    """The corners of a piece of the text, which most often is nothing but lower-case facets."""
+    try:
+        return _facet_corners(chunk)
+    except DamagedMesh:
+        return _facet_corners(_without_solid_lines(chunk.lower()))
 
 
 def _without_solid_lines(text: bytes) -> bytes:
