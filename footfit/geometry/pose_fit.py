@@ -39,6 +39,7 @@ class FitSettings:
 
 
 FIT = FitSettings()
+_FEW = 50
 LEVI_CIVITA = np.zeros((3, 3, 3))
 LEVI_CIVITA[[0, 1, 2], [1, 2, 0], [2, 0, 1]] = 1.0
 LEVI_CIVITA[[0, 1, 2], [2, 0, 1], [1, 2, 0]] = -1.0
@@ -232,8 +233,20 @@ def reverse_cost(
     q = moved(pose, points)[0]
     turned = normals @ pose.rotation[0].T
     seen, seen_normals = sparse
-    squares = np.einsum("ij,ij->i", q, q) - 2 * (seen @ q.T)
-    index = squares.argmin(axis=1)
+    index = _nearest_rows(seen, q)
     cosine = np.einsum("ij,ij->i", seen_normals, turned[index])
     costs = np.sort(point_costs(seen - q[index], cosine, seen[:, 2], settings))
     return float(costs[: max(1, int(share * len(costs)))].mean())
+
+
+def _nearest_rows(points: Singles, among: Singles) -> Ints:
+    """The index (k,) of the point among (n, 3) that is nearest to each of (k, 3), exactly.
+
+    Few at a time: one product of all is so large that BLAS shares it out to threads, which on a
+    busy machine takes a hundred times as long as the product.
+    """
+    squares = np.einsum("ij,ij->i", among, among)
+    columns = np.ascontiguousarray(np.column_stack([among, squares]).T)
+    rows = np.column_stack([-2 * points, np.ones(len(points), dtype=np.float32)])
+    parts = range(0, len(rows), _FEW)
+    return np.concatenate([(rows[i : i + _FEW] @ columns).argmin(axis=1) for i in parts])
