@@ -7,6 +7,7 @@ import os
 import resource
 import signal
 import time
+from contextlib import suppress
 
 import pytest
 
@@ -56,6 +57,10 @@ def fate_of(source: Source) -> str:
     if fate in ("hangs", "slow"):
         for _ in range(600):
             time.sleep(0.1)
+    if fate == "swallows":
+        with suppress(BaseException):
+            time.sleep(60)
+        time.sleep(60)
     if fate == "killed":
         os.kill(os.getpid(), signal.SIGKILL)
     if fate == "crashes":
@@ -96,6 +101,12 @@ def test_this_process_holds_to_time_and_memory_too() -> None:
         type(None),
     ]
     assert (resource.getrlimit(resource.RLIMIT_AS), signal.getsignal(signal.SIGALRM)) == before
+    assert signal.getitimer(signal.ITIMER_REAL) == (0.0, 0.0)
+
+
+def test_work_that_swallows_the_end_of_its_time_is_told_again() -> None:
+    (found,) = outcomes(fate_of, [Source("swallows")], HERE, TIGHT)
+    assert isinstance(found.error, TooSlow)
     assert signal.getitimer(signal.ITIMER_REAL) == (0.0, 0.0)
 
 

@@ -96,6 +96,8 @@ def trial(data: bytes, name: str | None, tally: Tally, label: str) -> None:
 
 def tallies(count: int, seed: int) -> dict[str, Tally]:
     """``count`` mutations, shared out over the formats; the same for the same seed."""
+    import trimesh  # noqa: F401 - what the first GLB waits for is no work on it
+
     found = {name: Tally() for name in FORMATS}
     sound = {name: [make() for make in makers] for name, makers in FORMATS.items()}
     formats = list(FORMATS)

@@ -34,6 +34,8 @@ class WorkLimits:
 
 
 WORK_LIMITS = WorkLimits()
+AGAIN_S = 1.0
+"""After the time is up the alarm rings on: a callback may have swallowed what the first raised."""
 
 
 class _OutOfTime(BaseException):
@@ -66,8 +68,10 @@ def out_of_time(limits: WorkLimits) -> str:
     return f"took longer than {limits.seconds:.2g} s, the most that one file may: {SLIM}"
 
 
-def _ring(_number: int, _frame: FrameType | None) -> None:
-    raise _OutOfTime
+def _ring(_number: int, frame: FrameType | None) -> None:
+    """Stop the work; in the middle of an import, which may swallow it, at the next ring."""
+    if frame is None or not frame.f_code.co_filename.startswith("<frozen importlib"):
+        raise _OutOfTime
 
 
 @contextmanager
@@ -80,11 +84,11 @@ def _alarm(seconds: float) -> Iterator[None]:
         yield
         return
     before = signal.signal(signal.SIGALRM, _ring)
-    signal.setitimer(signal.ITIMER_REAL, seconds)
+    signal.setitimer(signal.ITIMER_REAL, seconds, AGAIN_S)
     try:
         yield
     finally:
-        signal.setitimer(signal.ITIMER_REAL, 0.0)
+        signal.setitimer(signal.ITIMER_REAL, 0.0, 0.0)
         signal.signal(signal.SIGALRM, before)
 
 
