@@ -46,8 +46,8 @@ if TYPE_CHECKING:
     from footfit.results import Candidate, Comparison, Match, Profiled, ZoneFit
 
 HOW = {
-    "fit": "Lasts that leave the room that the fit profile asks for, best verdict and nearest "
-    "first; of tied lasts the one with the best length comes first.",
+    "fit": "Lasts that leave the room that the fit profile asks for. Good toe room comes before "
+    "toe room that is only acceptable, whatever else fits; then the better verdict, then the nearer.",
     "flare": "All lasts, nearest flare profile first. This search is scale-free: it compares "
     "shapes and cannot tell one size from another, so look at the length.",
     "shape": "All lasts, nearest in length and flare profile first: which last is this?",

@@ -27,8 +27,9 @@ if TYPE_CHECKING:
     from footfit.results import Candidate, Match, Profiled, ZoneFit
 
 LIKENESS = {
-    "fit": "distance: how far the zones are from what the profile asks (0 = the target, 1 = the "
-    "edge of good); lasts that are tied are not told apart by the measures",
+    "fit": "order: good toe room first, then by verdict, then by distance: how far the zones are "
+    "from what the profile asks (0 = the target, 1 = the edge of good); lasts that are tied are "
+    "not told apart by the measures",
     "flare": "distance: how far the flare profile is from the foot's (0 = the same), at any size",
     "shape": "distance: how far measures and flare profile are from the mesh's (0 = the same)",
 }
