@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import random
+import time
 from collections.abc import Callable
 from pathlib import Path
 
@@ -13,6 +14,9 @@ from tests import records
 from tests.torture.kills import Child, forked
 from tests.torture.scripts import MAIN, mesh_copy
 from tests.torture.tally import Tally
+
+PAUSE_S = 2e-5
+"""After each last of the endless writer, for each last that is there: 20 ms at a thousand."""
 
 
 def crowd_trials(folder: Path, writers: int, lasts: int, readers: int) -> Tally:
@@ -106,11 +110,16 @@ def backup_trials(folder: Path, count: int, seed: int) -> Tally:
 
 
 def _endless_writer(path: Path) -> Child:
+    """Adds lasts, the more there are the slower: a backup takes the longer the larger the catalogue
+    is, and on a slow machine fifty of them would never catch up with a writer at full speed.
+    """
+
     def work(acknowledge: Callable[[], None]) -> None:
         with open_catalogue(path, write=True) as catalogue:
             for seed in range(1, 100_000):
                 catalogue.add(records.last(f"last-{seed:04d}", seed), mesh_copy(0))
                 acknowledge()
+                time.sleep(PAUSE_S * seed)
 
     return forked(work)
 
