@@ -47,7 +47,7 @@ if TYPE_CHECKING:
 
 HOW = {
     "fit": "Lasts that leave the room that the fit profile asks for. Good toe room comes before "
-    "toe room that is only acceptable, whatever else fits; then the better verdict, then the nearer.",
+    "toe room that is only acceptable; then the better verdict comes first, then the nearer last.",
     "flare": "All lasts, nearest flare profile first. This search is scale-free: it compares "
     "shapes and cannot tell one size from another, so look at the length.",
     "shape": "All lasts, nearest in length and flare profile first: which last is this?",

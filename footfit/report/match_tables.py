@@ -27,7 +27,7 @@ if TYPE_CHECKING:
     from footfit.results import Candidate, Match, Profiled, ZoneFit
 
 LIKENESS = {
-    "fit": "order: good toe room first, then by verdict, then by distance: how far the zones are "
+    "fit": "order: good toe room first, then what fits better; distance: how far the zones are "
     "from what the profile asks (0 = the target, 1 = the edge of good); lasts that are tied are "
     "not told apart by the measures",
     "flare": "distance: how far the flare profile is from the foot's (0 = the same), at any size",
