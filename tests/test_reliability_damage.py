@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import shutil
 import sqlite3
+from contextlib import closing
 from pathlib import Path
 
 import pytest
@@ -140,6 +141,35 @@ def test_a_value_that_cannot_be_is_found_though_its_hash_is_right(
     parts = {name: getattr(stored, name) for name in StoredLast.__slots__}
     wrong = StoredLast(**{**parts, table: given})
     assert any(column in words or "curves" in words for words in implausible(wrong))
+
+
+@pytest.mark.parametrize("name", [None, 7, b"\xff\x00"])
+def test_a_name_that_is_no_text_harms_no_other_last(
+    footfit: Footfit, catalogue: Path, foot: Path, name: object
+) -> None:
+    """A torn page may leave a null where none can be stored."""
+    with open_catalogue(catalogue) as opened:
+        names = opened.names()
+    laxly = "UPDATE sqlite_schema SET sql = ? WHERE name = 'last'"
+    with closing(sqlite3.connect(catalogue, isolation_level=None)) as connection:
+        (strict,) = connection.execute(
+            "SELECT sql FROM sqlite_schema WHERE name = 'last'"
+        ).fetchone()
+        connection.execute("PRAGMA writable_schema = ON")
+        connection.execute(laxly, [strict.replace(" NOT NULL", "")])
+    with closing(sqlite3.connect(catalogue, isolation_level=None)) as connection:
+        connection.execute("UPDATE last SET name = ? WHERE id = 2", [name])
+        connection.execute("PRAGMA writable_schema = ON")
+        connection.execute(laxly, [strict])
+    here = ("--catalogue", catalogue, "--json")
+    with open_catalogue(catalogue) as opened:
+        assert len(opened.names()) == len(names)
+    assert len(footfit("list-lasts", *here).document["lasts"]) == len(names) - 1
+    assert footfit("catalogue-info", *here).document["lasts"] == len(names)
+    assert footfit("check-catalogue", *here).code == 7
+    matched = footfit("match", foot, *here)
+    assert matched.code == 0
+    assert "damaged" in matched.err
 
 
 def test_every_schema_has_a_stored_file() -> None:

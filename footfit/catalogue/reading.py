@@ -34,9 +34,8 @@ class StoredLast:
 
     @property
     def name(self) -> str:
-        r"""The name as stored; bytes of it that are no UTF-8 are shown as ``\x..``."""
-        raw = str(self.last.get("name")).encode("utf-8", "surrogateescape")
-        return raw.decode("utf-8", "backslashreplace")
+        """The name as stored, as a text whatever is stored."""
+        return shown_name(self.last.get("name"))
 
     @property
     def content_digest(self) -> str:
@@ -55,6 +54,19 @@ class StoredLast:
     def intact(self) -> bool:
         """Are the rows what was stored?"""
         return bool(self.last.get("record_sha256") == self.content_digest)
+
+
+def shown_name(stored: object) -> str:
+    r"""A stored name as a text: damage may have made it a null, a number or bytes.
+
+    Bytes of it that are no UTF-8 are shown as ``\x..``.
+
+    Examples
+    --------
+    >>> [shown_name(stored) for stored in ("derby", None, 7, "a\udcffb")]
+    ['derby', 'None', '7', 'a\\xffb']
+    """
+    return str(stored).encode("utf-8", "surrogateescape").decode("utf-8", "backslashreplace")
 
 
 def _hashed(row: Fields | None) -> Fields:
@@ -124,8 +136,9 @@ def _position(row: Fields) -> tuple[str, Any]:
 
 
 def last_names(connection: sqlite3.Connection) -> dict[int, str]:
-    """The name of every last, by its key."""
-    return {row[0]: row[1] for row in connection.execute("SELECT id, name FROM last NOT INDEXED")}
+    """The name of every last, damaged ones too, by its key."""
+    found = connection.execute("SELECT id, name FROM last NOT INDEXED")
+    return {key: shown_name(name) for key, name in found}
 
 
 def last_id(connection: sqlite3.Connection, name: str) -> int:
