@@ -165,3 +165,17 @@ def test_the_catalogue_keeps_no_feet_and_says_so() -> None:
     assert "a foot is read, matched and forgotten" in terminal_text(
         last_tables.catalogue_info_table(answers.facts())
     )
+
+
+def test_a_last_that_is_looked_for_by_shape_is_no_foot_and_has_no_foots_size() -> None:
+    match = answers.match()
+    (foot,) = match.feet[:1]
+    pose = replace(foot.aligned.alignment.pose, kind="last")
+    alignment = replace(foot.aligned.alignment, pose=pose)
+    last = replace(foot, aligned=replace(foot.aligned, alignment=alignment))
+    shown = terminal_text(match_tables.match_table(replace(match, by="shape", feet=(last,))))
+    assert "last, " in shown.splitlines()[0]
+    assert "sizes:" not in shown
+    fitted = terminal_text(match_tables.match_table(replace(match, feet=(last,))))
+    assert "foot, " in fitted.splitlines()[0]
+    assert "sizes:" in fitted

@@ -33,6 +33,7 @@ from footfit.report.parts import NOT_YET
 from footfit.report.surfaces import surfaces_words
 from footfit.report.text import (
     file_name,
+    is_scanned_last,
     measured_text,
     plain,
     signed,
@@ -151,8 +152,10 @@ def _foot(match: Match, foot: Profiled) -> str:
         ("Scan", f"{alignment.info.faces:,} faces, read in {alignment.info.units}"),
     ]
     notes = "".join(warning(notice) for notice in alignment.warnings)
-    title = f"<h3>{word.capitalize()} foot: {text(file_name(alignment.info.path))}</h3>"
-    sizes = _sizes(foot.length_mm, match.size_system)
+    is_last = is_scanned_last(foot, match)
+    kind = "last" if is_last else "foot"
+    title = f"<h3>{word.capitalize()} {kind}: {text(file_name(alignment.info.path))}</h3>"
+    sizes = "" if is_last else _sizes(foot.length_mm, match.size_system)
     return f'<section class="foot">{title}{sizes}{facts(rows)}{_unmeasured(foot)}{notes}</section>'
 
 

@@ -17,7 +17,15 @@ from footfit.geometry.sizes import foot_size, foot_sizes, system_named
 from footfit.report.parts import NOT_YET
 from footfit.report.surfaces import surfaces_words
 from footfit.report.tables import cell, flare_words, lined_table
-from footfit.report.text import file_name, plain, signed, size_text, tie_words, visible
+from footfit.report.text import (
+    file_name,
+    is_scanned_last,
+    plain,
+    signed,
+    size_text,
+    tie_words,
+    visible,
+)
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -45,7 +53,9 @@ def match_table(match: Match) -> RenderableType:
     """One customer: the feet, the ranked lasts with reasons, what was left out and why."""
     parts: list[RenderableType] = []
     for foot in match.feet:
-        parts += [_foot_line(foot), _size_line(foot, match.size_system)]
+        parts.append(_foot_line(foot, match))
+        if not is_scanned_last(foot, match):  # a last has no foot's size
+            parts.append(_size_line(foot, match.size_system))
     parts.append(Text())
     if match.candidates:
         parts += [*_candidates(match.candidates), Text(), *_zones(match)]
@@ -57,12 +67,13 @@ def match_table(match: Match) -> RenderableType:
     return Group(*parts, *likeness, Text(_closing(match), "dim"))
 
 
-def _foot_line(foot: Profiled) -> Text:
+def _foot_line(foot: Profiled, match: Match) -> Text:
     alignment = foot.aligned.alignment
     side = alignment.side.side or "undecided"
     line = cell(file_name(alignment.info.path), "bold")
     length = plain(foot.length_mm)
-    return line.append(f"  {side} foot, {length} mm long, flare {flare_words(foot)}", "not bold")
+    kind = "last" if is_scanned_last(foot, match) else "foot"
+    return line.append(f"  {side} {kind}, {length} mm long, flare {flare_words(foot)}", "not bold")
 
 
 def _size_line(foot: Profiled, asked: str | None) -> RenderableType:

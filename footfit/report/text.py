@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from footfit.results import Measured
+    from footfit.results import Match, Measured, Profiled
 
 
 def visible(text: str) -> str:
@@ -104,3 +104,8 @@ def size_text(size: str | None, system: str | None, width: str | None = None) ->
     """
     parts = (system.upper() if system else None, size, width)
     return visible(" ".join(part for part in parts if part))
+
+
+def is_scanned_last(shape: Profiled, match: Match) -> bool:
+    """Whether a search by shape was made with a last: then it is spoken of as one."""
+    return match.by == "shape" and shape.aligned.alignment.pose.kind == "last"
