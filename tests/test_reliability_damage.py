@@ -143,6 +143,23 @@ def test_a_value_that_cannot_be_is_found_though_its_hash_is_right(
     assert any(column in words or "curves" in words for words in implausible(wrong))
 
 
+@pytest.mark.parametrize("column", ["type", "name", "tbl_name"])
+def test_every_word_of_the_schema_is_under_a_check(
+    footfit: Footfit, catalogue: Path, column: str
+) -> None:
+    """Also where SQLite keeps no SQL, and obeys none: the index behind a UNIQUE."""
+    with closing(sqlite3.connect(catalogue)) as connection:
+        (word,) = connection.execute(
+            f"SELECT {column} FROM sqlite_schema WHERE name = 'sqlite_autoindex_last_2'"
+        ).fetchone()
+    data = catalogue.read_bytes()
+    at = data.index(b"indexsqlite_autoindex_last_2last")
+    at += {"type": 0, "name": 5, "tbl_name": 28}[column] + 3
+    assert chr(data[at]) == word[3]
+    catalogue.write_bytes(data[:at] + bytes([data[at] ^ 16]) + data[at + 1 :])
+    assert footfit("check-catalogue", "--catalogue", catalogue).code in (6, 7)
+
+
 @pytest.mark.parametrize("name", [None, 7, b"\xff\x00"])
 def test_a_name_that_is_no_text_harms_no_other_last(
     footfit: Footfit, catalogue: Path, foot: Path, name: object

@@ -11,15 +11,20 @@ from functools import lru_cache
 from footfit.catalogue.migrate import Schema, create
 
 Objects = Mapping[tuple[str, str], str]
-"""SQL by (type, name), in the plain form of :func:`_plain`."""
+"""By (type, name): the table it belongs to and its SQL in the plain form of :func:`_plain`."""
 
 
 def stored_objects(connection: sqlite3.Connection) -> Objects:
-    """Every table, index, view and trigger of an open file, SQLite's own left out."""
-    select = (
-        "SELECT type, name, sql FROM sqlite_schema WHERE name NOT LIKE 'sqlite\\_%' ESCAPE '\\'"
-    )
-    return {(str(kind), str(name)): _plain(sql) for kind, name, sql in connection.execute(select)}
+    """Every table, index, view and trigger of an open file.
+
+    Of SQLite's own those that keep a constraint of a table; what ANALYZE makes is left out.
+    """
+    select = "SELECT type, name, tbl_name, sql FROM sqlite_schema"
+    return {
+        (str(kind), str(name)): f"{table}: {_plain(sql)}"
+        for kind, name, table, sql in connection.execute(select)
+        if not str(name).startswith("sqlite_") or str(name).startswith("sqlite_autoindex_")
+    }
 
 
 @lru_cache(maxsize=8)
