@@ -102,7 +102,11 @@ class Listener:
         ear, mouth = os.pipe()
         os.set_blocking(mouth, False)
         wakeup = signal.set_wakeup_fd(mouth, warn_on_full_buffer=False)
+        # Deaf from its first moment on: else it would take a signal that the main thread has
+        # blocked, and Python would raise there all the same.
+        blocked = signal.pthread_sigmask(signal.SIG_BLOCK, CODES)
         threading.Thread(target=self._watch, args=(ear,), daemon=True).start()
+        signal.pthread_sigmask(signal.SIG_SETMASK, blocked)
         try:
             yield
         finally:
