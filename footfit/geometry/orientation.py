@@ -65,7 +65,7 @@ class OrientationSettings:
 
 
 ORIENTATION = OrientationSettings()
-SOLELESS = OrientationSettings(reverse_normal=-0.5, cost_maximum=0.46)
+SOLELESS = OrientationSettings(reverse_normal=-0.5, cost_maximum=0.50)
 """For a scan whose sole is missing: the reference's sole is not looked for in it."""
 
 
