@@ -257,6 +257,7 @@ def test_ingest_is_idempotent_and_never_overwrites_unasked(
 
     dry = footfit(*command, "--dry-run").document
     assert (dry["status"], (tmp_path / "c.footfit").exists()) == ("added", False)
+    assert dry["dry_run"] is True
     first = footfit(*command).document
     assert set(first) >= {"path", "status", "last", "side", "flare_angle_deg", "error"}
     assert (first["status"], first["last"]) == ("added", "1")

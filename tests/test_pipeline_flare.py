@@ -125,3 +125,12 @@ def test_a_flare_that_no_foot_has_is_said(right):
     (found,) = profiled(replace(right, vertices_mm=turned)).suspects
     assert found.code == "suspect_flare"
     assert "(-3 to +33)" in found.message
+
+
+def test_what_is_said_of_the_angle_grows_where_the_sole_is_missing(right):
+    whole = profiled(right).flare
+    pose = replace(right.alignment.pose, sole=False)
+    cut = profiled(replace(right, alignment=replace(right.alignment, pose=pose))).flare
+    assert cut.angle_deg == whole.angle_deg
+    assert cut.angle_sd_deg == pytest.approx(np.hypot(whole.angle_sd_deg, 2.0))
+    assert whole.angle_sd_deg >= 0.2

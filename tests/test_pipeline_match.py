@@ -403,3 +403,33 @@ def test_a_last_that_is_searched_for_is_as_long_as_itself(stocked: Any) -> None:
     best = matched([mesh], found, Question(by="shape")).candidates[0]
     assert best.last == "derby-40"
     assert dict(best.clearance_mm)["length"].value == pytest.approx(0.0, abs=0.05)
+
+
+def test_what_was_not_judged_passes_no_check_and_is_said() -> None:
+    found = answer(last("a"), feet=(foot(ball_girth=None),))
+    (candidate,) = found.candidates
+    assert candidate.verdict == "acceptable"
+    assert candidate.why.endswith("; not judged: ball girth")
+    assert found.best_verdict is None
+    assert not meets(found, "acceptable")
+    assert meets(answer(last("a")), "acceptable")
+    assert "not judged" not in answer(last("a")).candidates[0].why
+
+
+def test_feet_that_are_hardly_of_one_customer_are_said() -> None:
+    pair = (foot(left=True), foot(length_mm=239.0))
+    found = answer(last("a"), feet=pair)
+    (said,) = [one.message for one in found.warnings if one.code == "pair_differs_widely"]
+    assert said.startswith("the left foot is 21.0 mm longer")
+    same = answer(last("a"), feet=(foot(), foot(length_mm=239.0))).warnings
+    assert any(one.message.startswith("the longer foot is 21.0") for one in same)
+
+
+def test_a_last_that_is_taken_for_a_foot_is_said() -> None:
+    shape = foot()
+    pose = replace(shape.aligned.alignment.pose, kind="last")
+    alignment = replace(shape.aligned.alignment, pose=pose)
+    scanned = replace(shape, aligned=replace(shape.aligned, alignment=alignment))
+    for by, expected in (("fit", True), ("flare", True), ("shape", False)):
+        codes = {one.code for one in answer(last("a"), feet=(scanned,), by=by).warnings}
+        assert ("looks_like_a_last" in codes) is expected

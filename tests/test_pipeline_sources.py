@@ -64,3 +64,13 @@ def test_what_the_system_will_not_look_up_has_its_own_line(argument: str) -> Non
 def test_an_empty_argument_is_not_the_current_folder() -> None:
     with pytest.raises(BadOption, match="empty"):
         mesh_sources([""])
+
+
+@pytest.mark.parametrize("argument", ["", "*.stl"])
+def test_beside_others_a_folder_or_glob_without_a_mesh_costs_its_own_line_only(
+    tmp_path: Path, argument: str
+) -> None:
+    touched(tmp_path, "a.stl")
+    (tmp_path / "empty").mkdir()
+    bare, good = str(tmp_path / "empty" / argument), str(tmp_path / "a.stl")
+    assert [source.path for source in mesh_sources([bare, good])] == [bare, good]

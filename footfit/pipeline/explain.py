@@ -124,6 +124,13 @@ def not_judged(columns: Sequence[Column], known: Sequence[bool]) -> tuple[str, .
     return tuple(dict.fromkeys(names))
 
 
+def unknown_words(columns: Sequence[Column], known: Sequence[bool]) -> str:
+    """The required zones that were not judged, as the end of a sentence; empty without any."""
+    settled = [there or not c.rule.required for c, there in zip(columns, known, strict=True)]
+    names = not_judged(columns, settled)
+    return f"; not judged: {zone_list(names)}" if names else ""
+
+
 def zone_list(names: Sequence[str]) -> str:
     """Zones as people read them.
 
@@ -135,6 +142,10 @@ def zone_list(names: Sequence[str]) -> str:
     return ", ".join(ZONES[name].label for name in names)
 
 
+ONE_CUSTOMER_MM = 20.0
+"""Two feet that differ by more are hardly of one person."""
+
+
 def pair_notice(feet: Sequence[Profiled], system_name: str | None) -> Notice | None:
     """How a pair differs, with advice where it is by a size or more; None for one foot."""
     if len(feet) != 2:
@@ -142,8 +153,11 @@ def pair_notice(feet: Sequence[Profiled], system_name: str | None) -> Notice | N
     system = system_named(system_name) or SYSTEMS[DEFAULT_SYSTEM]
     longer, shorter = sorted(feet, key=lambda f: -f.length_mm)
     long_mm, short_mm = (f.length_mm for f in (longer, shorter))
-    side = longer.aligned.alignment.side.side or "one"
-    difference = f"the {side} foot is {long_mm - short_mm:.1f} mm longer and governs the length"
+    side, other = (f.aligned.alignment.side.side for f in (longer, shorter))
+    which = f"{side} foot" if side and side != other else "longer foot"
+    difference = f"the {which} is {long_mm - short_mm:.1f} mm longer and governs the length"
+    if long_mm - short_mm > ONE_CUSTOMER_MM:
+        return Notice("pair_differs_widely", f"{difference}: are these one customer's feet?")
     sizes = (long_mm - short_mm) / (system.step_mm * system.numbers_per_size)
     if sizes < 1.0:
         return Notice("pair_difference", difference)

@@ -17,6 +17,10 @@ from footfit.geometry.holes import filled
 from footfit.geometry.landmarks import Shape
 from footfit.results import AlignedScan, Measure, Measured, Notice, Profiled, SideName
 
+FOOT_SD_DEG = 0.2
+"""The least that is said of a foot: a smooth scan does not show what noise does to its toes."""
+SOLELESS_SD_DEG = 2.0
+"""Added where the frame is that of a rim: without its sole a foot's angle moved by up to 2.2."""
 PLAUSIBLE_FLARE_DEG = {"foot": (-3.0, 33.0), "last": (-20.0, 35.0)}
 """Feet: the mean of 15 and five of the standard deviations of 3.5 deg between people; lasts: a
 round range far beyond the trade's straight of 4 to 12, since no survey of lasts is known to us."""
@@ -50,8 +54,22 @@ def profiled(aligned: AlignedScan, definition: FlareDefinition | None = None) ->
     vertices_mm, faces = right_shape(aligned)
     flare = flare_profile(vertices_mm, faces, definition, alignment.pose.kind)
     kind = alignment.pose.kind
+    sd_deg = angle_sd_deg(flare.angle_sd_deg, kind, sole=alignment.pose.sole)
+    flare = replace(flare, angle_sd_deg=sd_deg)
     found = believed(measured(vertices_mm, faces, kind), alignment.warnings)
     return Profiled(aligned, flare, found, flare_suspects(flare.angle_deg, kind))
+
+
+def angle_sd_deg(scatter_sd_deg: float, kind: str, *, sole: bool) -> float:
+    """What is said of a flare angle's standard deviation, given what the mid-points scatter by.
+
+    Examples
+    --------
+    >>> angle_sd_deg(0.06, "last", sole=True), angle_sd_deg(0.06, "foot", sole=True)
+    (0.06, 0.2)
+    """
+    sd_deg = max(scatter_sd_deg, FOOT_SD_DEG) if kind == "foot" else scatter_sd_deg
+    return sd_deg if sole else float(np.hypot(sd_deg, SOLELESS_SD_DEG))
 
 
 def flare_suspects(angle_deg: float, kind: str) -> tuple[Notice, ...]:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import dataclasses
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import AbstractContextManager, nullcontext
 from dataclasses import dataclass
@@ -224,7 +225,8 @@ def ingest(
                 stored = list(catalogue.records())
         except NoCatalogue:
             stored = []
-        yield from ingested(batch, None, stored, jobs=jobs, replace=replace)
+        for outcome in ingested(batch, None, stored, jobs=jobs, replace=replace):
+            yield dataclasses.replace(outcome, dry_run=True)
         return
     with open_catalogue(path, write=True) as catalogue:
         stored = list(catalogue.records())

@@ -178,10 +178,17 @@ def _refuse_unknown_length(feet: Sequence[Profiled]) -> None:
 
 
 def _best_verdict(found: Field, placing: Placing, by: SearchBy) -> Verdict | None:
-    """The best verdict of the ranked lasts, which need not be the first's: length comes first."""
-    if by == "shape" or not placing.order:
+    """The best verdict of the ranked lasts, which need not be the first's: length comes first.
+
+    A last that a required zone could not be judged in is left out: what is not known is no pass.
+    """
+    if by == "shape":
         return None
-    return VERDICTS[min(int(found.level[i]) for i in placing.order)]
+    required = [i for i, one in enumerate(found.columns) if one.counts and one.rule.required]
+    known = np.isfinite(found.judged.score[:, required])
+    sound = set(np.flatnonzero(np.atleast_1d(known.all(axis=1))).tolist())
+    levels = [int(found.level[i]) for i in placing.order if i in sound]
+    return VERDICTS[min(levels)] if levels else None
 
 
 def meets(match: Match, least: Verdict) -> bool:
@@ -270,11 +277,12 @@ def _why(answer: _Answer, placing: Placing, place: int, fits: tuple[FootFit, ...
         differs = found.lasts[row].length_mm - longer
         delta = found.flare[row].delta_deg
         return f"length differs by {differs:+.1f} mm, flare by {delta:+.1f} deg"
+    unknown = explain.unknown_words(found.columns, np.isfinite(found.judged.score[row]).tolist())
     if placing.tier[place] == placing.tier[0]:
-        return explain.best_sentence(zones)
+        return explain.best_sentence(zones) + unknown
     first = placing.order[0]
     cost = _cost(found, row, first)
-    return explain.behind_sentence(zones, cost, found.lasts[first].labels.name)
+    return explain.behind_sentence(zones, cost, found.lasts[first].labels.name) + unknown
 
 
 def _counting(fits: Sequence[FootFit]) -> list[ZoneFit]:
@@ -312,6 +320,10 @@ def _notices(
     if question.by == "flare":
         notices.append(
             Notice("scale_free", "a search by flare alone cannot tell sizes apart; look at length")
+        )
+    if question.by != "shape" and any(one.aligned.alignment.pose.kind == "last" for one in feet):
+        notices.append(
+            Notice("looks_like_a_last", "its shape is nearer to a last's; --by shape finds a last")
         )
     sides = {one.aligned.alignment.side.side for one in feet}
     if len(feet) == 2 and len(sides) == 1:

@@ -40,15 +40,16 @@ def mesh_sources(arguments: Sequence[str]) -> list[Source]:
     BadOption
         An empty argument.
     UnreadableFile
-        A folder or a glob that holds no mesh. What is missing or cannot be looked up is kept:
-        its own line says so.
+        The only argument is a folder or a glob that holds no mesh. Beside others it is kept, as
+        what is missing or cannot be looked up is: its own line says so.
 
     Examples
     --------
     >>> [source.path for source in mesh_sources(["b.stl", "a.stl", "b.stl"])]
     ['b.stl', 'a.stl']
     """
-    paths = dict.fromkeys(path for argument in arguments for path in _expanded(argument))
+    alone = len(arguments) == 1
+    paths = dict.fromkeys(path for one in arguments for path in _expanded(one, alone=alone))
     return [Source(path) for path in paths]
 
 
@@ -65,7 +66,7 @@ def stdin_source(stream: BinaryIO, mesh_format: str) -> Source:
     return Source(None, read_stream(stream), mesh_format)
 
 
-def _expanded(argument: str) -> list[str]:
+def _expanded(argument: str, *, alone: bool) -> list[str]:
     if not argument:
         raise BadOption("an empty path was given (an unset variable?); name a file or folder")
     path = Path(argument)
@@ -78,6 +79,8 @@ def _expanded(argument: str) -> list[str]:
         else:
             return [argument]
     except (OSError, ValueError):  # a name too long, a folder closed to us, "**x": as if missing
+        return [argument]
+    if not found and not alone:
         return [argument]
     if not found:
         kinds = ", ".join(suffix[1:] for suffix in MESH_SUFFIXES)

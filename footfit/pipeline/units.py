@@ -61,7 +61,7 @@ def info_with_unit(info: MeshInfo, length: float, known_length_mm: float | None)
     least, most = LENGTHS.possible_mm
     if info.units_source == "declared" and not least <= length <= most:
         raise ImplausibleSize(
-            f"taken as {UNIT_NAMES[info.units]}, the length is {length:.4g} mm, which is no foot's"
+            f"taken as {UNIT_NAMES[info.units]}, the length is {length:,.0f} mm, which is no foot's"
             f" or last's ({least:.0f}-{most:.0f} mm); check --units, or say --known-length MM"
         )
     return info

@@ -74,6 +74,7 @@ def flare_document(profiled: Profiled) -> Json:
         "flare",
         {
             "mesh": mesh_part(alignment.info),
+            "kind": alignment.pose.kind,
             **side_part(alignment.side),
             **flare_part(profiled.flare),
             "warnings": warnings_part((*alignment.warnings, *profiled.suspects)),
@@ -109,6 +110,7 @@ def foot_part(foot: Profiled) -> Json:
     alignment = foot.aligned.alignment
     return {
         "mesh": mesh_part(alignment.info),
+        "kind": alignment.pose.kind,
         **side_part(alignment.side),
         "measures": measures_part(foot.measures),
         "sizes": sizes_part(foot.length_mm),
@@ -160,6 +162,7 @@ def ingest_document(outcome: IngestOutcome) -> Json:
             "code": outcome.code,
             "exit": outcome.exit,
             "reference": outcome.reference,
+            "dry_run": outcome.dry_run,
             "warnings": warnings_part(outcome.warnings),
         },
     )

@@ -47,7 +47,7 @@ if TYPE_CHECKING:
     from footfit.results import Candidate, Comparison, Match, Profiled, ZoneFit
 
 HOW = {
-    "fit": "Lasts that leave the room that the fit profile asks for. Good toe room comes before "
+    "fit": "Lasts whose length fits, each with its verdict. Good toe room comes before "
     "toe room that is only acceptable; then the better verdict comes first, then the nearer last.",
     "flare": "All lasts, nearest flare profile first. This search is scale-free: it compares "
     "shapes and cannot tell one size from another, so look at the length.",
@@ -354,7 +354,9 @@ def _legend(match: Match) -> str:
         f"Distance says how far a last is from what is asked (0 is the same; flare profiles by "
         f"definition {definition}); lasts that are tied are not told apart by it.",
         "The room is the distance from the foot's surface to the last's, the foot laid heel on "
-        "heel and tread on tread; what stands over a shoe's topline is not compared.",
+        "heel and tread on tread; what stands over a shoe's topline is not compared. It shows where "
+        "to look and judges nothing: a bare foot stands wider than a foot in a shoe, so that the "
+        "colours may say tight where the girths, which are judged, fit.",
         f"Lasts of the other side are mirrored for comparing.{reference}",
     )
     inside = "".join(f"<p>{text(line)}</p>" for line in lines)

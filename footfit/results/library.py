@@ -14,6 +14,7 @@ class IngestOutcome:
     """What became of one file: ``status`` is added, unchanged, replaced or refused.
 
     ``path`` is None for standard input. ``notes`` are told to people, and warn of nothing.
+    ``dry_run``: it is what would become of it, nothing was stored.
     """
 
     path: str | None
@@ -27,6 +28,7 @@ class IngestOutcome:
     warnings: tuple[Notice, ...] = ()
     reference: bool = False
     notes: tuple[Notice, ...] = ()
+    dry_run: bool = False
 
 
 @dataclass(frozen=True, slots=True)

@@ -52,8 +52,8 @@ class Match:
     """One customer's answer: one foot, or two with ``--pair``.
 
     ``nearest`` are the lasts that come nearest where none fits. ``size_system`` is the one that
-    was asked for. ``best_verdict`` is over every ranked last, shown or not; None by shape, and
-    where none is ranked.
+    was asked for. ``best_verdict`` is over every ranked last, shown or not, that was judged in
+    every required zone; None by shape, and where there is none.
     """
 
     feet: tuple[Profiled, ...]
