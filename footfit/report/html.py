@@ -354,8 +354,8 @@ def _legend(match: Match) -> str:
         f"Distance says how far a last is from what is asked (0 is the same; flare profiles by "
         f"definition {definition}); lasts that are tied are not told apart by it.",
         "The room is the distance from the foot's surface to the last's, the foot laid heel on "
-        "heel and tread on tread; what stands over a shoe's topline is not compared. It shows where "
-        "to look and judges nothing: a bare foot stands wider than a foot in a shoe, so that the "
+        "heel and tread on tread; what stands over a shoe's topline is not compared. It shows "
+        "where to look and judges nothing: a bare foot stands wider than a foot in a shoe, so that the "
         "colours may say tight where the girths, which are judged, fit.",
         f"Lasts of the other side are mirrored for comparing.{reference}",
     )
