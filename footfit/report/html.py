@@ -355,8 +355,8 @@ def _legend(match: Match) -> str:
         f"definition {definition}); lasts that are tied are not told apart by it.",
         "The room is the distance from the foot's surface to the last's, the foot laid heel on "
         "heel and tread on tread; what stands over a shoe's topline is not compared. It shows "
-        "where to look and judges nothing: a bare foot stands wider than a foot in a shoe, so that the "
-        "colours may say tight where the girths, which are judged, fit.",
+        "where to look and judges nothing: a bare foot stands wider than a foot in a shoe, so "
+        "that the colours may say tight where the girths, which are judged, fit.",
         f"Lasts of the other side are mirrored for comparing.{reference}",
     )
     inside = "".join(f"<p>{text(line)}</p>" for line in lines)
