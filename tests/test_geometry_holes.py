@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
 from footfit.geometry.caps import extent_of
@@ -120,6 +120,7 @@ def test_of_thousands_of_holes_the_largest_are_closed():
 
 
 @settings(max_examples=15, deadline=None)
+@example(rotation=np.eye(3), shift=np.zeros(3), scale=1.0, seed=406193, mirror=False)
 @given(
     rotation=rotations(),
     shift=shifts_mm(),

@@ -78,9 +78,11 @@ def filled(vertices: Floats, faces: Ints, length: float, settings: HoleSettings 
         return Filled(vertices, faces, rims, ())
     edges, facets, closed = boundary_edges(faces), Facets.of(vertices, faces), []
     points, triangles, count = [vertices], [faces], len(vertices)
+    shared = _met_more_than_once(edges)
     for rim in (rims[place][::-1] for place in order[: settings.most]):
         rim = np.roll(rim, -farthest_of(vertices[rim]))
-        found = cap(vertices[rim], facets, settings.ring * length) if _closes(rim, edges) else None
+        is_hole = _closes(rim, edges) and np.isin(rim, shared).sum() < 2
+        found = cap(vertices[rim], facets, settings.ring * length) if is_hole else None
         if found is None:
             continue
         points.append(found.points)
@@ -96,6 +98,16 @@ def _closes(rim: Ints, edges: Ints) -> bool:
     known = np.sort(edges[:, 1] * span + edges[:, 0])  # against the surface's way
     wanted = rim * span + np.roll(rim, -1)
     return bool(np.isin(wanted, known, assume_unique=True).all())
+
+
+def _met_more_than_once(edges: Ints) -> Ints:
+    """The vertices in which loops touch.
+
+    Two loops that touch in one are told apart. In two, which arc belongs to which would hang on
+    the order of the faces, and so neither is closed.
+    """
+    starts, count = np.unique(edges[:, 0], return_counts=True)
+    return np.asarray(starts[count > 1])
 
 
 def _numbered(found: Cap, rim: Ints, count: int) -> Ints:
