@@ -13,6 +13,7 @@ import os, signal, sys, time
 from footfit.cli.signals import LISTENER, Stopped
 
 number, steps = int(sys.argv[1]), []
+signal.signal(number, signal.SIG_DFL)  # a job in the background starts with SIGINT ignored
 try:
     with LISTENER.listening():
         LISTENER.heed()
