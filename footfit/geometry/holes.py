@@ -78,10 +78,10 @@ def filled(vertices: Floats, faces: Ints, length: float, settings: HoleSettings 
         return Filled(vertices, faces, rims, ())
     edges, facets, closed = boundary_edges(faces), Facets.of(vertices, faces), []
     points, triangles, count = [vertices], [faces], len(vertices)
-    shared = _met_more_than_once(edges)
+    joined, shared = _joined(edges), _met_more_than_once(edges)
     for rim in (rims[place][::-1] for place in order[: settings.most]):
         rim = np.roll(rim, -farthest_of(vertices[rim]))
-        is_hole = _closes(rim, edges) and np.isin(rim, shared).sum() < 2
+        is_hole = _closes(rim, *joined) and np.isin(rim, shared).sum() < 2
         found = cap(vertices[rim], facets, settings.ring * length) if is_hole else None
         if found is None:
             continue
@@ -92,10 +92,14 @@ def filled(vertices: Floats, faces: Ints, length: float, settings: HoleSettings 
     return Filled(np.concatenate(points), np.concatenate(triangles), rims, tuple(closed))
 
 
-def _closes(rim: Ints, edges: Ints) -> bool:
-    """Whether each vertex of a rim is joined to the next: where winding breaks, one may not be."""
+def _joined(edges: Ints) -> tuple[int, Ints]:
+    """The boundary's edges as numbers, sorted, against the surface's way; and their base."""
     span = int(edges.max()) + 1
-    known = np.sort(edges[:, 1] * span + edges[:, 0])  # against the surface's way
+    return span, np.sort(edges[:, 1] * span + edges[:, 0])
+
+
+def _closes(rim: Ints, span: int, known: Ints) -> bool:
+    """Whether each vertex of a rim is joined to the next: where winding breaks, one may not be."""
     wanted = rim * span + np.roll(rim, -1)
     return bool(np.isin(wanted, known, assume_unique=True).all())
 

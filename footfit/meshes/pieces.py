@@ -108,8 +108,6 @@ def kept_faces(
             raise DamagedMesh(_in_pieces(len(areas)))
         dust &= ~_reached(vertices, faces, labels, matter, settings)
         kept = int((~dust & ~plates).sum())
-        if kept > settings.most_pieces:
-            raise DamagedMesh(_in_pieces(len(areas)))
         if kept > 1:
             message = f"the surface is in {kept} pieces that touch nowhere: all are kept"
             notices.append(Notice("many_pieces", message))
