@@ -19,13 +19,13 @@ from pathlib import Path
 import numpy as np
 
 from footfit.errors import FootfitError
-from footfit.geometry import wpca
-from footfit.geometry.rotations import angle_deg
-from footfit.geometry.surface import face_normals
-from footfit.geometry.topology import boundary_loops
+from footfit.geometry.mesh.surface import face_normals
+from footfit.geometry.mesh.topology import boundary_loops
+from footfit.geometry.numeric.rotations import angle_deg
+from footfit.geometry.pose import paper_frame
 from footfit.meshes.read import read_scan
 from footfit.meshes.units import UNIT_SCALES
-from footfit.pipeline.align import aligned
+from footfit.pipeline.scan.align import aligned
 from footfit.results import MeshInfo, Reference, Scan
 from tests import distortions, shapes
 from tools.lasts import LastSpec, last_mesh, true_flare_deg
@@ -366,8 +366,8 @@ def method_table(shapes_found, rng, poses=12):
     frame = home.printed_frame
     reference = Reference(
         "first",
-        wpca.om_e(frame.eigenvectors, home.canonical_transform),
-        wpca.canonical_centroid_mm(frame.centroid_mm, home.canonical_transform, 1.0),
+        paper_frame.om_e(frame.eigenvectors, home.canonical_transform),
+        paper_frame.canonical_centroid_mm(frame.centroid_mm, home.canonical_transform, 1.0),
     )
     chosen = [first, *(s for s in shapes_found if s.family == "lasts" and s is not first)][:6]
     chosen += [s for s in shapes_found if s.family == "generated feet"][:4]

@@ -20,16 +20,16 @@ import numpy as np
 
 from benchmarks.alignment import scan_of
 from benchmarks.tables import markdown, put
-from footfit.geometry.flare import profile_distances
+from footfit.geometry.flare.flare_profile import profile_distances
 from footfit.meshes.read import read_scan
-from footfit.pipeline.align import aligned
-from footfit.pipeline.fit import scales
-from footfit.pipeline.flare import measured, profiled, right_shape
-from footfit.pipeline.ingest import last_record
-from footfit.pipeline.match import Library, Question, matched
-from footfit.pipeline.profile import fit_profile
-from footfit.pipeline.zones import pitch_gain_mm, zone_shape
-from footfit.results import LastLabels, LastRecord, Profiled
+from footfit.pipeline.fit.fit_profile import fit_profile
+from footfit.pipeline.fit.match import Question, matched
+from footfit.pipeline.fit.scoring import scales
+from footfit.pipeline.fit.zones import pitch_gain_mm, zone_shape
+from footfit.pipeline.library.ingest import last_record
+from footfit.pipeline.scan.align import aligned
+from footfit.pipeline.scan.flare import measured, profiled, right_shape
+from footfit.results import LastLabels, LastRecord, Library, Profiled
 from tests.distortions import decimated, moved, random_pose, white_noise
 from tools.lasts import LastSpec, graded, last_mesh, varied
 

@@ -24,8 +24,8 @@ from benchmarks import bends  # noqa: E402
 from benchmarks.alignment import holed, scan_of  # noqa: E402
 from benchmarks.tables import markdown, put  # noqa: E402
 from footfit.errors import FootfitError  # noqa: E402
-from footfit.geometry.centre_line import low_length  # noqa: E402
-from footfit.geometry.flare import (  # noqa: E402
+from footfit.geometry.flare.centre_line import low_length  # noqa: E402
+from footfit.geometry.flare.flare_profile import (  # noqa: E402
     CHANNELS,
     DISTANCE,
     FlareDefinition,
@@ -33,8 +33,8 @@ from footfit.geometry.flare import (  # noqa: E402
     flare_profile,
 )
 from footfit.meshes.read import read_scan  # noqa: E402
-from footfit.pipeline.align import aligned  # noqa: E402
-from footfit.pipeline.flare import as_right, profiled, right_shape  # noqa: E402
+from footfit.pipeline.scan.align import aligned  # noqa: E402
+from footfit.pipeline.scan.flare import as_right, profiled, right_shape  # noqa: E402
 from footfit.results import Profiled  # noqa: E402
 from tests import distortions  # noqa: E402
 from tests.distortions import half_subdivided, rippled, white_noise  # noqa: E402
@@ -290,7 +290,7 @@ def curve_rows(shapes: list[Shape], seed: int) -> Iterator[list[str]]:
 
 def seconds(shapes: list[Shape]) -> tuple[float, float]:
     """One core's time of the profile and, in turn with it, of a weld: read the ratio."""
-    from footfit.geometry.topology import welded
+    from footfit.geometry.mesh.topology import welded
 
     times: tuple[list[float], list[float]] = ([], [])
     for shape in shapes[:6]:

@@ -23,10 +23,10 @@ import numpy as np
 from benchmarks.alignment import random_specs, scan_of
 from benchmarks.tables import markdown, put
 from footfit.errors import FootfitError
-from footfit.geometry.measures import MEASURES
+from footfit.geometry.measures.measure_table import MEASURES
 from footfit.meshes.read import read_scan
-from footfit.pipeline.align import aligned
-from footfit.pipeline.flare import measured, right_shape
+from footfit.pipeline.scan.align import aligned
+from footfit.pipeline.scan.flare import measured, right_shape
 from tests import distortions
 from tools.lasts import last_mesh
 

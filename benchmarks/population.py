@@ -20,10 +20,11 @@ from pathlib import Path
 import numpy as np
 
 from benchmarks.tables import markdown, put
-from footfit.geometry.arrays import Floats, Ints
-from footfit.geometry.measures import MEASURES
-from footfit.geometry.sizes import SYSTEMS
-from footfit.pipeline.fit import (
+from footfit.geometry.fit.sizes import SYSTEMS
+from footfit.geometry.measures.measure_table import MEASURES
+from footfit.geometry.numeric.arrays import Floats, Ints
+from footfit.pipeline.fit.fit_profile import fit_profile, shipped
+from footfit.pipeline.fit.scoring import (
     ACCEPTABLE,
     GOOD,
     REJECT,
@@ -32,8 +33,7 @@ from footfit.pipeline.fit import (
     judged,
     worst_levels,
 )
-from footfit.pipeline.profile import fit_profile, shipped
-from footfit.pipeline.zones import BALL_SHARE
+from footfit.pipeline.fit.zones import BALL_SHARE
 from footfit.results import FitProfile
 
 PEOPLE = Path(__file__).resolve().parents[2] / "shared" / "population"

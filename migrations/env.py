@@ -1,6 +1,6 @@
 """Alembic's environment: runs on the connection that footfit hands over, inside its transaction.
 
-footfit.catalogue.migrate opens the file, sends BEGIN IMMEDIATE and commits: a kill at any
+footfit.catalogue.file.migrate opens the file, sends BEGIN IMMEDIATE and commits: a kill at any
 moment leaves the old schema or the new one, never half of it.
 """
 
@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from alembic import context
 
-from footfit.catalogue.schema import Base
+from footfit.catalogue.rows.schema import Base
 
 connection = context.config.attributes.get("connection")
 if connection is None:

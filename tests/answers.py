@@ -6,8 +6,8 @@ from dataclasses import replace
 
 import numpy as np
 
-from footfit.geometry.clearance import ZoneClearance
-from footfit.geometry.flare import CHANNELS, FlareDefinition, FlareProfile
+from footfit.geometry.fit.clearance import ZoneClearance
+from footfit.geometry.flare.flare_profile import CHANNELS, FlareDefinition, FlareProfile
 from footfit.results import (
     AlignedScan,
     Alignment,

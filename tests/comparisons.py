@@ -7,7 +7,7 @@ from functools import cache
 
 import numpy as np
 
-from footfit.pipeline.compare import LastShape, compared
+from footfit.pipeline.fit.compare import LastShape, compared
 from footfit.results import Comparison, SideVerdict
 from tests import answers
 from tools.lasts import LastSpec, last_mesh

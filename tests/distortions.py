@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from footfit.geometry.arrays import Bools, Floats, Ints
+from footfit.geometry.numeric.arrays import Bools, Floats, Ints
 
 Mesh = tuple[Floats, Ints]
 

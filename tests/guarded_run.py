@@ -40,10 +40,10 @@ def main(log: str, arguments: list[str]) -> int:
         resource.setrlimit(resource.RLIMIT_AS, (int(most), int(most)))
     from footfit.cli.app import application
     from footfit.cli.boundary import guarded
-    from footfit.pipeline import batch
+    from footfit.pipeline.batch.runs import runs
 
-    apart = batch.outcomes
-    batch.outcomes = lambda work, items, _jobs: apart(work, items, batch.HERE)
+    apart = runs.outcomes
+    runs.outcomes = lambda work, items, _jobs: apart(work, items, runs.HERE)
 
     sys.argv = ["footfit", *arguments]
     code = guarded(application(), arguments)

@@ -9,7 +9,7 @@ from collections.abc import Callable
 
 import numpy as np
 
-from footfit.geometry.arrays import Floats
+from footfit.geometry.numeric.arrays import Floats
 from tests.shapes import Mesh, convex_cloud
 
 Profile = Callable[[Floats], tuple[Floats, Floats, Floats]]

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from footfit.geometry.arrays import Floats, Ints
+from footfit.geometry.numeric.arrays import Floats, Ints
 
 Mesh = tuple[Floats, Ints]
 

@@ -14,10 +14,10 @@ from pathlib import Path
 
 import pytest
 
-from footfit.catalogue.marks import kind_of_file
+from footfit.catalogue.file.file_signature import kind_of_file
 from footfit.catalogue.store import open_catalogue
 from footfit.errors import CatalogueLocked
-from footfit.pipeline.backup import backed_up
+from footfit.pipeline.library.backup import backed_up
 from tests import records
 
 OPEN_FILES = Path("/proc/self/fd")

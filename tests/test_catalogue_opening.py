@@ -12,7 +12,7 @@ from pathlib import Path
 
 import pytest
 
-from footfit.catalogue.engine import connected
+from footfit.catalogue.file.engine import connected
 from footfit.catalogue.store import open_catalogue
 from footfit.errors import (
     CatalogueDamaged,

@@ -8,10 +8,10 @@ from pathlib import Path
 
 import pytest
 
-from footfit.catalogue import schema as models
-from footfit.catalogue.engine import connected, engine_on
-from footfit.catalogue.marks import MARKS
-from footfit.catalogue.migrate import Revisions, Schema, copy_path, create, migrations_folder
+from footfit.catalogue.file.engine import connected, engine_on
+from footfit.catalogue.file.file_signature import MARKS
+from footfit.catalogue.file.migrate import Revisions, Schema, copy_path, create, migrations_folder
+from footfit.catalogue.rows import schema as models
 from footfit.catalogue.store import open_catalogue
 from footfit.errors import CatalogueDamaged, CatalogueUnusable, NewerCatalogue
 from tests import records

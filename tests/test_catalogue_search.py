@@ -13,10 +13,10 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from footfit.catalogue.blobs import definition_of, definition_text
-from footfit.catalogue.search import Filters, rejection
+from footfit.catalogue.rows.array_blobs import definition_of, definition_text
+from footfit.catalogue.rows.search import Filters, rejection
 from footfit.catalogue.store import Catalogue, open_catalogue
-from footfit.geometry.flare import FlareDefinition
+from footfit.geometry.flare.flare_profile import FlareDefinition
 from tests import records
 
 LASTS = 12

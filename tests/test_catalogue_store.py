@@ -13,8 +13,8 @@ import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
-from footfit.catalogue import references
-from footfit.catalogue.schema import Base
+from footfit.catalogue.rows import reference_last
+from footfit.catalogue.rows.schema import Base
 from footfit.catalogue.store import Catalogue, open_catalogue
 from footfit.errors import BadOption, CatalogueDamaged, NameTaken, UnknownLast
 from footfit.results import LastRecord, Measure, Measured, Notice
@@ -163,8 +163,8 @@ def test_a_fault_in_the_middle_of_set_reference_leaves_the_old(
             raise KeyboardInterrupt
         return real(*given)  # type: ignore[arg-type]
 
-    real = references.expressed
-    monkeypatch.setattr(references, "expressed", failing)
+    real = reference_last.expressed
+    monkeypatch.setattr(reference_last, "expressed", failing)
     with pytest.raises(KeyboardInterrupt):
         catalogue.set_reference("last-2")
     monkeypatch.undo()
@@ -177,7 +177,7 @@ def test_a_fault_in_the_middle_of_an_add_leaves_no_half_last(
     catalogue: Catalogue, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     before = content(catalogue)
-    from footfit.catalogue import editing
+    from footfit.catalogue.rows import editing
 
     def failing(*given: object) -> None:
         raise RuntimeError("after its rows were written")

@@ -10,7 +10,7 @@ from pathlib import Path
 
 import pytest
 
-from footfit.pipeline.profile import FOLDER, fit_profile
+from footfit.pipeline.fit.fit_profile import FOLDER, fit_profile
 from tests.conftest import SAMPLES, Footfit
 
 PAIR = (SAMPLES / "feet" / "mh007_L.stl", SAMPLES / "feet" / "mh007_R.stl")

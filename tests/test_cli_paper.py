@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from footfit.geometry.rotations import angle_deg
+from footfit.geometry.numeric.rotations import angle_deg
 from footfit.meshes.read import read_scan
 from footfit.meshes.write import encoded_mesh
 from tests.conftest import SAMPLES, Footfit

@@ -6,7 +6,7 @@ import numpy as np
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from footfit.geometry.angles import angle_between, turning_angle
+from footfit.geometry.numeric.angles import angle_between, turning_angle
 from tests.strategies import rotations
 
 turns = st.floats(-np.pi + 1e-9, np.pi)

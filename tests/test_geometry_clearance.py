@@ -11,7 +11,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from footfit.errors import NoSole
-from footfit.geometry.clearance import (
+from footfit.geometry.fit.clearance import (
     CLEARANCE,
     ZONES,
     foot_clearance,
@@ -19,10 +19,10 @@ from footfit.geometry.clearance import (
     zone_clearances,
     zone_of,
 )
-from footfit.geometry.docking import docked, docking
-from footfit.geometry.landmarks import Shape
-from footfit.geometry.nearest import nearest_on_surface, part_middles
-from footfit.geometry.overlay import STATIONS, section_pairs
+from footfit.geometry.fit.paired_sections import STATIONS, section_pairs
+from footfit.geometry.fit.placement import docked, docking
+from footfit.geometry.measures.landmarks import Shape
+from footfit.geometry.mesh.nearest import nearest_on_surface, part_middles
 from tests import shapes
 from tools.lasts import LastSpec, last_mesh
 

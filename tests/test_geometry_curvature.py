@@ -7,8 +7,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from footfit.geometry.angles import angle_between
-from footfit.geometry.curvature import (
+from footfit.geometry.curvature.surface_curvature import (
     POOLING,
     PrincipalCurvatures,
     angle_defect,
@@ -17,8 +16,9 @@ from footfit.geometry.curvature import (
     one_ring_curvature,
     pooled_curvature,
 )
-from footfit.geometry.polylines import curvature_density
-from footfit.geometry.topology import boundary_loops, boundary_vertices, welded
+from footfit.geometry.mesh.topology import boundary_loops, boundary_vertices, welded
+from footfit.geometry.numeric.angles import angle_between
+from footfit.geometry.numeric.polylines import curvature_density
 from tests import implicit, shapes
 from tests.distortions import (
     decimated,

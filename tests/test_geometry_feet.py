@@ -5,10 +5,10 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from footfit.geometry.ends import doubtful_end, missing_part
-from footfit.geometry.feet import comparable, facing, gap, part_of, pieces, stand_apart
-from footfit.geometry.samples import quadrature
-from footfit.geometry.topology import boundary_loops
+from footfit.geometry.mesh.samples import quadrature
+from footfit.geometry.mesh.topology import boundary_loops
+from footfit.geometry.pose.missing_parts import doubtful_end, missing_part
+from footfit.geometry.pose.pieces import comparable, facing, gap, part_of, pieces, stand_apart
 from tests import distortions, shapes
 from tools.lasts import LastSpec, last_mesh
 

@@ -14,8 +14,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from footfit.errors import HalfScan
-from footfit.geometry import bottom_shape
-from footfit.geometry.flare import (
+from footfit.geometry.flare import levelled_bottom
+from footfit.geometry.flare.flare_profile import (
     CHANNELS,
     FlareDefinition,
     flare_class,
@@ -243,8 +243,9 @@ def test_the_definition_travels_as_json():
     assert FlareDefinition(**lists) == FlareDefinition()
 
 
-MODULES = ("flare", "flare_definition", "centre_line", "bands", "smoothing")
-MODULES += ("bottom", "bottom_shape", "bottom_surface")
+MODULES = ("flare.flare_profile", "flare.definition", "flare.centre_line", "flare.band_edges")
+MODULES += ("flare.bottom_curves", "flare.levelled_bottom", "flare.sole_curvature")
+MODULES += ("numeric.smoothing",)
 SPARING = {"_NEIGHBOURHOOD", "_LIFT"}  # the next test: no value depends on them
 
 
@@ -269,8 +270,8 @@ def test_no_chosen_number_stands_outside_the_definition(name):
 
 def test_what_is_left_out_before_changes_nothing(usual, monkeypatch):
     vertices, faces, profile = usual
-    monkeypatch.setattr(bottom_shape, "_NEIGHBOURHOOD", 0.2)
-    monkeypatch.setattr(bottom_shape, "_LIFT", 0.1)
+    monkeypatch.setattr(levelled_bottom, "_NEIGHBOURHOOD", 0.2)
+    monkeypatch.setattr(levelled_bottom, "_LIFT", 0.1)
     same(profile, flare_profile(vertices, faces), 1e-9)
 
 

@@ -7,10 +7,10 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from footfit.geometry.floor import LEVEL, Plane, fitted_plane, sole_plane, support
-from footfit.geometry.plate import is_flat, without_plate
-from footfit.geometry.samples import quadrature
-from footfit.geometry.topology import welded
+from footfit.geometry.mesh.samples import quadrature
+from footfit.geometry.mesh.topology import welded
+from footfit.geometry.pose.floor_plate import is_flat, without_plate
+from footfit.geometry.pose.sole_plane import LEVEL, Plane, fitted_plane, sole_plane, support
 from tests import distortions, shapes
 from tools.lasts import LastSpec, last_mesh
 

@@ -7,10 +7,10 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from footfit.geometry.frame import about_z, canonical_frame, levelling
-from footfit.geometry.quantiles import area_quantile
-from footfit.geometry.rotations import angle_deg, turned_by
-from footfit.geometry.samples import quadrature
+from footfit.geometry.mesh.samples import quadrature
+from footfit.geometry.numeric.quantiles import area_quantile
+from footfit.geometry.numeric.rotations import angle_deg, turned_by
+from footfit.geometry.pose.frame import about_z, canonical_frame, levelling
 from tests import distortions, shapes
 from tools.lasts import LastSpec, last_mesh
 

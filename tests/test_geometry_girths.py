@@ -8,8 +8,8 @@ from hypothesis import given, settings
 from scipy.spatial import ConvexHull
 from scipy.special import ellipe
 
-from footfit.geometry.girths import convex_hull, hull_girth
-from footfit.geometry.landmarks import Shape
+from footfit.geometry.measures.landmarks import Shape
+from footfit.geometry.measures.tape import convex_hull, hull_girth
 from tests import shapes
 from tests.strategies import seeds
 

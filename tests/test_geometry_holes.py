@@ -7,10 +7,10 @@ import pytest
 from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
-from footfit.geometry.caps import extent_of
-from footfit.geometry.holes import HOLES, filled
-from footfit.geometry.surface import area_vectors, signed_volume
-from footfit.geometry.topology import (
+from footfit.geometry.mesh.caps import extent_of
+from footfit.geometry.mesh.holes import HOLES, filled
+from footfit.geometry.mesh.surface import area_vectors, signed_volume
+from footfit.geometry.mesh.topology import (
     boundary_loops,
     is_closed,
     is_consistently_wound,

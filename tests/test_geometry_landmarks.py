@@ -7,11 +7,11 @@ from functools import cache
 import numpy as np
 import pytest
 
-from footfit.geometry.landmarks import Shape
-from footfit.geometry.surface import face_areas
+from footfit.geometry.measures.landmarks import Shape
+from footfit.geometry.mesh.surface import face_areas
 from footfit.meshes.read import read_scan
-from footfit.pipeline.align import aligned
-from footfit.pipeline.flare import right_shape
+from footfit.pipeline.scan.align import aligned
+from footfit.pipeline.scan.flare import right_shape
 from tests import shapes
 from tests.conftest import SAMPLES
 from tests.distortions import decimated, leg_cut, white_noise

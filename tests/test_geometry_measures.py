@@ -11,12 +11,12 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from footfit.geometry import topology
-from footfit.geometry.landmarks import Shape
-from footfit.geometry.measures import BOTH, MEASURES, of_kind, unusual
+from footfit.geometry.measures.landmarks import Shape
+from footfit.geometry.measures.measure_table import BOTH, MEASURES, of_kind, unusual
+from footfit.geometry.mesh import topology
 from footfit.meshes.read import read_scan
-from footfit.pipeline.align import aligned
-from footfit.pipeline.flare import right_shape
+from footfit.pipeline.scan.align import aligned
+from footfit.pipeline.scan.flare import right_shape
 from tests.conftest import ROOT, SAMPLES
 from tests.distortions import axis_rotation, half_subdivided, leg_cut, moved, plane_cut, white_noise
 from tests.strategies import seeds

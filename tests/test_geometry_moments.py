@@ -7,7 +7,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from footfit.geometry.moments import (
+from footfit.geometry.mesh.moments import (
     moments_along,
     principal_axes,
     printed_covariance,

@@ -9,18 +9,18 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from footfit.geometry.orientation import (
+from footfit.geometry.mesh.samples import even_sample
+from footfit.geometry.numeric.rotations import turned_by
+from footfit.geometry.pose.icp import FIT, Poses, _plane_part, _point_part, icp_steps, levelled
+from footfit.geometry.pose.icp import moved as pose_fit_moved
+from footfit.geometry.pose.pose_search import (
     ORIENTATION,
     is_accepted,
     mirror_image,
     orientation,
     turned_about,
 )
-from footfit.geometry.pose_fit import FIT, Poses, _plane_part, _point_part, icp_steps, levelled
-from footfit.geometry.pose_fit import moved as pose_fit_moved
-from footfit.geometry.rotations import turned_by
-from footfit.geometry.samples import even_sample
-from footfit.pipeline.references import shipped_references
+from footfit.pipeline.scan.shipped_templates import shipped_references
 from tests import distortions, shapes
 from tools.lasts import LastSpec, last_mesh
 

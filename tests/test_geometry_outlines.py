@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 
-from footfit.geometry.outlines import closed_loops, outline, smoothed
+from footfit.geometry.mesh.outlines import closed_loops, outline, smoothed
 from tests import shapes
 from tests.distortions import joined, shuffled, subdivided, white_noise
 from tests.strategies import seeds, surfaces

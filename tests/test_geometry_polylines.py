@@ -7,7 +7,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from footfit.geometry.polylines import arc_length, concentrated_curvature, curvature_density
+from footfit.geometry.numeric.polylines import arc_length, concentrated_curvature, curvature_density
 from tests.strategies import rotations, scales, seeds
 
 

@@ -5,9 +5,9 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from footfit.geometry import surface, topology
-from footfit.geometry.curvature import pooled_curvature
-from footfit.geometry.refinement import with_flat_facets_split
+from footfit.geometry.curvature.surface_curvature import pooled_curvature
+from footfit.geometry.mesh import surface, topology
+from footfit.geometry.mesh.refinement import with_flat_facets_split
 from tests import shapes
 from tests.distortions import subdivided
 

@@ -6,7 +6,12 @@ import numpy as np
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from footfit.geometry.rotations import angle_deg, nearest_rotation, super_fibonacci, turned_by
+from footfit.geometry.numeric.rotations import (
+    angle_deg,
+    nearest_rotation,
+    super_fibonacci,
+    turned_by,
+)
 from tests import distortions
 
 

@@ -7,8 +7,8 @@ from dataclasses import astuple
 import numpy as np
 import pytest
 
-from footfit.geometry.samples import SurfaceSample, farthest_points, gathered, quadrature
-from footfit.geometry.surface import surface_area
+from footfit.geometry.mesh.samples import SurfaceSample, farthest_points, gathered, quadrature
+from footfit.geometry.mesh.surface import surface_area
 from tests import distortions, shapes
 
 

@@ -7,8 +7,8 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from footfit.geometry.bands import band_edges
-from footfit.geometry.sections import (
+from footfit.geometry.flare.band_edges import band_edges
+from footfit.geometry.mesh.sections import (
     Planes,
     depth_at,
     extremes_below,

@@ -5,9 +5,9 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from footfit.geometry.frame import canonical_frame
-from footfit.geometry.samples import quadrature
-from footfit.geometry.side import confidence, side_score
+from footfit.geometry.mesh.samples import quadrature
+from footfit.geometry.pose.frame import canonical_frame
+from footfit.geometry.pose.side import confidence, side_score
 from tools.lasts import LastSpec, last_mesh
 
 

@@ -6,7 +6,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from footfit.geometry.sizes import (
+from footfit.geometry.fit.sizes import (
     SYSTEMS,
     exact_size,
     foot_size,

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 
-from footfit.geometry import surface
+from footfit.geometry.mesh import surface
 from tests import shapes
 from tests.distortions import inside_out, subdivided
 from tests.strategies import rotations, scales, shifts_mm, surfaces

@@ -7,7 +7,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from footfit.geometry.tips import TIPS, share_over, tip
+from footfit.geometry.mesh.outermost_point import TIPS, share_over, tip
 from tests import shapes
 from tests.distortions import random_rotation, subdivided, white_noise
 from tests.strategies import seeds

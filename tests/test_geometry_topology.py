@@ -8,8 +8,8 @@ import trimesh
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from footfit.geometry import topology
-from footfit.geometry.surface import signed_volume
+from footfit.geometry.mesh import topology
+from footfit.geometry.mesh.surface import signed_volume
 from tests import shapes
 from tests.distortions import joined, plane_cut, shuffled, soup
 from tests.strategies import seeds, surfaces

@@ -7,14 +7,14 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from footfit.geometry import wpca
-from footfit.geometry.moments import (
+from footfit.geometry.mesh.moments import (
     moments_along,
     principal_axes,
     printed_covariance,
     vertex_mean,
 )
-from footfit.geometry.rotations import angle_deg, applied, transform, turned_by
+from footfit.geometry.numeric.rotations import angle_deg, applied, transform, turned_by
+from footfit.geometry.pose import paper_frame
 from tests import distortions
 from tools.lasts import LastSpec, last_mesh
 
@@ -33,7 +33,7 @@ def posed_frame(last, rng):
     moved = distortions.moved(vertices, pose)
     canonical = np.linalg.inv(pose)
     rows = principal_axes(printed_covariance(moved, faces))[1]
-    return moved, vertex_mean(moved), wpca.settled(rows, canonical[:3, :3]), canonical
+    return moved, vertex_mean(moved), paper_frame.settled(rows, canonical[:3, :3]), canonical
 
 
 @settings(max_examples=15, deadline=None)
@@ -44,11 +44,11 @@ def test_the_literal_reading_equals_om_e_v_prime(last, seed, left):
     vertices, faces = distortions.mirrored(*last) if left else last
     moved = distortions.moved(vertices, distortions.random_pose(rng))
     OM_E = distortions.random_rotation(rng)
-    P_c, _C_M, R = wpca.printed_axes(moved, faces)
+    P_c, _C_M, R = paper_frame.printed_axes(moved, faces)
     if left:
-        moved = moved @ wpca.FILE_MIRROR
-        P_c, R = wpca.mirrored_frame(P_c, R)
-    found = wpca.paper_transform(P_c, R, OM_E, np.zeros(3), 1.0, literal=True)
+        moved = moved @ paper_frame.FILE_MIRROR
+        P_c, R = paper_frame.mirrored_frame(P_c, R)
+    found = paper_frame.paper_transform(P_c, R, OM_E, np.zeros(3), 1.0, literal=True)
     expected = (moved - vertex_mean(moved)) @ OM_E.T
     assert np.abs(applied(found, moved) - expected).max() < 1e-9
 
@@ -58,13 +58,13 @@ def test_what_the_literal_reading_costs(last):
     vertices, _faces = last
     rng = np.random.default_rng(7)
     _, centroid, axes, canonical = posed_frame(last, rng)
-    OM_E = wpca.om_e(axes, canonical)
-    reference = wpca.canonical_centroid_mm(centroid, canonical, 1.0)
+    OM_E = paper_frame.om_e(axes, canonical)
+    reference = paper_frame.canonical_centroid_mm(centroid, canonical, 1.0)
     literal, consistent = [], []
     for _ in range(25):
         moved, centroid, axes, _ = posed_frame(last, rng)
-        wrong = wpca.paper_transform(centroid, axes, OM_E, reference, 1.0, literal=True)
-        right = wpca.paper_transform(centroid, axes, OM_E, reference, 1.0)
+        wrong = paper_frame.paper_transform(centroid, axes, OM_E, reference, 1.0, literal=True)
+        right = paper_frame.paper_transform(centroid, axes, OM_E, reference, 1.0)
         for found, displacement in ((wrong, literal), (right, consistent)):
             away = np.linalg.norm(applied(found, moved) - vertices, axis=1)
             displacement.append(np.median(away))
@@ -77,7 +77,7 @@ def test_what_the_literal_reading_costs(last):
 def test_step_5_turns_the_covariance_diagonal(last, seed):
     """In its own frame (OM_E = 1) the aligned mesh has the printed covariance of its values."""
     moved, centroid, axes, _ = posed_frame(last, np.random.default_rng(seed))
-    found = wpca.paper_transform(centroid, axes, np.eye(3), np.zeros(3), 1.0)
+    found = paper_frame.paper_transform(centroid, axes, np.eye(3), np.zeros(3), 1.0)
     C_M = printed_covariance(applied(found, moved), last[1])
     values = moments_along(printed_covariance(moved, last[1]), axes)
     np.testing.assert_allclose(C_M, np.diag(values), atol=1e-8)
@@ -93,10 +93,10 @@ def test_the_frames_angle_is_the_planted_turn(seed):
     axis = rng.normal(size=3)
     turn = turned_by(angle * axis[None] / np.linalg.norm(axis))[0]
     paper = turn @ canonical
-    of_mirrored = wpca.CANONICAL_MIRROR @ paper @ wpca.FILE_MIRROR
+    of_mirrored = paper_frame.CANONICAL_MIRROR @ paper @ paper_frame.FILE_MIRROR
     for found, mirrored in ((paper, False), (of_mirrored, True)):
         transforms = transform(found, rng.normal(size=3), 25.4), transform(canonical, np.ones(3))
-        found_deg = wpca.paper_frame_angle_deg(*transforms, mirrored=mirrored)
+        found_deg = paper_frame.paper_frame_angle_deg(*transforms, mirrored=mirrored)
         assert found_deg == pytest.approx(np.degrees(angle), abs=1e-9)
 
 
@@ -106,20 +106,20 @@ def test_a_left_last_lands_on_its_right_twin(last, seed, scale):
     """Mirrored before Eq. 1, the left twin's file has the very place of the right one's."""
     rng = np.random.default_rng(seed)
     _, centroid, axes, canonical = posed_frame(last, rng)
-    OM_E = wpca.om_e(axes, canonical)
-    reference = wpca.canonical_centroid_mm(centroid, canonical, 1.0)
+    OM_E = paper_frame.om_e(axes, canonical)
+    reference = paper_frame.canonical_centroid_mm(centroid, canonical, 1.0)
     twin = distortions.mirrored(*last)
     left, left_centroid, left_axes, left_canonical = posed_frame(twin, rng)
-    as_right = wpca.mirrored_frame(left_centroid, left_axes)
-    found = wpca.paper_transform(*as_right, OM_E, reference, scale)
+    as_right = paper_frame.mirrored_frame(left_centroid, left_axes)
+    found = paper_frame.paper_transform(*as_right, OM_E, reference, scale)
     file = left / scale * [-1.0, 1.0, 1.0]
     assert np.abs(applied(found, file) - last[0]).max() < 1e-6
-    direct = wpca.unmirrored(found, mirrored=True)
+    direct = paper_frame.unmirrored(found, mirrored=True)
     assert np.linalg.det(direct[:3, :3]) > 0
     assert np.abs(applied(direct, left / scale) - twin[0]).max() < 1e-6
     left_canonical = left_canonical @ np.diag([scale, scale, scale, 1.0])
-    assert angle_deg(wpca.om_e(left_axes, left_canonical, mirrored=True), OM_E) < 1e-6
-    of_left = wpca.canonical_centroid_mm(left_centroid, left_canonical, scale, mirrored=True)
+    assert angle_deg(paper_frame.om_e(left_axes, left_canonical, mirrored=True), OM_E) < 1e-6
+    of_left = paper_frame.canonical_centroid_mm(left_centroid, left_canonical, scale, mirrored=True)
     assert np.abs(of_left - reference).max() < 1e-6
 
 
@@ -131,7 +131,7 @@ def test_settled_axes_are_a_rotation_whatever_order_and_signs_came(seed):
     near = turned_by(rng.uniform(-0.2, 0.2, (1, 3)))[0]
     axes = near @ canonical
     shuffled = axes[rng.permutation(3)] * rng.choice([-1.0, 1.0], 3)[:, None]
-    np.testing.assert_allclose(wpca.settled(shuffled, canonical), axes, atol=1e-12)
+    np.testing.assert_allclose(paper_frame.settled(shuffled, canonical), axes, atol=1e-12)
 
 
 @settings(max_examples=30, deadline=None)
@@ -139,6 +139,6 @@ def test_settled_axes_are_a_rotation_whatever_order_and_signs_came(seed):
 def test_largest_positive_is_a_rotation(seed):
     rng = np.random.default_rng(seed)
     rows = distortions.random_rotation(rng) * rng.choice([-1.0, 1.0], 3)[:, None]
-    signed = wpca.largest_positive(rows)
+    signed = paper_frame.largest_positive(rows)
     assert np.linalg.det(signed) == pytest.approx(1.0)
     assert (signed[np.arange(2), np.abs(signed[:2]).argmax(axis=1)] > 0).all()

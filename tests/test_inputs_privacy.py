@@ -14,8 +14,8 @@ from pathlib import Path
 
 import pytest
 
-from footfit.pipeline import ingest
-from footfit.pipeline.batch import HERE, outcomes
+from footfit.pipeline.batch.runs import HERE, outcomes
+from footfit.pipeline.library import ingest
 from tests.conftest import SAMPLES, Footfit
 
 ROOT = Path(__file__).resolve().parents[1]

@@ -9,8 +9,8 @@ import numpy as np
 import pytest
 
 from footfit.meshes.write import encoded_mesh
-from footfit.pipeline.reading import aligned_source
-from footfit.pipeline.sources import ReadingOptions, Source
+from footfit.pipeline.batch.sources import ReadingOptions, Source
+from footfit.pipeline.scan.reading import aligned_source
 from tests import distortions, shapes
 from tests.conftest import SAMPLES, Footfit
 

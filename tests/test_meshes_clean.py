@@ -8,9 +8,9 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from footfit.errors import DamagedMesh, EmptyMesh
-from footfit.geometry.surface import signed_volume, surface_area, unit
-from footfit.geometry.topology import is_closed, is_consistently_wound
-from footfit.meshes.clean import cleaned
+from footfit.geometry.mesh.surface import signed_volume, surface_area, unit
+from footfit.geometry.mesh.topology import is_closed, is_consistently_wound
+from footfit.meshes.clean.cleaning import cleaned
 from tests import distortions, shapes
 
 FOOT = shapes.ellipsoid((125.0, 50.0, 40.0), subdivisions=3)

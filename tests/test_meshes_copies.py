@@ -12,10 +12,10 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from footfit.errors import CatalogueDamaged
-from footfit.geometry.surface import signed_volume
-from footfit.geometry.topology import is_closed
-from footfit.meshes.copies import COPY_SETTINGS, compact_copy, expanded
-from footfit.meshes.deviation import largest_deviation_mm, point_triangle_distances
+from footfit.geometry.mesh.surface import signed_volume
+from footfit.geometry.mesh.topology import is_closed
+from footfit.meshes.copies.compact_copy import COPY_SETTINGS, compact_copy, expanded
+from footfit.meshes.copies.deviation import largest_deviation_mm, point_triangle_distances
 from tests import distortions, shapes
 
 FOOT = shapes.ellipsoid((125.0, 50.0, 40.0), subdivisions=4)  # 5,120 faces

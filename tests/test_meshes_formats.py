@@ -13,13 +13,13 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from footfit.errors import BadOption, DamagedMesh, TooLarge
-from footfit.geometry.surface import area_vectors, surface_area
-from footfit.meshes import stl
-from footfit.meshes.foreign import is_text, known_foreign, likeness
-from footfit.meshes.formats import EXTENSIONS, FORMATS, raw_mesh
-from footfit.meshes.limits import LIMITS
-from footfit.meshes.ply import read_ply
-from footfit.meshes.tokens import floats, text_lines
+from footfit.geometry.mesh.surface import area_vectors, surface_area
+from footfit.meshes.formats import stl
+from footfit.meshes.formats.foreign import is_text, known_foreign, likeness
+from footfit.meshes.formats.known_formats import EXTENSIONS, FORMATS, raw_mesh
+from footfit.meshes.formats.ply import read_ply
+from footfit.meshes.formats.tokens import floats, text_lines
+from footfit.meshes.read_limits import LIMITS
 from footfit.meshes.write import COLOUR, WRITERS, encoded_mesh
 from tests import corpus, shapes
 from tests.distortions import shuffled

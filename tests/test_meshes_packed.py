@@ -15,9 +15,9 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from footfit.errors import InputError
-from footfit.meshes.formats import raw_mesh
-from footfit.meshes.limits import LIMITS
+from footfit.meshes.formats.known_formats import raw_mesh
 from footfit.meshes.read import scan_from_bytes
+from footfit.meshes.read_limits import LIMITS
 from tests import corpus, packed
 from tests.distortions import moved, random_pose
 

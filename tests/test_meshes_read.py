@@ -22,9 +22,9 @@ from footfit.errors import (
     UnknownUnits,
     UnreadableFile,
 )
-from footfit.geometry.surface import surface_area
-from footfit.meshes.limits import Limits
+from footfit.geometry.mesh.surface import surface_area
 from footfit.meshes.read import read_scan, read_stream, scan_from_bytes
+from footfit.meshes.read_limits import Limits
 from footfit.meshes.write import encoded_mesh
 from tests import corpus
 

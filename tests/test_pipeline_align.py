@@ -22,15 +22,15 @@ from footfit.errors import (
     SeveralFeet,
     UnknownUnits,
 )
-from footfit.geometry import wpca
-from footfit.geometry.moments import printed_covariance, surface_second_moment
-from footfit.geometry.rotations import angle_deg, applied
+from footfit.geometry.mesh.moments import printed_covariance, surface_second_moment
+from footfit.geometry.numeric.rotations import angle_deg, applied
+from footfit.geometry.pose import paper_frame
 from footfit.meshes.read import read_scan
 from footfit.meshes.units import UNIT_NAMES, UNIT_SCALES
-from footfit.pipeline import align
-from footfit.pipeline.align import aligned
-from footfit.pipeline.flare import profiled
-from footfit.pipeline.units import unit_notes
+from footfit.pipeline.scan import align
+from footfit.pipeline.scan.align import aligned
+from footfit.pipeline.scan.flare import profiled
+from footfit.pipeline.scan.settled_unit import unit_notes
 from footfit.results import MeshInfo, Notice, Reference, Scan
 from tests import distortions, shapes
 from tests.conftest import SAMPLES
@@ -74,8 +74,8 @@ def reference_of(alignment):
     frame, unit = alignment.printed_frame, alignment.info.unit_scale
     return Reference(
         "first",
-        wpca.om_e(frame.eigenvectors, alignment.canonical_transform),
-        wpca.canonical_centroid_mm(frame.centroid_mm, alignment.canonical_transform, unit),
+        paper_frame.om_e(frame.eigenvectors, alignment.canonical_transform),
+        paper_frame.canonical_centroid_mm(frame.centroid_mm, alignment.canonical_transform, unit),
     )
 
 

@@ -12,9 +12,9 @@ from contextlib import suppress
 import pytest
 
 from footfit.errors import DamagedMesh, NotAFoot, TooLarge, TooSlow, UnreadableFile
-from footfit.pipeline.batch import HERE, outcomes
-from footfit.pipeline.limits import WorkLimits
-from footfit.pipeline.sources import Source
+from footfit.pipeline.batch.runs import HERE, outcomes
+from footfit.pipeline.batch.sources import Source
+from footfit.pipeline.batch.work_limits import WorkLimits
 
 
 def length_of_name(source: Source) -> int:

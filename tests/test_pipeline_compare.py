@@ -9,16 +9,16 @@ import numpy as np
 import pytest
 
 from footfit.errors import NoSole
-from footfit.geometry.clearance import ZONES, zone_of
-from footfit.geometry.landmarks import Shape
-from footfit.geometry.surface import vertex_areas, vertex_normals
+from footfit.geometry.fit.clearance import ZONES, zone_of
+from footfit.geometry.measures.landmarks import Shape
+from footfit.geometry.mesh.surface import vertex_areas, vertex_normals
 from footfit.meshes.write import encoded_mesh
-from footfit.pipeline.compare import best_comparison, compared, repeatability_mm, stored_last
-from footfit.pipeline.lasts import library
-from footfit.pipeline.match import matched
-from footfit.pipeline.reading import profiled_source
-from footfit.pipeline.shapes import best_comparisons
-from footfit.pipeline.sources import ReadingOptions, Source
+from footfit.pipeline.batch.sources import ReadingOptions, Source
+from footfit.pipeline.drawables import best_comparisons
+from footfit.pipeline.fit.compare import best_comparison, compared, repeatability_mm, stored_last
+from footfit.pipeline.fit.match import matched
+from footfit.pipeline.library.lasts import library
+from footfit.pipeline.scan.reading import profiled_source
 from tests.answers import turned
 from tests.comparisons import comparison, last
 from tools.lasts import LastSpec, last_mesh

@@ -8,9 +8,9 @@ import numpy as np
 import pytest
 
 from footfit.errors import BadOption
-from footfit.geometry.topology import welded
+from footfit.geometry.mesh.topology import welded
 from footfit.meshes.read import read_scan
-from footfit.pipeline.curvature import surface_curvature
+from footfit.pipeline.scan.curvature import surface_curvature
 from footfit.results import MeshInfo, Scan
 from tests import shapes
 from tests.distortions import random_rotation, soup, white_noise

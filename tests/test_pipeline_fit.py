@@ -9,7 +9,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from footfit.pipeline.fit import (
+from footfit.pipeline.fit.scoring import (
     ACCEPTABLE,
     GOOD,
     POOR,

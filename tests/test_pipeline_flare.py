@@ -10,12 +10,12 @@ import pytest
 
 from benchmarks import bends
 from footfit.errors import SideUndecided
-from footfit.geometry.centre_line import low_length
-from footfit.geometry.flare import CHANNELS, FlareDefinition, flare_profile
-from footfit.geometry.surface import signed_volume
+from footfit.geometry.flare.centre_line import low_length
+from footfit.geometry.flare.flare_profile import CHANNELS, FlareDefinition, flare_profile
+from footfit.geometry.mesh.surface import signed_volume
 from footfit.meshes.read import read_scan
-from footfit.pipeline.align import aligned
-from footfit.pipeline.flare import profiled, right_shape
+from footfit.pipeline.scan.align import aligned
+from footfit.pipeline.scan.flare import profiled, right_shape
 from tests import distortions
 
 SCANS = Path(__file__).resolve().parents[2] / "shared" / "scans" / "makehuman"

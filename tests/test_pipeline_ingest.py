@@ -8,10 +8,10 @@ from pathlib import Path
 import pytest
 
 from footfit.errors import BadOption, NameTaken
-from footfit.pipeline.ingest import Entry, decision, entries, last_record, unused_rows
-from footfit.pipeline.manifest import manifest_rows
-from footfit.pipeline.reading import profiled_source
-from footfit.pipeline.sources import ReadingOptions, Source
+from footfit.pipeline.batch.sources import ReadingOptions, Source
+from footfit.pipeline.library.ingest import Entry, decision, entries, last_record, unused_rows
+from footfit.pipeline.library.manifest import manifest_rows
+from footfit.pipeline.scan.reading import profiled_source
 from footfit.results import LastLabels, Measure, Measured
 from tests.conftest import SAMPLES
 from tests.records import last

@@ -15,13 +15,13 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from footfit.geometry.rotations import applied
+from footfit.geometry.numeric.rotations import applied
 from footfit.meshes.read import scan_from_bytes
 from footfit.meshes.units import UNIT_SCALES
 from footfit.meshes.write import encoded_mesh
-from footfit.pipeline.align import aligned
-from footfit.pipeline.curvature import surface_curvature
-from footfit.pipeline.flare import profiled
+from footfit.pipeline.scan.align import aligned
+from footfit.pipeline.scan.curvature import surface_curvature
+from footfit.pipeline.scan.flare import profiled
 from tests import distortions
 from tests.conftest import SAMPLES
 from tools.lasts import LastSpec, last_mesh

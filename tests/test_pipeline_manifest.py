@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 
 from footfit.errors import BadManifest
-from footfit.pipeline.manifest import COLUMNS, manifest_rows, read_manifest
+from footfit.pipeline.library.manifest import COLUMNS, manifest_rows, read_manifest
 
 FOLDER = Path("shop")
 

@@ -14,14 +14,14 @@ from hypothesis import strategies as st
 
 from footfit.catalogue.store import open_catalogue
 from footfit.errors import BadOption, NoCandidate
-from footfit.pipeline.choice import choice
-from footfit.pipeline.match import Library, Question, matched, meets
-from footfit.pipeline.profile import fit_profile
-from footfit.pipeline.ranking import TIE_DISTANCE
-from footfit.pipeline.reading import profiled_source
-from footfit.pipeline.sources import ReadingOptions, Source
-from footfit.pipeline.zones import BALL_SHARE, ball_line, pitch_gain_mm, zone_shape
-from footfit.results import Candidate, LastRecord, Match, Measure, Measured, Profiled
+from footfit.pipeline.batch.sources import ReadingOptions, Source
+from footfit.pipeline.fit.candidates import choice
+from footfit.pipeline.fit.fit_profile import fit_profile
+from footfit.pipeline.fit.match import Question, matched, meets
+from footfit.pipeline.fit.ranking import TIE_DISTANCE
+from footfit.pipeline.fit.zones import BALL_SHARE, ball_line, pitch_gain_mm, zone_shape
+from footfit.pipeline.scan.reading import profiled_source
+from footfit.results import Candidate, LastRecord, Library, Match, Measure, Measured, Profiled
 from tests import answers, records
 from tests.conftest import SAMPLES
 

@@ -11,11 +11,11 @@ import pytest
 
 from footfit.errors import HalfScan, SideUndecided
 from footfit.meshes.read import read_scan
-from footfit.pipeline.align import aligned
-from footfit.pipeline.choice import choice
-from footfit.pipeline.flare import profiled
-from footfit.pipeline.match import Question, matched
-from footfit.pipeline.measure import measured_scan, suspects
+from footfit.pipeline.fit.candidates import choice
+from footfit.pipeline.fit.match import Question, matched
+from footfit.pipeline.scan.align import aligned
+from footfit.pipeline.scan.flare import profiled
+from footfit.pipeline.scan.measure import measured_scan, suspects
 from footfit.results import Measure, Measured
 from tests.conftest import SAMPLES, Footfit
 from tests.distortions import (

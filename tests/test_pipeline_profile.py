@@ -9,7 +9,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from footfit.errors import BadOption, BadProfile, FootfitError, UnreadableFile
-from footfit.pipeline.profile import FOLDER, fit_profile, profile_of, shipped
+from footfit.pipeline.fit.fit_profile import FOLDER, fit_profile, profile_of, shipped
 
 PLAIN = """
 schema = "footfit.fit-profile/1"

@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 
 from footfit.errors import BadOption, UnreadableFile
-from footfit.pipeline.sources import mesh_sources
+from footfit.pipeline.batch.sources import mesh_sources
 
 
 def touched(folder: Path, *names: str) -> None:

@@ -9,13 +9,13 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from footfit.catalogue import writing
-from footfit.catalogue.blobs import definition_text
+from footfit.catalogue.rows import writing
+from footfit.catalogue.rows.array_blobs import definition_text
 from footfit.catalogue.store import open_catalogue
 from footfit.errors import NoCatalogue
-from footfit.geometry.flare import FlareDefinition
-from footfit.pipeline.lasts import library
-from footfit.pipeline.upgrade import upgrade
+from footfit.geometry.flare.flare_profile import FlareDefinition
+from footfit.pipeline.library.lasts import library
+from footfit.pipeline.library.upgrade import upgrade
 
 
 def test_profiles_of_another_definition_are_recomputed_and_marked(catalogue: Path) -> None:

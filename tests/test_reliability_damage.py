@@ -9,9 +9,9 @@ from pathlib import Path
 
 import pytest
 
-from footfit.catalogue.migrate import Schema
-from footfit.catalogue.ranges import implausible
-from footfit.catalogue.reading import StoredLast, stored_lasts
+from footfit.catalogue.checks.plausible_values import implausible
+from footfit.catalogue.file.migrate import Schema
+from footfit.catalogue.rows.verified_rows import StoredLast, stored_lasts
 from footfit.catalogue.store import open_catalogue
 from tests import records
 from tests.conftest import Footfit

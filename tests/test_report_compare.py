@@ -12,20 +12,20 @@ import numpy as np
 import pytest
 
 from footfit.meshes.read import scan_from_bytes
-from footfit.report import compare_html
-from footfit.report.compare import (
+from footfit.report.json.lines import json_line
+from footfit.report.page import compare_page
+from footfit.report.page.compare_page import compare_report
+from footfit.report.pictures.compare_pictures import heat_bytes, sections_plot
+from footfit.report.pictures.heat import heat_colours
+from footfit.report.pictures.heat_figure import heat_image, own_side
+from footfit.report.pictures.shading import VIEWS, Frame
+from footfit.report.terminal.comparison_tables import (
     CSV_COLUMNS,
     compare_csv,
     compare_document,
     compare_table,
 )
-from footfit.report.compare_html import compare_report
-from footfit.report.compare_pictures import heat_bytes, sections_plot
-from footfit.report.heat import heat_colours
-from footfit.report.heat_figure import heat_image, own_side
-from footfit.report.lines import json_line
-from footfit.report.shading import VIEWS, Frame
-from footfit.report.tables import terminal_text
+from footfit.report.terminal.scan_tables import terminal_text
 from footfit.results import Notice
 from tests import browsing, shapes
 from tests.comparisons import comparison
@@ -39,7 +39,7 @@ def page_of() -> str:
 @pytest.fixture
 def unpictured(monkeypatch) -> None:
     """Pages without pictures, for tests of the words alone."""
-    monkeypatch.setattr(compare_html, "picture", lambda *_, **__: "")
+    monkeypatch.setattr(compare_page, "picture", lambda *_, **__: "")
 
 
 needs_browser = pytest.mark.skipif(browsing.BROWSER is None, reason=browsing.MISSING)

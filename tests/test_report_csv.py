@@ -11,7 +11,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from footfit.report.csv import (
+from footfit.report.csv.answers_csv import (
     FLARE_COLUMNS,
     LAST_COLUMNS,
     MATCH_COLUMNS,

@@ -17,16 +17,22 @@ from hypothesis import strategies as st
 
 from footfit import __version__
 from footfit.errors import SeveralFeet
-from footfit.pipeline.match import Library, matched
-from footfit.report import documents, last_documents, measure_documents, upkeep
-from footfit.report.compare import compare_document
-from footfit.report.lines import failure_document
-from footfit.report.numbers import nested, rounded
-from footfit.report.parts import finite, paper_frame_angle_deg
+from footfit.pipeline.fit.match import matched
+from footfit.report.json import (
+    documents,
+    last_documents,
+    measure_documents,
+    upkeep_documents,
+)
+from footfit.report.json.lines import failure_document
+from footfit.report.json.numbers import nested, rounded
+from footfit.report.json.parts import finite, paper_frame_angle_deg
+from footfit.report.terminal.comparison_tables import compare_document
 from footfit.results import (
     BackupOutcome,
     CheckOutcome,
     Finding,
+    Library,
     Measured,
     MeshCopy,
     Notice,
@@ -64,9 +70,11 @@ def every_document():
         last_documents.export_last_document("a", "a.stl", MeshCopy(b"", 10, 0.1)),
         last_documents.catalogue_info_document(answers.facts()),
         last_documents.upgrade_catalogue_document(upgrade),
-        upkeep.check_catalogue_document(CheckOutcome("a.footfit", 12, 12, (FINDING,))),
-        upkeep.backup_catalogue_document(BackupOutcome("a.footfit", "b.footfit", 9, 12)),
-        upkeep.restore_catalogue_document(RestoreOutcome("a.footfit", "b.footfit", 12, None)),
+        upkeep_documents.check_catalogue_document(CheckOutcome("a.footfit", 12, 12, (FINDING,))),
+        upkeep_documents.backup_catalogue_document(BackupOutcome("a.footfit", "b.footfit", 9, 12)),
+        upkeep_documents.restore_catalogue_document(
+            RestoreOutcome("a.footfit", "b.footfit", 12, None)
+        ),
         last_documents.demo_document("demo", 12, "derby-42", ["report.html"]),
     ]
 
@@ -131,7 +139,7 @@ def test_the_page_lists_the_keys_of_a_fit() -> None:
     assert {key for rule in rules.values() for key in rule} == listed["rule"]
     assert list(rules) == list(fit["zones"])
     documents.json_line(match)
-    checked = upkeep.check_catalogue_document(CheckOutcome("a.footfit", 1, 1, (FINDING,)))
+    checked = upkeep_documents.check_catalogue_document(CheckOutcome("a.footfit", 1, 1, (FINDING,)))
     assert set(checked["findings"][0]) == listed["finding"]
 
 
@@ -152,7 +160,7 @@ def test_an_error_says_the_same_by_its_class_and_by_its_words() -> None:
 
 def test_an_error_is_said_without_the_heavy_libraries() -> None:
     code = (
-        "import sys; from footfit.report.lines import json_line, failure_document;"
+        "import sys; from footfit.report.json.lines import json_line, failure_document;"
         "json_line(failure_document('x', 3, 'x', None));"
         "print(sorted({'numpy', 'rich', 'matplotlib', 'scipy'} & set(sys.modules)))"
     )

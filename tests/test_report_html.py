@@ -12,10 +12,11 @@ from html.parser import HTMLParser
 import numpy as np
 import pytest
 
-from footfit.pipeline.match import Library, matched
-from footfit.report import compare_html, documents, html
-from footfit.report.html import match_report
-from footfit.results import LastRecord, Measured, Notice
+from footfit.pipeline.fit.match import matched
+from footfit.report.json import documents
+from footfit.report.page import compare_page, match_page
+from footfit.report.page.match_page import match_report
+from footfit.results import LastRecord, Library, Measured, Notice
 from tests import answers, browsing
 from tests.comparisons import comparison
 
@@ -73,8 +74,8 @@ def drawn(feet: int = 1, roomy: bool = False) -> str:
 @pytest.fixture
 def unpictured(monkeypatch) -> None:
     """Pages without pictures, for tests of the words alone."""
-    monkeypatch.setattr(html, "picture", lambda *_, **__: "")
-    monkeypatch.setattr(compare_html, "picture", lambda *_, **__: "")
+    monkeypatch.setattr(match_page, "picture", lambda *_, **__: "")
+    monkeypatch.setattr(compare_page, "picture", lambda *_, **__: "")
 
 
 def test_the_page_is_the_same_twice() -> None:

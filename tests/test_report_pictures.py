@@ -10,16 +10,21 @@ import numpy as np
 import pytest
 
 from footfit.errors import BadOption
-from footfit.report import curvature_figure as curvature_module
-from footfit.report import frames_figure as frames_module
-from footfit.report import plots
-from footfit.report.curvature_figure import UNDEFINED, colour_reach, curvature_figure
-from footfit.report.figures import picture_bytes, svg_text
-from footfit.report.flare_figure import centre_line_mm, flare_figure, mean_heading_deg, windows
-from footfit.report.frames_figure import frames_figure
-from footfit.report.match_figure import match_figure, on_side
-from footfit.report.outlines import SHADOW, side_outline, sole_outline
-from footfit.report.shading import VIEWS, Frame, axonometric_view, fragments, shaded_image
+from footfit.report.pictures import curvature_figure as curvature_module
+from footfit.report.pictures import frames_figure as frames_module
+from footfit.report.pictures import plots
+from footfit.report.pictures.curvature_figure import UNDEFINED, colour_reach, curvature_figure
+from footfit.report.pictures.drawn_outlines import SHADOW, side_outline, sole_outline
+from footfit.report.pictures.figures import picture_bytes, svg_text
+from footfit.report.pictures.flare_figure import (
+    centre_line_mm,
+    flare_figure,
+    mean_heading_deg,
+    windows,
+)
+from footfit.report.pictures.frames_figure import frames_figure
+from footfit.report.pictures.match_figure import match_figure, on_side
+from footfit.report.pictures.shading import VIEWS, Frame, axonometric_view, fragments, shaded_image
 from footfit.results import SideVerdict
 from tests import answers
 from tests.shapes import sphere
@@ -119,7 +124,7 @@ def test_a_left_foots_centre_line_lies_in_its_own_outline() -> None:
 
 
 def test_a_last_is_mirrored_to_the_foots_side_and_stays_wound_outward() -> None:
-    from footfit.geometry.surface import signed_volume
+    from footfit.geometry.mesh.surface import signed_volume
 
     shape = answers.tube()
     vertices, faces = on_side(shape, "right", "left")

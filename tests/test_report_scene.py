@@ -11,17 +11,24 @@ from html import unescape
 import numpy as np
 import pytest
 
-from footfit.pipeline.shapes import drawable
-from footfit.report.heat import BREAKS_MM, COLOURS, NOT_COMPARED, heat_colours, rgb, step_words
-from footfit.report.html_page import page
-from footfit.report.html_style import content_hash
-from footfit.report.scene import (
+from footfit.pipeline.drawables import drawable
+from footfit.report.page.page import page
+from footfit.report.page.page_style import content_hash
+from footfit.report.page.scene import (
     MOST_VERTICES,
     UNKNOWN,
     packed_mesh,
     packed_room,
     scene_block,
     scene_script,
+)
+from footfit.report.pictures.heat import (
+    BREAKS_MM,
+    COLOURS,
+    NOT_COMPARED,
+    heat_colours,
+    rgb,
+    step_words,
 )
 from tests import browsing, shapes
 from tests.comparisons import comparison

@@ -9,10 +9,10 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from rich.cells import cell_len
 
-from footfit.pipeline.match import Library, matched
-from footfit.report import last_tables, match_tables, tables
-from footfit.report.tables import terminal_text
-from footfit.results import DemoOutcome, MeshCopy, SideVerdict, UpgradeOutcome
+from footfit.pipeline.fit.match import matched
+from footfit.report.terminal import last_tables, match_tables, scan_tables
+from footfit.report.terminal.scan_tables import terminal_text
+from footfit.results import DemoOutcome, Library, MeshCopy, SideVerdict, UpgradeOutcome
 from tests import answers
 
 LONG = "a-very-long-name-of-a-last-made-for-somebody-with-patience-42-eu-wide"
@@ -23,12 +23,14 @@ def every_table(name: str = "derby-42"):
     upgrade = UpgradeOutcome(name, "0001", "0002", "flare/1", (name,), name)
     foot = answers.foot(name, reference=replace(answers.reference(), last=name))
     return [
-        tables.align_table(foot.aligned.alignment),
-        tables.flare_table(foot),
+        scan_tables.align_table(foot.aligned.alignment),
+        scan_tables.flare_table(foot),
         match_tables.match_table(answers.match((foot,), names=(name, "oxford-42"))),
-        tables.ingest_line(answers.outcome(last=name)),
-        tables.ingest_line(answers.outcome(status="refused", last=None, error=name, path=name)),
-        tables.curvature_table(answers.curvature(name)),
+        scan_tables.ingest_line(answers.outcome(last=name)),
+        scan_tables.ingest_line(
+            answers.outcome(status="refused", last=None, error=name, path=name)
+        ),
+        scan_tables.curvature_table(answers.curvature(name)),
         last_tables.list_lasts_table([record], name),
         last_tables.show_last_table(record, name),
         last_tables.catalogue_info_table(answers.facts(path=name, styles=((name, 1),))),
@@ -138,7 +140,7 @@ def test_names_cannot_act(name: str) -> None:
         assert "\x1b" not in text
         assert "\r" not in text
         assert "\u202e" not in text
-        assert tables.visible(name)[:3] in text
+        assert scan_tables.visible(name)[:3] in text
 
 
 @given(st.text(min_size=1, max_size=25))
@@ -150,7 +152,7 @@ def test_any_name_can_be_shown(name: str) -> None:
 
 
 def test_the_side_says_who_said_so() -> None:
-    assert tables.side_words(SideVerdict("left", "low", 2.0, "given")) == "left (given)"
+    assert scan_tables.side_words(SideVerdict("left", "low", 2.0, "given")) == "left (given)"
 
 
 def test_the_list_marks_the_reference() -> None:

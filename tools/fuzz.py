@@ -17,7 +17,7 @@ import numpy as np
 
 from footfit.errors import InputError
 from footfit.meshes.read import scan_from_bytes
-from footfit.pipeline.limits import WorkLimits, limited
+from footfit.pipeline.batch.work_limits import WorkLimits, limited
 from tests import corpus, packed
 
 LIMITS = WorkLimits(seconds=2.0, address_bytes=500_000_000)

@@ -12,7 +12,7 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.interpolate import CubicSpline, PchipInterpolator
 
-from footfit.geometry.arrays import Floats
+from footfit.geometry.numeric.arrays import Floats
 
 Curve = Callable[[Floats], Floats]
 

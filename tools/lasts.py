@@ -34,7 +34,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from footfit.geometry.arrays import Floats, Ints
+from footfit.geometry.numeric.arrays import Floats, Ints
 from tools.last_profiles import SideView, Widths, crest_shape, side_view, widths
 from tools.last_specs import LastSpec, graded, plain, share, varied
 

@@ -13,12 +13,12 @@ from pathlib import Path
 import numpy as np
 
 from footfit.meshes.read import read_scan
-from footfit.pipeline import lasts
-from footfit.pipeline.align import aligned
-from footfit.pipeline.curvature import surface_curvature
 from footfit.pipeline.demo import demonstrate
-from footfit.pipeline.flare import profiled
-from footfit.report.plots import curvature_plot, flare_plot, frames_plot
+from footfit.pipeline.library import lasts
+from footfit.pipeline.scan.align import aligned
+from footfit.pipeline.scan.curvature import surface_curvature
+from footfit.pipeline.scan.flare import profiled
+from footfit.report.pictures.plots import curvature_plot, flare_plot, frames_plot
 from footfit.results import Scan
 from tests.distortions import moved, random_pose, white_noise
 

@@ -1,6 +1,6 @@
-"""Make footfit/pipeline/references.npz: the foot and the last that every pose is fitted to.
+"""Make footfit/pipeline/scan/templates.npz: the foot and the last that every pose is fitted to.
 
-    python -m tools.make_references FOOT.stl [-o footfit/pipeline/references.npz]
+    python -m tools.make_references FOOT.stl [-o footfit/pipeline/scan/templates.npz]
 
 FOOT is a right foot in mm with x from heel to toe and the sole near z = 0; the shipped file is
 made from the CC0 foot mh006_R of the generated feet. The last is the generator's own.
@@ -14,10 +14,10 @@ from pathlib import Path
 
 import numpy as np
 
-from footfit.geometry.frame import canonical_frame
-from footfit.geometry.samples import even_sample, quadrature
+from footfit.geometry.mesh.samples import even_sample, quadrature
+from footfit.geometry.pose.frame import canonical_frame
 from footfit.meshes import read
-from footfit.pipeline.references import FILE, NORMAL_STEP, POINT_STEP
+from footfit.pipeline.scan.shipped_templates import FILE, NORMAL_STEP, POINT_STEP
 
 PITCH = 0.025
 POINTS = 6000

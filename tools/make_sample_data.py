@@ -16,7 +16,7 @@ from pathlib import Path
 
 import numpy as np
 
-from footfit.geometry.arrays import Floats
+from footfit.geometry.numeric.arrays import Floats
 from footfit.meshes.write import encoded_mesh
 from tools.lasts import LastSpec, last_mesh
 

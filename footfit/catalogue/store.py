@@ -6,13 +6,16 @@ from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from pathlib import Path
 
-from footfit.catalogue.copying import copy_into
-from footfit.catalogue.damage import findings
-from footfit.catalogue.engine import SETTINGS, CatalogueFile, worded
-from footfit.catalogue.facts import facts
-from footfit.catalogue.migrate import Revisions, Schema
-from footfit.catalogue.opening import opened_for_reading, opened_for_writing
-from footfit.catalogue.reading import (
+from footfit.catalogue.checks.damage import findings
+from footfit.catalogue.file.copying import copy_into
+from footfit.catalogue.file.engine import SETTINGS, CatalogueFile, worded
+from footfit.catalogue.file.migrate import Revisions, Schema
+from footfit.catalogue.file.opening import opened_for_reading, opened_for_writing
+from footfit.catalogue.rows.records import mesh_copy_of, record_of
+from footfit.catalogue.rows.reference_last import make_reference, reference_of, stored_reference
+from footfit.catalogue.rows.search import Filters, Range, SearchRows, all_records, search_rows
+from footfit.catalogue.rows.summary import facts
+from footfit.catalogue.rows.verified_rows import (
     hashed_row,
     intact_last,
     key_where,
@@ -20,11 +23,8 @@ from footfit.catalogue.reading import (
     last_names,
     rows,
 )
-from footfit.catalogue.records import mesh_copy_of, record_of
-from footfit.catalogue.references import make_reference, reference_of, stored_reference
-from footfit.catalogue.search import Filters, Range, SearchRows, all_records, search_rows
 from footfit.errors import CatalogueDamaged, UnknownLast
-from footfit.geometry.flare import FlareProfile
+from footfit.geometry.flare.flare_profile import FlareProfile
 from footfit.results import CatalogueFacts, Finding, LastRecord, Measure, MeshCopy, Reference
 
 
@@ -201,7 +201,7 @@ class Catalogue:
         UnknownLast, BadOption
             Its parent is not there; its name cannot be stored.
         """
-        from footfit.catalogue import editing
+        from footfit.catalogue.rows import editing
 
         with self.file.atomic() as session:
             editing.place(session, record, copy, replace=False)
@@ -214,7 +214,7 @@ class Catalogue:
         NameTaken, UnknownLast, BadOption
             As for :meth:`add`, but for the name.
         """
-        from footfit.catalogue import editing
+        from footfit.catalogue.rows import editing
 
         with self.file.atomic() as session:
             editing.place(session, record, copy, replace=True)
@@ -227,7 +227,7 @@ class Catalogue:
         UnknownLast, BadOption
             There is none; it is the reference, or the parent of another last.
         """
-        from footfit.catalogue import editing
+        from footfit.catalogue.rows import editing
 
         with self.file.atomic() as session:
             editing.remove(session, name)
@@ -240,7 +240,7 @@ class Catalogue:
         UnknownLast, NameTaken, BadOption
             There is none; the new name is taken, or cannot be stored.
         """
-        from footfit.catalogue import editing
+        from footfit.catalogue.rows import editing
 
         with self.file.atomic() as session:
             editing.rename(session, name, new_name)
@@ -253,7 +253,7 @@ class Catalogue:
         UnknownLast, CatalogueDamaged
             There is none of that name; a last is damaged.
         """
-        from footfit.catalogue.writing import driver_of
+        from footfit.catalogue.rows.writing import driver_of
 
         with self.file.atomic() as session:
             return make_reference(session, last_id(driver_of(session), name))
@@ -272,7 +272,7 @@ class Catalogue:
         UnknownLast, CatalogueDamaged
             There is none of that name, or its rows are not what was stored.
         """
-        from footfit.catalogue import editing
+        from footfit.catalogue.rows import editing
 
         with self.file.atomic() as session:
             editing.update_profile(session, name, flare, measures, upgraded_from)

@@ -10,18 +10,15 @@ from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, Generic, TypeVar
 
-from footfit.pipeline.match import Library
-from footfit.pipeline.units import unit_notes
-from footfit.report import (
-    compare,
-    documents,
-    last_documents,
+from footfit.pipeline.scan.settled_unit import unit_notes
+from footfit.report.json import documents, last_documents, measure_documents, upkeep_documents
+from footfit.report.terminal import (
+    comparison_tables,
     last_tables,
     match_tables,
-    measure_documents,
     measure_tables,
-    tables,
-    upkeep,
+    scan_tables,
+    upkeep_tables,
 )
 from footfit.results import (
     AlignedScan,
@@ -33,6 +30,7 @@ from footfit.results import (
     DemoOutcome,
     IngestOutcome,
     LastRecord,
+    Library,
     Match,
     MeasuredScan,
     MeshCopy,
@@ -71,12 +69,12 @@ class Answer(Generic[T]):
 
 ALIGN: Answer[AlignedScan] = Answer(
     lambda scan: documents.align_document(scan.alignment),
-    lambda scan: tables.align_table(scan.alignment),
+    lambda scan: scan_tables.align_table(scan.alignment),
     lambda scan: (scan.alignment.info.path, _said(scan.alignment)),
 )
 FLARE: Answer[Profiled] = Answer(
     documents.flare_document,
-    tables.flare_table,
+    scan_tables.flare_table,
     lambda shape: (
         shape.aligned.alignment.info.path,
         (*_said(shape.aligned.alignment), *shape.suspects),
@@ -93,13 +91,13 @@ MATCH: Answer[Match] = Answer(
     lambda match: (None, _match_notices(match)),
 )
 COMPARE: Answer[Comparison] = Answer(
-    compare.compare_document,
-    compare.compare_table,
+    comparison_tables.compare_document,
+    comparison_tables.compare_table,
     lambda compared: _comparison_said(compared),
 )
 INGEST_LAST: Answer[IngestOutcome] = Answer(
     documents.ingest_document,
-    tables.ingest_line,
+    scan_tables.ingest_line,
     lambda outcome: (outcome.path, (*outcome.notes, *outcome.warnings)),
 )
 SET_REFERENCE: Answer[tuple[Reference, int]] = Answer(
@@ -136,16 +134,16 @@ UPGRADE_CATALOGUE: Answer[UpgradeOutcome] = Answer(
     last_tables.upgrade_catalogue_line,
 )
 CHECK_CATALOGUE: Answer[CheckOutcome] = Answer(
-    upkeep.check_catalogue_document,
-    upkeep.check_catalogue_table,
+    upkeep_documents.check_catalogue_document,
+    upkeep_tables.check_catalogue_table,
 )
 BACKUP_CATALOGUE: Answer[BackupOutcome] = Answer(
-    upkeep.backup_catalogue_document,
-    upkeep.backup_catalogue_line,
+    upkeep_documents.backup_catalogue_document,
+    upkeep_tables.backup_catalogue_line,
 )
 RESTORE_CATALOGUE: Answer[RestoreOutcome] = Answer(
-    upkeep.restore_catalogue_document,
-    upkeep.restore_catalogue_table,
+    upkeep_documents.restore_catalogue_document,
+    upkeep_tables.restore_catalogue_table,
 )
 DEMO: Answer[DemoOutcome] = Answer(
     lambda demo: last_documents.demo_document(demo.folder, demo.lasts, demo.best, demo.outputs),
@@ -157,7 +155,7 @@ def curvature_answer(output: str | None) -> Answer[SurfaceCurvature]:
     """The answer of ``curvature``, which names the file it writes."""
     return Answer(
         lambda values: documents.curvature_document(values, output=output),
-        tables.curvature_table,
+        scan_tables.curvature_table,
         lambda values: (values.info.path, (*unit_notes(values.info), *values.warnings)),
     )
 

@@ -15,8 +15,8 @@ from footfit.errors import BadOption, FootfitError
 
 if TYPE_CHECKING:
     from footfit.cli.answer_forms import Answer
-    from footfit.pipeline.batch import Outcome
-    from footfit.pipeline.sources import ReadingOptions, Source
+    from footfit.pipeline.batch.runs import Outcome
+    from footfit.pipeline.batch.sources import ReadingOptions, Source
 
 T = TypeVar("T")
 
@@ -44,7 +44,7 @@ def sources_of(arguments: Sequence[str], format: str | None) -> list[Source]:
     UnreadableFile
         A folder or glob without a mesh.
     """
-    from footfit.pipeline.sources import mesh_sources, stdin_source
+    from footfit.pipeline.batch.sources import mesh_sources, stdin_source
 
     if "-" not in arguments:
         return mesh_sources(arguments)
@@ -61,7 +61,7 @@ def split_where_asked(
     """The sources, those of several feet taken apart where that was asked for."""
     if not split:
         return sources
-    from footfit.pipeline.split import split_sources
+    from footfit.pipeline.scan.split import split_sources
 
     return split_sources(sources, reading)
 
@@ -90,7 +90,7 @@ def told(
 
     One bad mesh stops nothing: its line says so, and the code at the end is the failures'.
     """
-    from footfit.pipeline.batch import common_code
+    from footfit.pipeline.batch.runs import common_code
 
     errors: list[FootfitError] = []
     with failures_last(voice) as tell_failure:
@@ -118,7 +118,7 @@ def tell(value: T, answer_of: Answer[T], voice: Voice) -> None:
     if not voice.answers:
         return
     if voice.as_json:
-        from footfit.report.documents import json_line
+        from footfit.report.json.documents import json_line
 
         answer(json_line(answer_of.document(value)))
     else:

@@ -8,27 +8,27 @@ from typing import Annotated
 import typer
 
 from footfit import __version__
-from footfit.cli.align import align
-from footfit.cli.backup_catalogue import backup_catalogue
 from footfit.cli.boundary import guarded
-from footfit.cli.catalogue_info import catalogue_info
-from footfit.cli.check_catalogue import check_catalogue
-from footfit.cli.compare import compare
-from footfit.cli.curvature import curvature
-from footfit.cli.demo import demo
-from footfit.cli.export_last import export_last
-from footfit.cli.flare import flare
-from footfit.cli.ingest_last import ingest_last
-from footfit.cli.list_lasts import list_lasts
-from footfit.cli.match import match
-from footfit.cli.measure import measure
-from footfit.cli.remove_last import remove_last
-from footfit.cli.rename_last import rename_last
-from footfit.cli.restore_catalogue import restore_catalogue
-from footfit.cli.set_reference import set_reference
+from footfit.cli.commands.align import align
+from footfit.cli.commands.backup_catalogue import backup_catalogue
+from footfit.cli.commands.catalogue_info import catalogue_info
+from footfit.cli.commands.check_catalogue import check_catalogue
+from footfit.cli.commands.compare import compare
+from footfit.cli.commands.curvature import curvature
+from footfit.cli.commands.demo import demo
+from footfit.cli.commands.export_last import export_last
+from footfit.cli.commands.flare import flare
+from footfit.cli.commands.ingest_last import ingest_last
+from footfit.cli.commands.list_lasts import list_lasts
+from footfit.cli.commands.match import match
+from footfit.cli.commands.measure import measure
+from footfit.cli.commands.remove_last import remove_last
+from footfit.cli.commands.rename_last import rename_last
+from footfit.cli.commands.restore_catalogue import restore_catalogue
+from footfit.cli.commands.set_reference import set_reference
+from footfit.cli.commands.show_last import show_last
+from footfit.cli.commands.upgrade_catalogue import upgrade_catalogue
 from footfit.cli.settings import one_blas_thread
-from footfit.cli.show_last import show_last
-from footfit.cli.upgrade_catalogue import upgrade_catalogue
 
 PAPER, FIT = "The paper's commands", "Fit"
 LIBRARY, START = "The library of lasts", "Start here"

@@ -10,8 +10,8 @@ from contextlib import suppress
 from typing import TYPE_CHECKING
 
 from footfit.errors import BadOption, FootfitError
-from footfit.report.lines import failure_document, json_line
-from footfit.report.text import visible
+from footfit.report.json.lines import failure_document, json_line
+from footfit.report.wording.text import visible
 
 if TYPE_CHECKING:
     from rich.console import RenderableType
@@ -47,7 +47,7 @@ def answer(text: str) -> None:
 
 def show(renderable: RenderableType) -> None:
     """Write a table to stdout, coloured only for a terminal that wants it."""
-    from footfit.report.tables import terminal_text
+    from footfit.report.terminal.scan_tables import terminal_text
 
     colour = sys.stdout.isatty() and not os.environ.get("NO_COLOR")
     width = shutil.get_terminal_size().columns if sys.stdout.isatty() else PLAIN_WIDTH

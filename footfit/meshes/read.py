@@ -7,10 +7,10 @@ import os
 from typing import BinaryIO
 
 from footfit.errors import FootfitError
-from footfit.meshes.clean import cleaned
-from footfit.meshes.formats import raw_mesh
-from footfit.meshes.limits import LIMITS, Limits
-from footfit.meshes.source import file_bytes, stream_bytes
+from footfit.meshes.clean.cleaning import cleaned
+from footfit.meshes.file_bytes import file_bytes, stream_bytes
+from footfit.meshes.formats.known_formats import raw_mesh
+from footfit.meshes.read_limits import LIMITS, Limits
 from footfit.meshes.units import checked_options, settled_units
 from footfit.results import MeshInfo, Scan
 

@@ -8,9 +8,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from footfit.errors import BadOption
-from footfit.geometry.arrays import Floats, Ints
-from footfit.geometry.surface import face_normals
-from footfit.meshes.stl import FACET, HEADER_BYTES
+from footfit.geometry.mesh.surface import face_normals
+from footfit.geometry.numeric.arrays import Floats, Ints
+from footfit.meshes.formats.stl import FACET, HEADER_BYTES
 
 VertexData = Mapping[str, NDArray[np.generic]]
 COLOUR = "colour"

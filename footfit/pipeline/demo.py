@@ -6,13 +6,13 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from footfit.errors import BadOption, GeometryRefused, OutputExists
-from footfit.pipeline import lasts
-from footfit.pipeline.ingest import entries, ingest
-from footfit.pipeline.manifest import read_manifest
-from footfit.pipeline.match import Question, matched
-from footfit.pipeline.reading import profiled_source
-from footfit.pipeline.samples import sample_folder
-from footfit.pipeline.sources import ReadingOptions, Source, mesh_sources
+from footfit.pipeline.batch.sources import ReadingOptions, Source, mesh_sources
+from footfit.pipeline.fit.match import Question, matched
+from footfit.pipeline.library import lasts
+from footfit.pipeline.library.ingest import entries, ingest
+from footfit.pipeline.library.manifest import read_manifest
+from footfit.pipeline.sample_data import sample_folder
+from footfit.pipeline.scan.reading import profiled_source
 from footfit.results import IngestOutcome, LastLabels, Match, Profiled, Reference
 
 CATALOGUE_NAME = "demo.footfit"

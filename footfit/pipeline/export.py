@@ -6,7 +6,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from footfit.errors import BadOption
-from footfit.geometry.arrays import Floats, Ints
+from footfit.geometry.numeric.arrays import Floats, Ints
 from footfit.results import AlignedScan, MeshCopy, SurfaceCurvature
 
 if TYPE_CHECKING:
@@ -60,7 +60,7 @@ def copy_bytes(copy: MeshCopy, path: Path) -> bytes:
     CatalogueDamaged
         The copy cannot be expanded.
     """
-    from footfit.meshes.copies import expanded
+    from footfit.meshes.copies.compact_copy import expanded
 
     file_kind(path, MESH_KINDS)
     return mesh_bytes(*expanded(copy.data), path)

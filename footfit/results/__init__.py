@@ -20,7 +20,13 @@ from footfit.results.compare import (
 )
 from footfit.results.fit import FitProfile, FootFit, ZoneFit, ZoneRule
 from footfit.results.lasts import LastLabels, LastRecord
-from footfit.results.library import CatalogueFacts, DemoOutcome, IngestOutcome, UpgradeOutcome
+from footfit.results.library import (
+    CatalogueFacts,
+    DemoOutcome,
+    IngestOutcome,
+    Library,
+    UpgradeOutcome,
+)
 from footfit.results.match import Candidate, FlareDifference, Match
 from footfit.results.meshes import MeshCopy, MeshInfo, Scan
 from footfit.results.profile import MeasuredScan, Profiled, SurfaceCurvature
@@ -54,6 +60,7 @@ __all__ = [
     "IngestOutcome",
     "LastLabels",
     "LastRecord",
+    "Library",
     "Match",
     "Measure",
     "Measured",

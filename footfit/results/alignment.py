@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
-    from footfit.geometry.arrays import Floats, Ints
+    from footfit.geometry.numeric.arrays import Floats, Ints
     from footfit.results.meshes import MeshInfo
     from footfit.results.values import Confidence, Method, Notice, SideName
 

@@ -6,9 +6,9 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
-    from footfit.geometry.arrays import Floats, Ints
-    from footfit.geometry.clearance import ZoneClearance
-    from footfit.geometry.docking import Docking
+    from footfit.geometry.fit.clearance import ZoneClearance
+    from footfit.geometry.fit.placement import Docking
+    from footfit.geometry.numeric.arrays import Floats, Ints
     from footfit.results.lasts import LastRecord
     from footfit.results.profile import Profiled
     from footfit.results.values import Measured, Notice, SideName

@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
+    from footfit.results.lasts import LastRecord
     from footfit.results.values import Notice, SideName
 
 
@@ -73,3 +74,14 @@ class DemoOutcome:
     lasts: int
     best: str | None
     outputs: tuple[str, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class Library:
+    """The lasts to choose from, and what the catalogue says of itself."""
+
+    lasts: tuple[LastRecord, ...]
+    total: int
+    reference: str | None
+    rejected: tuple[tuple[str, int], ...] = ()
+    warnings: tuple[Notice, ...] = ()

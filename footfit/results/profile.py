@@ -6,8 +6,8 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
-    from footfit.geometry.arrays import Floats, Ints
-    from footfit.geometry.flare import FlareProfile
+    from footfit.geometry.flare.flare_profile import FlareProfile
+    from footfit.geometry.numeric.arrays import Floats, Ints
     from footfit.results.alignment import AlignedScan, Alignment
     from footfit.results.meshes import MeshInfo
     from footfit.results.values import Measure, Notice

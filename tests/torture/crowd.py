@@ -9,7 +9,7 @@ from pathlib import Path
 
 from footfit.catalogue.store import open_catalogue
 from footfit.errors import FootfitError, NoCatalogue
-from footfit.pipeline.backup import backed_up
+from footfit.pipeline.library.backup import backed_up
 from tests import records
 from tests.torture.kills import Child, forked
 from tests.torture.scripts import MAIN, mesh_copy

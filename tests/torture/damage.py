@@ -9,10 +9,10 @@ from collections.abc import Callable
 from contextlib import closing
 from pathlib import Path
 
-from footfit.catalogue.engine import connected
+from footfit.catalogue.file.engine import connected
 from footfit.errors import ExitCode, FootfitError
-from footfit.pipeline import lasts
-from footfit.pipeline.check import checked
+from footfit.pipeline.library import lasts
+from footfit.pipeline.library.check import checked
 from tests import records
 from tests.torture.scripts import MAIN, filling, values
 from tests.torture.tally import Tally

@@ -8,7 +8,7 @@ import tempfile
 from functools import lru_cache
 from pathlib import Path
 
-from footfit.catalogue.migrate import Schema, migrations_folder
+from footfit.catalogue.file.migrate import Schema, migrations_folder
 
 DATA = Path(__file__).resolve().parents[1] / "data"
 OLD_FILES = tuple(sorted(DATA.glob("catalogue-*.footfit")))

@@ -9,7 +9,7 @@ from __future__ import annotations
 from pathlib import Path
 
 from footfit.catalogue.store import open_catalogue
-from footfit.meshes.copies import compact_copy
+from footfit.meshes.copies.compact_copy import compact_copy
 from tests import answers, records
 from tests.torture.migrations import DATA, HEAD
 

@@ -15,11 +15,11 @@ from dataclasses import dataclass
 from functools import lru_cache
 from pathlib import Path
 
-from footfit.catalogue.migrate import Schema
+from footfit.catalogue.file.migrate import Schema
 from footfit.catalogue.store import open_catalogue
 from footfit.errors import NoCatalogue
-from footfit.meshes.copies import compact_copy
-from footfit.pipeline.backup import backed_up, restored
+from footfit.meshes.copies.compact_copy import compact_copy
+from footfit.pipeline.library.backup import backed_up, restored
 from footfit.results import MeshCopy
 from tests import answers, records
 from tests.torture.migrations import OLD_FILE, later_schema

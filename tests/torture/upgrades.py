@@ -5,7 +5,7 @@ from __future__ import annotations
 import shutil
 from pathlib import Path
 
-from footfit.catalogue.migrate import copy_path
+from footfit.catalogue.file.migrate import copy_path
 from footfit.catalogue.store import open_catalogue
 from tests.torture.migrations import OLD_FILE, later_schema
 from tests.torture.scripts import MAIN, content

@@ -7,7 +7,7 @@ import sys
 from dataclasses import replace
 from pathlib import Path
 
-from footfit.catalogue import engine
+from footfit.catalogue.file import engine
 from tests.torture.scripts import SCRIPTS
 
 

@@ -1,0 +1,1 @@
+"""Is everything as it was stored: damage, plausible values, the schema compared."""

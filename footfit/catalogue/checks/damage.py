@@ -1,0 +1,149 @@
+"""Every way in which a stored value can be told from what was stored."""
+
+from __future__ import annotations
+
+import sqlite3
+from collections.abc import Callable, Iterator
+
+import numpy as np
+
+from footfit.catalogue.checks.plausible_values import implausible
+from footfit.catalogue.checks.schema_comparison import expected_objects, stored_objects
+from footfit.catalogue.file.migrate import Schema
+from footfit.catalogue.rows.array_blobs import array_of, definition_text
+from footfit.catalogue.rows.reference_last import expressed, stored_reference
+from footfit.catalogue.rows.verified_rows import (
+    StoredLast,
+    hashed_row,
+    last_names,
+    rows,
+    stored_lasts,
+)
+from footfit.errors import CatalogueDamaged
+from footfit.geometry.flare.flare_profile import FlareDefinition
+from footfit.results import Finding
+
+TRANSFORM_TOLERANCE = 1e-9
+"""Relative; a paper transform computed on another machine may differ in its last bits."""
+
+
+Check = Callable[[sqlite3.Connection], Iterator[Finding]]
+
+
+def findings(connection: sqlite3.Connection, schema: Schema) -> list[Finding]:
+    """What all checks find; empty for a sound catalogue whose tables are those of ``schema``.
+
+    A check that SQLite cannot carry out, because a page is unreadable, is a finding itself.
+    """
+    found: list[Finding] = []
+    for check in (_objects(schema), *CHECKS):
+        try:
+            found.extend(check(connection))
+        except (sqlite3.DatabaseError, UnicodeDecodeError) as error:
+            found.append(Finding("unreadable", f"a part cannot be read: {error}"))
+        except CatalogueDamaged as error:
+            found.append(Finding("damaged", error.message))
+    return found
+
+
+def _marks(connection: sqlite3.Connection) -> Iterator[Finding]:
+    (mirror,) = connection.execute("PRAGMA user_version").fetchone()
+    (revision,) = connection.execute("SELECT version_num FROM alembic_version").fetchone()
+    if mirror != int(revision):
+        yield Finding("schema_mirror", f"user_version is {mirror} and the schema is {revision!r}")
+    (mode,) = connection.execute("PRAGMA journal_mode").fetchone()
+    if mode != "delete":
+        words = (
+            f"the journal is {mode!r}: a copy of the file may lack data; the next write mends it"
+        )
+        yield Finding("journal_mode", words, damage=False)
+
+
+def _pages(connection: sqlite3.Connection) -> Iterator[Finding]:
+    for (line,) in connection.execute("PRAGMA integrity_check"):
+        if line != "ok":
+            yield Finding("integrity", " ".join(str(line).split()))
+
+
+def _objects(schema: Schema) -> Check:
+    """The text of the schema is bytes of the file too, and what it says is obeyed."""
+
+    def check(connection: sqlite3.Connection) -> Iterator[Finding]:
+        stored, expected = stored_objects(connection), expected_objects(schema)
+        for key in sorted(stored.keys() | expected.keys()):
+            kind, name = key
+            if key not in stored:
+                yield Finding("schema", f"the {kind} {name} is missing")
+            elif key not in expected:
+                yield Finding("schema", f"the {kind} {name} is not footfit's")
+            elif stored[key] != expected[key]:
+                yield Finding("schema", f"the {kind} {name} is not as footfit makes it")
+
+    return check
+
+
+def _keys(connection: sqlite3.Connection) -> Iterator[Finding]:
+    for table, rowid, parent, _ in connection.execute("PRAGMA foreign_key_check"):
+        yield Finding("foreign_key", f"row {rowid} of {table} points to no row of {parent}")
+
+
+def _lasts(connection: sqlite3.Connection) -> Iterator[Finding]:
+    for stored in stored_lasts(connection):
+        if not stored.intact:
+            yield Finding("last", "its rows are not what was stored", stored.name)
+            continue
+        for words in implausible(stored):
+            yield Finding("range", words, stored.name)
+
+
+def _definitions(connection: sqlite3.Connection) -> Iterator[Finding]:
+    """A profile of another definition is whole, and cannot be ranked."""
+    current = definition_text(FlareDefinition())
+    for stored in stored_lasts(connection):
+        if stored.flare is not None and stored.flare.get("definition") != current:
+            version = stored.flare.get("definition_version")
+            words = f"its profile follows {version!r}; type: footfit upgrade-catalogue"
+            yield Finding("definition", words, stored.name, damage=False)
+
+
+def _mesh_copies(connection: sqlite3.Connection) -> Iterator[Finding]:
+    names = last_names(connection)
+    for row in rows(connection, "mesh_copy"):
+        if row.get("sha256") != hashed_row(row):
+            name = names.get(row["last_id"], "?")
+            yield Finding("mesh_copy", "its mesh copy is not what was stored", name)
+
+
+def _reference(connection: sqlite3.Connection) -> Iterator[Finding]:
+    found = stored_reference(connection)
+    lasts = stored_lasts(connection)
+    if found is None and lasts:
+        yield Finding("reference", "there are lasts and no reference; see footfit set-reference")
+    if found is None:
+        return
+    for stored in lasts:
+        if stored.intact and not _agrees(stored, expressed(stored, found[1])):
+            yield Finding("paper_transform", "is not expressed by the reference", stored.name)
+
+
+def _agrees(stored: StoredLast, transform: np.ndarray) -> bool:
+    assert stored.frame is not None
+    data = stored.frame["paper_transform"]
+    scale = np.abs(transform).max()
+    return data is not None and bool(
+        np.abs(array_of(data, 4, 4) - transform).max() <= TRANSFORM_TOLERANCE * scale
+    )
+
+
+CHECKS: tuple[Check, ...] = (
+    _marks,
+    _pages,
+    _keys,
+    _lasts,
+    _definitions,
+    _mesh_copies,
+    _reference,
+)
+"""All checks but that of the schema, in the order of their findings; a new one is one more
+function here.
+"""

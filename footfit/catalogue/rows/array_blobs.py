@@ -1,0 +1,68 @@
+"""Arrays as the catalogue keeps them: little-endian float64, row by row, nothing before it."""
+
+from __future__ import annotations
+
+import json
+import math
+from dataclasses import asdict
+from functools import lru_cache
+from typing import Any
+
+import numpy as np
+
+from footfit.geometry.flare.flare_profile import FlareDefinition
+from footfit.geometry.numeric.arrays import Floats
+
+
+def blob(array: Floats) -> bytes:
+    """The bytes of an array.
+
+    Examples
+    --------
+    >>> blob(np.array([1.0])).hex()
+    '000000000000f03f'
+    """
+    return np.ascontiguousarray(array, dtype="<f8").tobytes()
+
+
+def array_of(data: bytes, *shape: int) -> Floats:
+    """The array of some bytes, read-only, of ``shape``; (n,) where none is given.
+
+    Examples
+    --------
+    >>> array_of(blob(np.eye(2)), 2, 2).tolist()
+    [[1.0, 0.0], [0.0, 1.0]]
+    """
+    flat = np.frombuffer(data, dtype="<f8").astype(np.float64, copy=False)
+    return flat.reshape(shape) if shape else flat
+
+
+def definition_text(definition: FlareDefinition) -> str:
+    """A flare definition with all its parameters as canonical JSON."""
+    return json.dumps(asdict(definition), sort_keys=True, separators=(",", ":"))
+
+
+@lru_cache(maxsize=64)
+def definition_of(text: str) -> FlareDefinition:
+    """The definition of a stored text.
+
+    Another footfit's may lack a parameter that this one knows: it is then not a number, since
+    nobody knows what it was, and equal to none. One that this footfit does not know is passed
+    over. Whether a profile is comparable is therefore asked of the text, which has everything.
+    """
+    stored = {name: _frozen(value) for name, value in json.loads(text).items()}
+    default = asdict(FlareDefinition())
+    return FlareDefinition(
+        **{name: stored.get(name, _unknown(value)) for name, value in default.items()}
+    )
+
+
+def _unknown(like: Any) -> Any:
+    """A value of the kind of ``like`` that stands for one that is not known."""
+    if isinstance(like, str):
+        return ""
+    return tuple(_unknown(item) for item in like) if isinstance(like, tuple) else math.nan
+
+
+def _frozen(value: Any) -> Any:
+    return tuple(_frozen(item) for item in value) if isinstance(value, list) else value

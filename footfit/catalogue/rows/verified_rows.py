@@ -1,0 +1,190 @@
+"""The catalogue's raw rows, checked against their hashes before anything is made of them.
+
+Nothing here knows SQLAlchemy, and no statement names a column: a row is what SQLite says it is,
+so that a changed byte anywhere in it is seen.
+"""
+
+from __future__ import annotations
+
+import sqlite3
+from collections import defaultdict
+from dataclasses import dataclass
+from typing import Any
+
+from footfit.catalogue.rows.digests import digest
+from footfit.errors import CatalogueDamaged, UnknownLast
+
+Fields = dict[str, Any]
+"""One row by column, as the driver gives it: None, int, float, str or bytes."""
+
+UNHASHED = frozenset({"id", "last_id", "record_sha256"})
+"""Columns outside of a last's hash: the hash itself, and keys, which foreign keys check."""
+
+
+@dataclass(frozen=True, slots=True)
+class StoredLast:
+    """The raw rows of one last, its mesh copy left out; None for a row that is missing."""
+
+    id: int
+    last: Fields
+    frame: Fields | None
+    flare: Fields | None
+    measures: tuple[Fields, ...]
+    notices: tuple[Fields, ...]
+
+    @property
+    def name(self) -> str:
+        """The name as stored, as a text whatever is stored."""
+        return shown_name(self.last.get("name"))
+
+    @property
+    def content_digest(self) -> str:
+        """The hash of these rows as they are."""
+        return digest(
+            {
+                "last": _hashed(self.last),
+                "frame": _hashed(self.frame),
+                "flare": _hashed(self.flare),
+                "measures": [_hashed(row) for row in self.measures],
+                "notices": [_hashed(row) for row in self.notices],
+            }
+        )
+
+    @property
+    def intact(self) -> bool:
+        """Are the rows what was stored?"""
+        return bool(self.last.get("record_sha256") == self.content_digest)
+
+
+def shown_name(stored: object) -> str:
+    r"""A stored name as a text: damage may have made it a null, a number or bytes.
+
+    Bytes of it that are no UTF-8 are shown as ``\x..``.
+
+    Examples
+    --------
+    >>> [shown_name(stored) for stored in ("derby", None, 7, "a\udcffb")]
+    ['derby', 'None', '7', 'a\\xffb']
+    """
+    return str(stored).encode("utf-8", "surrogateescape").decode("utf-8", "backslashreplace")
+
+
+def _hashed(row: Fields | None) -> Fields:
+    return {column: value for column, value in (row or {}).items() if column not in UNHASHED}
+
+
+def hashed_row(row: Fields) -> str:
+    """The hash of one row that stands by itself: a mesh copy, the reference.
+
+    Its keys count here, so that it cannot pass for another last's.
+    """
+    return digest({"row": {column: value for column, value in row.items() if column != "sha256"}})
+
+
+def rows(connection: sqlite3.Connection, table: str, last_id: int | None = None) -> list[Fields]:
+    """The rows of a table in the order of storage; those of one last where ``last_id`` is given.
+
+    Raises
+    ------
+    CatalogueDamaged
+        The table has lost the column of its key.
+    """
+    key = "id" if table == "last" else "last_id"
+    where, values = ("", ()) if last_id is None else (f" WHERE {key} = ?", (last_id,))
+    cursor = connection.execute(f"SELECT * FROM {table}{where} ORDER BY rowid", values)
+    columns = [column[0] for column in cursor.description]
+    if key not in columns:
+        raise CatalogueDamaged(f"lacks the column {key!r} of {table!r}; restore it from a backup")
+    return [dict(zip(columns, row, strict=True)) for row in cursor]
+
+
+def stored_lasts(connection: sqlite3.Connection, last_id: int | None = None) -> list[StoredLast]:
+    """The raw rows of every last, or of one, in the order in which they were first stored.
+
+    Five SELECTs whatever the number of lasts, along the tables and not along an index.
+    """
+    frames = {row["last_id"]: row for row in rows(connection, "frame", last_id)}
+    flares = {row["last_id"]: row for row in rows(connection, "flare", last_id)}
+    measures = _grouped(rows(connection, "measure", last_id))
+    notices = _grouped(rows(connection, "notice", last_id))
+    return [
+        StoredLast(
+            id=row["id"],
+            last=row,
+            frame=frames.get(row["id"]),
+            flare=flares.get(row["id"]),
+            measures=tuple(measures[row["id"]]),
+            notices=tuple(notices[row["id"]]),
+        )
+        for row in rows(connection, "last", last_id)
+    ]
+
+
+def _grouped(found: list[Fields]) -> dict[int, list[Fields]]:
+    """Rows by their last, in their stated order (a damaged position may be of any type)."""
+    groups: dict[int, list[Fields]] = defaultdict(list)
+    for row in found:
+        groups[row["last_id"]].append(row)
+    for group in groups.values():
+        group.sort(key=_position)
+    return groups
+
+
+def _position(row: Fields) -> tuple[str, Any]:
+    position = row.get("position")
+    return type(position).__name__, position
+
+
+def last_names(connection: sqlite3.Connection) -> dict[int, str]:
+    """The name of every last, damaged ones too, by its key."""
+    found = connection.execute("SELECT id, name FROM last NOT INDEXED")
+    return {key: shown_name(name) for key, name in found}
+
+
+def last_id(connection: sqlite3.Connection, name: str) -> int:
+    """The key of the last of that name.
+
+    Raises
+    ------
+    UnknownLast
+        There is none; the message names the nearest.
+    """
+    key = key_where(connection, "name", name)
+    if key is not None:
+        return key
+    near = _nearest(name, last_names(connection))
+    raise UnknownLast(f"no last is named {name!r}{near}; see footfit list-lasts")
+
+
+def key_where(connection: sqlite3.Connection, column: str, value: str) -> int | None:
+    """The key of the last whose ``column`` (a unique one) holds ``value``, along the table."""
+    select = f"SELECT id FROM last NOT INDEXED WHERE {column} = ?"
+    try:
+        row = connection.execute(select, (value,)).fetchone()
+    except UnicodeEncodeError:  # a text that UTF-8 cannot hold is in no catalogue
+        return None
+    return None if row is None else int(row[0])
+
+
+def _nearest(name: str, names: dict[int, str]) -> str:
+    from difflib import get_close_matches
+
+    close = get_close_matches(name, [str(stored) for stored in names.values()], n=1)
+    return f" (the nearest is {close[0]!r})" if close else ""
+
+
+def intact_last(connection: sqlite3.Connection, key: int) -> StoredLast:
+    """The rows of one last, verified.
+
+    Raises
+    ------
+    CatalogueDamaged
+        They are not what was stored.
+    """
+    (stored,) = stored_lasts(connection, key)
+    if not stored.intact:
+        raise CatalogueDamaged(
+            f"the last {stored.name!r} is damaged in it; ingest it again with --replace,"
+            " or restore the catalogue from a backup"
+        )
+    return stored

@@ -1,0 +1,137 @@
+"""``footfit ingest-last``: scans of lasts into the catalogue."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any
+
+import typer
+
+from footfit.cli import options
+
+if TYPE_CHECKING:
+    from footfit.cli.answers import Voice
+    from footfit.results import IngestOutcome
+
+LABELS = "What people say of the last"
+
+
+def _label(flag: str, metavar: str, text: str) -> Any:
+    return typer.Option(
+        flag, metavar=metavar, show_default=False, rich_help_panel=LABELS, help=text
+    )
+
+
+def ingest_last(
+    paths: Annotated[
+        list[str] | None,
+        typer.Argument(
+            metavar="PATH",
+            show_default=False,
+            help="Scans of lasts: files, folders or globs. None: the manifest's.",
+        ),
+    ] = None,
+    name: Annotated[
+        str | None, _label("--name", "N", "The last's name, else the file's stem.")
+    ] = None,
+    manifest: Annotated[
+        Path | None,
+        _label("--manifest", "CSV", "Labels per file: path, name, style, size, size_system, ..."),
+    ] = None,
+    style: Annotated[str | None, _label("--style", "S", "The style, such as derby.")] = None,
+    size: Annotated[str | None, _label("--size", "42", "The size as marked on the last.")] = None,
+    size_system: Annotated[
+        str | None, _label("--size-system", "eu", "What the size counts in.")
+    ] = None,
+    width_label: Annotated[str | None, _label("--width-label", "G", "The width as marked.")] = None,
+    heel_height: Annotated[
+        float | None, _label("--heel-height", "MM", "The heel height, mm.")
+    ] = None,
+    side: options.Side = options.SideChoice.auto,
+    units: options.Units = options.UnitName.auto,
+    known_length: options.Known = None,
+    format: options.Format = None,
+    replace: Annotated[
+        bool, options.switch("--replace", help="Store over a last of the same name.")
+    ] = False,
+    dry_run: Annotated[
+        bool,
+        options.switch("--dry-run", help="Do all but store; say what would become of each file."),
+    ] = False,
+    jobs: options.Jobs = 1,
+    catalogue: options.Catalogue = None,
+    json: options.Json = False,
+    quiet: options.Quiet = False,
+    verbose: options.Verbose = False,
+) -> None:
+    """Read, align, profile and store lasts; each line is printed after its commit.
+
+    Running it again stores nothing twice.
+
+    Example: footfit ingest-last lasts/ --manifest lasts.csv --jobs 2
+    """
+    from footfit.cli.answer_forms import INGEST_LAST
+    from footfit.cli.answers import Voice, counted, failures_last, sources_of, tell
+    from footfit.cli.console import say, say_notices
+    from footfit.cli.settings import catalogue_path
+    from footfit.cli.signals import LISTENER
+    from footfit.pipeline.batch.runs import common_code
+    from footfit.pipeline.batch.sources import ReadingOptions
+    from footfit.pipeline.library import manifest as manifests
+    from footfit.pipeline.library.ingest import entries, ingest, unused_rows
+    from footfit.results import LastLabels
+
+    heel_height_mm = manifests.heel_height_mm(heel_height)
+    given = LastLabels(name or "", style, size, size_system, width_label, heel_height_mm)
+    reading = ReadingOptions(units.value, known_length, side.value)
+    rows = manifests.read_manifest(manifest) if manifest else []
+    batch = entries(sources_of(paths or [], format), rows, given, reading)
+    voice = Voice(json, quiet, len(batch))
+    say_notices(unused_rows(batch, rows), str(manifest), quiet=quiet)
+    refused: list[int] = []
+    ingesting = ingest(
+        batch,
+        catalogue_path(catalogue),
+        jobs=jobs,
+        replace=replace,
+        dry_run=dry_run,
+        steady=LISTENER.hold,
+    )
+    with heard(), failures_last(voice) as tell_failure:
+        for outcome in counted(ingesting, voice):
+            tell(outcome, INGEST_LAST, voice)
+            if outcome.exit:
+                refused.append(outcome.exit)
+                tell_failure(refusal_line(outcome, voice))
+    if dry_run:
+        say("a dry run: nothing was stored", quiet=quiet)
+    raise typer.Exit(common_code(refused))
+
+
+@contextmanager
+def heard() -> Iterator[None]:
+    """Say it where nobody reads the answers any more: the batch is not done, and 0 would say so.
+
+    Raises
+    ------
+    BadOption
+        The reader of stdout has gone.
+    """
+    from footfit.cli.console import ReaderGone
+    from footfit.errors import BadOption
+
+    try:
+        yield
+    except ReaderGone as error:
+        words = "nobody reads the answers any more; what was stored is whole, run it again"
+        raise BadOption(words) from error
+
+
+def refusal_line(outcome: IngestOutcome, voice: Voice) -> str:
+    """The refusal as an error line for stderr; the answer has its own line already."""
+    from footfit.cli.console import failure_line
+
+    code, message = outcome.code or "refused", outcome.error or ""
+    return failure_line(code, outcome.exit, message, outcome.path, as_json=voice.as_json)

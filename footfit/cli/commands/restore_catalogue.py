@@ -1,0 +1,31 @@
+"""``footfit restore-catalogue``: the catalogue as a backup has it."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from footfit.cli import options
+
+
+def restore_catalogue(
+    file: Annotated[
+        Path, typer.Argument(metavar="FILE", show_default=False, help="The backup to restore.")
+    ],
+    catalogue: options.Catalogue = None,
+    json: options.Json = False,
+    quiet: options.Quiet = False,
+    verbose: options.Verbose = False,
+) -> None:
+    """Make the catalogue what a backup is; the backup is checked first, the one before is kept.
+
+    Example: footfit restore-catalogue lasts-2026-05-01.footfit
+    """
+    from footfit.cli.answer_forms import RESTORE_CATALOGUE
+    from footfit.cli.answers import Voice, tell
+    from footfit.cli.settings import catalogue_path
+    from footfit.pipeline.library.backup import restored
+
+    tell(restored(catalogue_path(catalogue), file), RESTORE_CATALOGUE, Voice(json, quiet))

@@ -1,0 +1,254 @@
+"""Pooling over a surface: values spread as heat does, so that each vertex sees its neighbourhood.
+
+The weights are those of exp(-t L), close to a Gaussian of standard deviation sqrt(2 t) along the
+surface: they follow it and never jump to another sheet nearby. L is the cotangent Laplacian; exp
+is replaced by a short Chebyshev polynomial, so that nothing is solved and NumPy is enough.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from footfit.geometry.mesh.surface import area_vectors
+from footfit.geometry.mesh.topology import dilated, sorted_keys
+from footfit.geometry.numeric.arrays import Bools, Floats, Ints
+
+
+@dataclass(frozen=True, slots=True)
+class DiffusionSettings:
+    """How exactly exp(-t L) is followed.
+
+    tolerance
+        Chebyshev coefficients below it are left out; the weights still sum to 1.
+    degree_most
+        The longest polynomial: what spreads faster than it follows is slowed to it.
+    nodes
+        Chebyshev nodes from which the coefficients are taken.
+    crowding_quantile, crowding
+        Vertices that exchange heat faster than ``crowding`` times this quantile of all (those of
+        slivers) are slowed to it.
+    reach_least
+        t times the rate of every vertex is at least this: the nearest ring is always seen.
+    slot_least
+        The least share of the vertices for which a j-th neighbour is handled as a slot.
+    followed
+        The largest product of time and rate that the polynomials follow, over degree_most^2.
+    cotangent_least
+        Obtuse corners would give negative weights: cotangents are at least this.
+    """
+
+    tolerance: float = 1e-3
+    degree_most: int = 96
+    nodes: int = 200
+    crowding_quantile: float = 0.9
+    crowding: float = 1.2
+    reach_least: float = 0.25
+    slot_least: float = 0.02
+    followed: float = 0.15
+    cotangent_least: float = 0.05
+
+
+SETTINGS = DiffusionSettings()
+
+
+@dataclass(frozen=True, slots=True)
+class Diffusion:
+    """Polynomials in the Laplacian of one mesh, one per deviation, ready for :func:`diffused`.
+
+    The k vertices it works on are taken in the order ``order``, those with the most neighbours
+    first. Slot j holds the j-th neighbour of the first ``len(columns[j])`` of them and its weight;
+    the many neighbours of a few vertices (the hub of a fan) stand in ``rest_*``, entry by entry.
+    ``centre`` (k,) is the weight of the vertex itself. ``coefficients`` are those of Chebyshev
+    polynomials, (degree + 1,) for each deviation.
+    """
+
+    order: Ints
+    centre: Floats
+    columns: tuple[Ints, ...]
+    weights: tuple[Floats, ...]
+    rest_row: Ints
+    rest_column: Ints
+    rest_weight: Floats
+    coefficients: tuple[Floats, ...]
+
+
+def diffusion(
+    vertices: Floats, faces: Ints, deviations: tuple[float, ...], subset: Bools | None = None
+) -> Diffusion:
+    """The operator that pools with each of some standard deviations along the surface.
+
+    Parameters
+    ----------
+    vertices : (n, 3) float64
+    faces : (m, 3) int64
+        Welded and consistently wound; open meshes are welcome.
+    deviations : tuple of float
+        In the coordinates' unit, > 0.
+    subset : (n,) bool, optional
+        Where pooled values are wanted. A polynomial of degree k reaches k rings: the operator
+        works on so many around the subset, where its values are those of the whole mesh.
+
+    Notes
+    -----
+    With degrees d, cotangent weights w and vertex areas a: L f = (d f - sum of w f_q) / a. The
+    polynomial is in Y = 2 L / bound - 1, whose eigenvalues lie in [-1, 1].
+    """
+    n = len(vertices)
+    times = [0.5 * deviation * deviation for deviation in deviations]
+    row, column, weight = _cotangent_entries(vertices, faces)
+    degree: Floats = np.bincount(row, weights=weight, minlength=n).astype(np.float64)
+    rate = _exchange_rates(degree, _projected_areas(vertices, faces), max(times))
+    bound = 2.0 * float(rate.max(initial=0.0)) or 1.0
+    scale = 2.0 * rate / bound
+    weight *= -(scale / np.where(degree > 0.0, degree, 1.0))[row]
+    coefficients = tuple(_heat_coefficients(time * bound) for time in times)
+    kept = np.ones(n, dtype=bool)
+    if subset is not None:
+        kept = dilated(subset, faces, max(map(len, coefficients)) - 1)
+        inside = kept[row] & kept[column]
+        row, column, weight = row[inside], column[inside], weight[inside]
+    order, slots, rest = _slots(row, kept)
+    place = np.empty(n, dtype=np.int64)
+    place[order] = np.arange(len(order))
+    return Diffusion(
+        order=order,
+        centre=-1.0 - np.bincount(row, weights=weight, minlength=n).astype(np.float64)[order],
+        columns=tuple(place[column[slot]] for slot in slots),
+        weights=tuple(weight[slot] for slot in slots),
+        rest_row=place[row[rest]],
+        rest_column=place[column[rest]],
+        rest_weight=weight[rest],
+        coefficients=coefficients,
+    )
+
+
+def diffused(operator: Diffusion, fields: Floats) -> Floats:
+    """Pool fields (c, n) over the surface; (deviations, c, n), NaN where nothing was asked.
+
+    Each value is a weighted mean over its neighbourhood with weights that sum to 1.
+    """
+    pooled = np.full((len(operator.coefficients), *fields.shape), np.nan)
+    degree = max(map(len, operator.coefficients)) - 1
+    scratch = np.empty(len(operator.order))
+    for number, field in enumerate(fields):
+        before, now = np.empty(0), field[operator.order]
+        totals = [coefficients[0] * now for coefficients in operator.coefficients]
+        for k in range(1, degree + 1):
+            following = _product(operator, now, scratch)
+            if k > 1:  # T_k = 2 Y T_k-1 - T_k-2
+                following *= 2.0
+                following -= before
+            before, now = now, following
+            for total, coefficients in zip(totals, operator.coefficients, strict=True):
+                if k < len(coefficients):
+                    total += np.multiply(now, coefficients[k], out=scratch)
+        pooled[:, number, operator.order] = totals
+    return pooled
+
+
+def _product(operator: Diffusion, field: Floats, scratch: Floats) -> Floats:
+    product = operator.centre * field
+    for column, weight in zip(operator.columns, operator.weights, strict=True):
+        part = scratch[: len(column)]
+        # "clip" takes straight into the scratch; the places are inside anyway.
+        np.take(field, column, out=part, mode="clip")
+        part *= weight
+        product[: len(column)] += part
+    if len(operator.rest_row):
+        rest = operator.rest_weight * field[operator.rest_column]
+        product += np.bincount(operator.rest_row, weights=rest, minlength=len(field))
+    return product
+
+
+def _projected_areas(vertices: Floats, faces: Ints) -> Floats:
+    """A third of the area around each vertex as its own normal sees it, (n,).
+
+    Noise wrinkles a surface and so adds to its area; the sum of the area vectors stays.
+    """
+    vectors = area_vectors(vertices, faces)
+    corners = faces.ravel()
+    squared = np.zeros(len(vertices))
+    for axis in range(3):
+        repeated = np.repeat(vectors[:, axis], 3)
+        squared += np.bincount(corners, weights=repeated, minlength=len(vertices)) ** 2
+    areas: Floats = np.sqrt(squared) / 3.0
+    return areas
+
+
+def _cotangent_entries(vertices: Floats, faces: Ints) -> tuple[Ints, Ints, Floats]:
+    """Rows, columns and weights of the cotangent matrix without its diagonal, ordered by row."""
+    start, end, opposite = faces.ravel(), faces[:, [1, 2, 0]].ravel(), faces[:, [2, 0, 1]].ravel()
+    u, v = vertices[start] - vertices[opposite], vertices[end] - vertices[opposite]
+    doubled = 2.0 * np.linalg.norm(area_vectors(vertices, faces), axis=1)
+    across = np.repeat(np.where(doubled > 0.0, doubled, np.inf), 3)
+    weight = np.maximum(np.einsum("ij,ij->i", u, v) / across, SETTINGS.cotangent_least) / 2.0
+    span = len(vertices)
+    keys = np.concatenate([start * span + end, end * span + start])
+    order, ordered = sorted_keys(keys)
+    first = np.flatnonzero(np.append(True, ordered[1:] != ordered[:-1])[: len(ordered)])
+    if len(first) == 0:
+        return np.empty(0, dtype=np.int64), np.empty(0, dtype=np.int64), np.empty(0)
+    summed = np.add.reduceat(np.concatenate([weight, weight])[order], first)
+    return ordered[first] // span, ordered[first] % span, summed
+
+
+def longest_deviation(vertices: Floats, faces: Ints) -> float:
+    """The deviation beyond which half of the vertices spread no further; inf without area."""
+    row, _, weight = _cotangent_entries(vertices, faces)
+    degree = np.bincount(row, weights=weight, minlength=len(vertices)).astype(np.float64)
+    rate, crowded = _free_rates(degree, _projected_areas(vertices, faces))
+    known = rate[(degree > 0.0) & np.isfinite(rate)]
+    if len(known) == 0:
+        return float(np.inf)
+    median = min(float(np.median(known)), crowded)
+    return float(np.sqrt(2.0 * SETTINGS.followed / median)) * SETTINGS.degree_most
+
+
+def _free_rates(degree: Floats, area: Floats) -> tuple[Floats, float]:
+    """Degree over area, inf where there is no area, and the rate from which it is a crowd's."""
+    rate = np.divide(degree, area, out=np.full_like(degree, np.inf), where=area > 0.0)
+    known = rate[(degree > 0.0) & np.isfinite(rate)]
+    if len(known) == 0:
+        return rate, float(np.inf)
+    return rate, SETTINGS.crowding * float(np.quantile(known, SETTINGS.crowding_quantile))
+
+
+def _exchange_rates(degree: Floats, area: Floats, time: float) -> Floats:
+    """Degree over area, between what reaches the nearest ring and what the polynomial follows."""
+    rate, crowded = _free_rates(degree, area)
+    followed = SETTINGS.followed * SETTINGS.degree_most**2 / time
+    least = SETTINGS.reach_least / time
+    limited: Floats = np.clip(rate, least, max(least, min(crowded, followed)))
+    return np.where(degree > 0.0, limited, 0.0)
+
+
+def _slots(row: Ints, kept: Bools) -> tuple[Ints, list[Ints], Ints]:
+    """Kept vertices by falling number of neighbours, the entries of each slot, and the others.
+
+    A slot that only a few vertices reach costs as much as a full one: their entries are the others.
+    """
+    count = np.bincount(row, minlength=len(kept))
+    order = np.argsort(-count, kind="stable").astype(np.int64)
+    order = order[kept[order]]
+    first = (np.cumsum(count) - count)[order]
+    falling = count[order]
+    reach = np.searchsorted(-falling, -np.arange(int(count.max(initial=0))))
+    full = int(np.count_nonzero(reach > SETTINGS.slot_least * len(order)))
+    slots = [first[: int(size)] + j for j, size in enumerate(reach[:full])]
+    place_in_row = np.arange(len(row)) - np.repeat(np.cumsum(count) - count, count)
+    return order, slots, np.flatnonzero(place_in_row >= full)
+
+
+def _heat_coefficients(exponent: float) -> Floats:
+    """Chebyshev coefficients of exp(-exponent (1 + y) / 2) on [-1, 1], summing to 1 at y = -1."""
+    angle = np.pi * (np.arange(SETTINGS.nodes) + 0.5) / SETTINGS.nodes
+    values = np.exp(-0.5 * exponent * (1.0 + np.cos(angle)))
+    k = np.arange(SETTINGS.degree_most + 1)
+    coefficients: Floats = np.cos(np.outer(k, angle)) @ values * (2.0 / SETTINGS.nodes)
+    coefficients[0] *= 0.5
+    kept = np.flatnonzero(np.abs(coefficients) > SETTINGS.tolerance)
+    coefficients = coefficients[: max(2, int(kept[-1]) + 1)]
+    total: float = float(np.sum(coefficients * (-1.0) ** np.arange(len(coefficients))))
+    return coefficients / total

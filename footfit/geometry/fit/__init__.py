@@ -1,0 +1,1 @@
+"""One foot in one last: placement, clearance between the surfaces, paired sections, sizes."""

@@ -1,0 +1,60 @@
+"""The bottom's longitudinal curves, read along the centre line."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from footfit.geometry.flare.centre_line import CentreLine
+from footfit.geometry.flare.definition import FlareDefinition
+from footfit.geometry.mesh.sections import depth_at
+from footfit.geometry.numeric.arrays import Bools, Floats
+from footfit.geometry.numeric.polylines import curvature_density
+from footfit.geometry.numeric.smoothing import local_quadratic
+
+
+def bottom_curvature(
+    line: CentreLine, down: Bools, place: float, definition: FlareDefinition
+) -> Floats | None:
+    """Curvature times length of one longitudinal curve of the bottom, (stations,).
+
+    The curve is the depth of each section at ``place`` of its width from the medial side; + is
+    convex, as on a ball of the foot. The line from seat to ball is taken out, so that a heel's
+    pitch does not shrink what the curve bends.
+
+    Parameters
+    ----------
+    line : CentreLine
+    down : (m,)
+        Which segments of the line's bands are of faces that look down.
+    place : float
+    definition : FlareDefinition
+
+    Returns
+    -------
+    (stations,) or None
+        None where less than ``found_least`` of the sections have a bottom there: a surface
+        that looks down.
+    """
+    bands = line.bands
+    where = (1.0 - 2.0 * place) * bands.half_width + bands.offset
+    depth, _ = depth_at(where, bands.across, bands.height, bands.segments, down)
+    near = depth <= bands.floor + definition.band_height
+    if near.mean() < definition.found_least:
+        return None
+    station = line.station_at(bands.x)[near]
+    at = extended_stations(definition)
+    value, _ = local_quadratic(at, station, definition.bottom_bandwidth)
+    smooth = value @ depth[near]
+    seat, ball = definition.chord
+    low, high = np.interp([seat, ball], at, smooth)
+    level = smooth - low - (high - low) * (at - seat) / (ball - seat)
+    curve = np.column_stack([at * line.arc_length, level])
+    return np.asarray(curvature_density(curve)[1:-1] * line.arc_length, dtype=np.float64)
+
+
+def extended_stations(definition: FlareDefinition) -> Floats:
+    """The fixed stations with one more at either end: a curvature needs two neighbours."""
+    step = (definition.stations_to - definition.stations_from) / (definition.stations - 1)
+    return np.linspace(
+        definition.stations_from - step, definition.stations_to + step, definition.stations + 2
+    )

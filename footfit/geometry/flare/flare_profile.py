@@ -1,0 +1,142 @@
+"""Flare: the plan and bottom curvature of a sole, per station, and the angle they make.
+
+Everything is relative to the length, so that a graded last has the identical profile. The shape
+comes in the canonical frame as a right one: x from heel to toe, y to the medial side, z up.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from footfit.geometry.flare.bottom_curves import bottom_curvature, extended_stations
+from footfit.geometry.flare.centre_line import CentreLine, centre_line
+from footfit.geometry.flare.definition import (
+    CHANNELS,
+    FlareDefinition,
+    FlareProfile,
+    flare_class,
+)
+from footfit.geometry.flare.levelled_bottom import BottomShape, bottom_shape
+from footfit.geometry.flare.profile_distance import (
+    DISTANCE,
+    DistanceSettings,
+    ProfileDistances,
+    profile_distance,
+    profile_distances,
+)
+from footfit.geometry.flare.sole_curvature import surface_curvature_profile
+from footfit.geometry.mesh.surface import area_vectors
+from footfit.geometry.numeric.arrays import Floats, Ints
+from footfit.geometry.numeric.polylines import curvature_density
+from footfit.geometry.numeric.smoothing import cubic_splines, local_quadratic
+
+__all__ = [
+    "CHANNELS",
+    "DISTANCE",
+    "DistanceSettings",
+    "FlareDefinition",
+    "FlareProfile",
+    "ProfileDistances",
+    "flare_class",
+    "flare_profile",
+    "profile_distance",
+    "profile_distances",
+]
+
+
+def flare_profile(
+    vertices_mm: Floats,
+    faces: Ints,
+    definition: FlareDefinition | None = None,
+    kind: str = "foot",
+) -> FlareProfile:
+    """The flare profile of a canonical right shape.
+
+    Parameters
+    ----------
+    vertices_mm : (n, 3)
+        In the canonical frame; a left shape mirrored (y to -y, faces turned over).
+    faces : (m, 3)
+        Wound outward.
+    definition : FlareDefinition, optional
+    kind : {"foot", "last"}
+        Whose thresholds name the class.
+
+    Returns
+    -------
+    FlareProfile
+
+    Raises
+    ------
+    HalfScan
+        The bottom cannot be followed over enough of the length.
+    """
+    definition = FlareDefinition() if definition is None else definition
+    shape = bottom_shape(vertices_mm, faces, definition)
+    line = centre_line(shape, definition)
+    angle_deg, gradient_deg = _flare_angle(line, definition)
+    stations = extended_stations(definition)[1:-1]
+    x = line.x_at(stations)
+    slope = np.interp(x, line.x, line.slope)
+    return FlareProfile(
+        definition=definition,
+        angle_deg=angle_deg,
+        angle_sd_deg=_angle_sd(line, gradient_deg, definition),
+        flare_class=flare_class(angle_deg, kind, definition),
+        stations=stations,
+        heading_deg=np.degrees(np.arctan(slope)),
+        curvature=_channels(shape, line, definition),
+        centre_line=np.column_stack(
+            [x + shape.origin_mm / shape.length_mm, np.interp(x, line.x, line.y)]
+        ),
+    )
+
+
+def _channels(
+    shape: BottomShape, line: CentreLine, definition: FlareDefinition
+) -> dict[str, Floats | None]:
+    plan = _plan_curvature(line, definition)
+    down = area_vectors(shape.vertices, shape.faces)[line.bands.segments.face, 2] < 0.0
+    places = (bottom_curvature(line, down, p, definition) for p in definition.bottom_places)
+    surface = surface_curvature_profile(shape, line, definition)
+    return dict(zip(CHANNELS, (plan, *places, surface), strict=True))
+
+
+def _plan_curvature(line: CentreLine, definition: FlareDefinition) -> Floats:
+    """Curvature times length of the centre line (III.B), (stations,)."""
+    x = line.x_at(extended_stations(definition))
+    points = np.column_stack([x, np.interp(x, line.x, line.y)])
+    return np.asarray(curvature_density(points)[1:-1] * line.arc_length, dtype=np.float64)
+
+
+def _flare_angle(line: CentreLine, definition: FlareDefinition) -> tuple[float, Floats]:
+    """The forefoot's mean heading over the rearfoot's, and its gradient by the coefficients."""
+    angle, gradient = 0.0, np.zeros_like(line.coefficients)
+    for window, sign in ((definition.forefoot, 1.0), (definition.rearfoot, -1.0)):
+        share = (np.arange(definition.window_points) + 0.5) / definition.window_points
+        x = line.x_at(window[0] + share * (window[1] - window[0]))
+        basis = cubic_splines(x, len(line.coefficients))[1]
+        slope = basis @ line.coefficients
+        angle += sign * float(np.degrees(np.arctan(slope)).mean())
+        gradient += sign * np.degrees(basis / (1.0 + slope**2)[:, None]).mean(axis=0)
+    return angle, gradient
+
+
+def _angle_sd(line: CentreLine, gradient_deg: Floats, definition: FlareDefinition) -> float:
+    """The angle's standard deviation, carried from how the mid-points scatter around the line.
+
+    The angle is linear in the mid-points near the solution. Of what the line leaves of them only
+    the part shorter than ``scatter_bandwidth`` is scatter: a toe is longer, and comes again in
+    the next scan. Neighbours share vertices, so that their products count too up to
+    ``scatter_lags`` sections apart, with falling weights (which keep the variance positive).
+    """
+    smooth, _ = local_quadratic(line.bands.x, line.bands.x, definition.scatter_bandwidth)
+    rough = line.scatter - smooth @ line.scatter
+    felt = (gradient_deg @ line.response) * rough
+    variance = float(felt @ felt)
+    for lag in range(1, definition.scatter_lags + 1):
+        falling = 1.0 - lag / (definition.scatter_lags + 1)
+        variance += 2.0 * falling * float(felt[lag:] @ felt[:-lag])
+    freedom = line.freedom - float(np.trace(smooth))
+    variance *= len(felt) / max(freedom, 1.0)
+    return float(np.hypot(np.sqrt(variance), definition.frame_sd_deg))

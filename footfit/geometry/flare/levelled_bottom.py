@@ -1,0 +1,178 @@
+"""The part of a shape that its bottom is read from: over the length, level, low faces only."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from footfit.errors import HalfScan
+from footfit.geometry.flare.definition import FlareDefinition
+from footfit.geometry.mesh.sections import (
+    Segments,
+    depth_at,
+    extremes_below,
+    lowest,
+    sections_across,
+)
+from footfit.geometry.mesh.surface import area_vectors
+from footfit.geometry.numeric.arrays import Bools, Floats, Ints
+
+# What may be left out without any value changing (a test holds it); the rest is in the definition.
+_NEIGHBOURHOOD = 0.10  # a normal section reaches less than this forward and backward along x
+_LIFT = 0.02  # the lowest of a normal section lies higher than its neighbours across X by less
+
+
+@dataclass(frozen=True, slots=True)
+class BottomShape:
+    """The faces that a band may touch, over the length, the rearmost point at x = 0.
+
+    ``tips`` (t, 3, 3) are the triangles where the line may leave the shape, low enough to be no
+    leg; ``origin_mm`` and ``length_mm`` lead back to millimetres.
+    """
+
+    vertices: Floats
+    faces: Ints
+    tips: Floats
+    origin_mm: float
+    length_mm: float
+
+
+def low_length(vertices: Floats, height: float, rounds: int = 3) -> tuple[float, float]:
+    """The rearmost x and the extent along x of what lies lower than ``height`` times it.
+
+    Examples
+    --------
+    >>> low_length(np.array([[0.0, 0, 0], [10, 0, 0], [-3, 0, 9]]), 0.3)
+    (0.0, 10.0)
+    """
+    start, length = float(vertices[:, 0].min()), float(np.ptp(vertices[:, 0]))
+    for _ in range(rounds):
+        low = vertices[vertices[:, 2] < height * length, 0]
+        if len(low) == 0:
+            break
+        start, length = float(low.min()), float(np.ptp(low))
+    return start, length
+
+
+def bottom_shape(vertices_mm: Floats, faces: Ints, definition: FlareDefinition) -> BottomShape:
+    """A canonical right mesh over its length, with only the faces that a band may touch.
+
+    Raises
+    ------
+    HalfScan
+        The mesh has no length.
+    """
+    origin, length = low_length(vertices_mm, definition.length_height, definition.length_rounds)
+    if length <= 0.0:
+        raise HalfScan("the scan has no length along its own axis: scan the whole foot again")
+    vertices = (vertices_mm - np.array([origin, 0.0, 0.0])) / length
+    x = section_places(definition)
+    across = sections_across(vertices, faces, x)
+    stands = _some(across, _standing(x, definition))
+    down = area_vectors(vertices, faces[stands.face])
+    level = _levelling(down, stands, x, definition)
+    vertices, across = vertices @ level, _rolled(across, level)
+    ceiling = _highest_near(lowest(across.points[:, :, 2], across), x) + definition.band_height
+    low = vertices[:, 2] <= np.interp(vertices[:, 0], x, ceiling) + _LIFT
+    a, b, c = faces.T
+    keep = low[a] | low[b] | low[c]
+    for start, end in ((a, b), (b, c), (c, a)):
+        keep |= np.abs(vertices[end, 0] - vertices[start, 0]) > _NEIGHBOURHOOD
+    all_faces, faces = faces, faces[keep]
+    used = np.zeros(len(vertices), dtype=np.bool_)
+    used[faces] = True
+    numbers = np.cumsum(used) - 1
+    tip = np.abs(vertices[:, 0] - 0.5) > 0.5 - _NEIGHBOURHOOD
+    tip &= vertices[:, 2] < definition.length_height
+    tips = vertices[all_faces[tip[all_faces].any(axis=1)]]
+    return BottomShape(vertices[used], numbers[faces], tips, origin, length)
+
+
+def _levelling(down: Floats, across: Segments, x: Floats, definition: FlareDefinition) -> Floats:
+    """The rotation about X, (3, 3) to multiply rows with, that levels seat and tread across.
+
+    The plane of a whole sole rolls with the arch, by a degree or two on a heeled last; where a
+    shape stands, under the seat and the tread, it is level. A roll shifts the places that the
+    slopes are read at, so that the level one is solved for (secant steps); sections across X
+    roll as they are. ``down`` (m, 3) are the area vectors of the segments' faces.
+    """
+    roll, before = 0.0, None
+    for _ in range(definition.level_rounds):
+        rotation = _rolling(roll)
+        slope = _stance(down @ rotation, _rolled(across, rotation), x, definition)
+        if slope is None:
+            return np.eye(3)  # no sole to stand on: the frame's own level
+        rest = float(np.arctan(slope))
+        if abs(rest) < definition.level_settled:
+            break
+        gain = 1.0 if before is None else (before[1] - rest) / (roll - before[0])
+        before = (roll, rest)
+        roll += rest / float(np.clip(gain, *definition.level_gain))
+    return _rolling(roll)
+
+
+def _standing(x: Floats, definition: FlareDefinition) -> Bools:
+    """Which sections (k,) are under the seat or the tread."""
+    under = np.zeros(len(x), dtype=np.bool_)
+    for low, high in (definition.seat, definition.tread):
+        under |= (x >= low) & (x <= high)
+    return under
+
+
+def _rolling(roll: float) -> Floats:
+    """The rotation (3, 3) that takes a rise of ``roll`` towards medial out of rows."""
+    cosine, sine = np.cos(roll), np.sin(roll)
+    return np.array([[1.0, 0.0, 0.0], [0.0, cosine, -sine], [0.0, sine, cosine]])
+
+
+def _rolled(segments: Segments, rotation: Floats) -> Segments:
+    return replace(segments, points=segments.points @ rotation)
+
+
+def _stance(down: Floats, across: Segments, x: Floats, definition: FlareDefinition) -> float | None:
+    """The mean slope across of seat and tread, or None where one of them has no bottom."""
+    slope = _cross_slopes(down[:, 2] < 0.0, across, definition)
+    slopes = []
+    for low, high in (definition.seat, definition.tread):
+        wanted = slope[(x >= low) & (x <= high)]
+        found = wanted[np.isfinite(wanted)]
+        if len(found) == 0 or len(found) < definition.found_least * len(wanted):
+            return None
+        slopes.append(float(np.median(found)))
+    return float(np.mean(slopes))
+
+
+def _some(segments: Segments, wanted: Bools) -> Segments:
+    """The segments of the ``wanted`` (planes,) only; the others cut nothing."""
+    kept = wanted[segments.plane]
+    return Segments(
+        segments.planes, segments.plane[kept], segments.face[kept], segments.points[kept]
+    )
+
+
+def _cross_slopes(down: Bools, across: Segments, definition: FlareDefinition) -> Floats:
+    """The slope of each section's bottom from the lateral to the medial side, (planes,)."""
+    place, height = across.points[:, :, 1], across.points[:, :, 2]
+    limit = lowest(height, across) + definition.band_height
+    least, most = extremes_below(place, height, limit, across)
+    first, _, last = definition.bottom_places
+    medial, lateral = (
+        depth_at(most - share * (most - least), place, height, across, down)[0]
+        for share in (first, last)
+    )
+    return np.asarray((medial - lateral) / ((last - first) * (most - least)), dtype=np.float64)
+
+
+def section_places(definition: FlareDefinition) -> Floats:
+    """Where along x the sections are, (sections,)."""
+    return np.linspace(definition.sections_from, definition.sections_to, definition.sections)
+
+
+def _highest_near(floor: Floats, x: Floats) -> Floats:
+    """The highest floor of the sections within reach of each: no face of a band is left out."""
+    reach = int(np.ceil(_NEIGHBOURHOOD / (x[1] - x[0])))
+    known = np.where(np.isfinite(floor), floor, -np.inf)
+    padded = np.pad(known, reach, constant_values=-np.inf)
+    highest = np.lib.stride_tricks.sliding_window_view(padded, 2 * reach + 1).max(axis=1)
+    return np.where(np.isfinite(highest), highest, 1.0)

@@ -1,0 +1,117 @@
+"""The two girths around the heel: from its base over the instep, and the shortest one."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import NamedTuple
+
+import numpy as np
+
+from footfit.geometry.measures.landmarks import AXES, Shape
+from footfit.geometry.measures.tape import hull_girth
+from footfit.geometry.mesh.outlines import Outline
+from footfit.geometry.numeric.arrays import Floats
+
+
+@dataclass(frozen=True, slots=True)
+class HeelSettings:
+    """The search for the shortest girth, over planes ever steeper than the long girth's."""
+
+    steepest_deg: float = 80.0
+    step_deg: float = 3.0
+    beyond: float = 2.0  # steps over the last whole section where the girth may turn
+    flat: float = 0.003  # of the length: a girth that falls less from there on is the least
+
+
+HEEL = HeelSettings()
+
+
+def angle_to_deg(shape: Shape, place: Floats) -> float:
+    """How steeply a place (3,) is seen from the heel's base."""
+    rise = place - shape.heel_base
+    return float(np.degrees(np.arctan2(rise[2], rise[0])))
+
+
+def around_heel(shape: Shape, angle_deg: float) -> Outline:
+    """The section around the heel by the plane across the foot through its base, which rises
+    forward by an angle.
+    """
+    angle = np.radians(angle_deg)
+    forward = np.cos(angle) * AXES[0] + np.sin(angle) * AXES[2]
+    return shape.cut(shape.heel_base, np.stack([AXES[1], forward]))
+
+
+def shortest_around_heel(shape: Shape, settings: HeelSettings = HEEL) -> Outline | None:
+    """The section around the heel with the smallest girth.
+
+    Of a last whose cone ends before the girth grows again, the section at the cone's front edge;
+    None for a foot whose leg is cut that low.
+    """
+    edge_deg = settings.steepest_deg
+    if shape.kind == "last":
+        edge_deg = angle_to_deg(shape, shape.cone_edge)
+    angles, girths = _whole_girths(shape, edge_deg, settings.step_deg)
+    turn = _turn(angles, girths)
+    if shape.kind == "last":
+        reached = turn is not None and turn.steps_beyond <= settings.beyond
+        return around_heel(shape, min(turn.angle_deg, edge_deg) if reached and turn else edge_deg)
+    if turn is None or turn.steps_beyond > settings.beyond:
+        return None
+    section = around_heel(shape, turn.angle_deg)
+    if not shape.topped(section):
+        return section
+    flat = turn.fall_mm <= settings.flat * shape.length_mm
+    return around_heel(shape, angles[-1]) if flat else None
+
+
+def _whole_girths(
+    shape: Shape, steepest_deg: float, step_deg: float
+) -> tuple[list[float], list[float]]:
+    """Angles and girths of ever steeper sections, to one that grows or is not whole."""
+    angles: list[float] = []
+    girths: list[float] = []
+    angle = angle_to_deg(shape, shape.instep)
+    while angle <= steepest_deg:
+        section = around_heel(shape, angle)
+        if shape.topped(section):
+            break
+        angles.append(angle)
+        girths.append(hull_girth(section.points))
+        if len(girths) > 1 and girths[-1] > girths[-2]:
+            break
+        angle += step_deg
+    return angles, girths
+
+
+class Turn(NamedTuple):
+    """Where girths turn from falling to growing: the angle, how many steps behind the last one
+    that was tried, and how far the girth falls from there.
+    """
+
+    angle_deg: float
+    steps_beyond: float
+    fall_mm: float
+
+
+def _turn(angles: list[float], girths: list[float]) -> Turn | None:
+    """The least of the parabola through the last three girths; None where they only fall.
+
+    Examples
+    --------
+    >>> _turn([30.0, 35.0, 40.0], [4.0, 0.0, 4.0])
+    Turn(angle_deg=35.0, steps_beyond=-1.0, fall_mm=4.0)
+    >>> _turn([30.0, 35.0, 40.0], [9.0, 4.0, 1.0])
+    Turn(angle_deg=45.0, steps_beyond=1.0, fall_mm=1.0)
+    >>> _turn([30.0, 35.0, 40.0], [9.0, 6.0, 3.0])
+    """
+    if len(girths) == 2 and girths[1] > girths[0]:
+        return Turn(angles[0], -1.0, girths[1] - girths[0])
+    if len(girths) < 3:
+        return None
+    before, middle, after = girths[-3:]
+    bend = before - 2.0 * middle + after
+    if bend <= 0.0:
+        return None
+    beyond = 0.5 * (before - after) / bend - 1.0
+    step_deg = angles[-1] - angles[-2]
+    return Turn(angles[-1] + beyond * step_deg, beyond, 0.5 * bend * beyond**2)

@@ -1,0 +1,199 @@
+"""Landmarks of a canonical right shape, found by geometry: no marker, no template.
+
+mm; x from heel to toe, y to the medial side, z up.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+
+from footfit.geometry.flare.centre_line import low_length
+from footfit.geometry.measures.top_cut import lid_faces
+from footfit.geometry.mesh.outermost_point import Tip, tip
+from footfit.geometry.mesh.outlines import Outline, outline
+from footfit.geometry.numeric.arrays import Bools, Floats, Ints
+
+AXES = np.eye(3)
+BACK_AND_DOWN = np.array([-1.0, 0.0, -1.0]) / np.sqrt(2.0)
+
+
+@dataclass(frozen=True, slots=True)
+class LandmarkSettings:
+    """Where landmarks are looked for; heights and places over the length."""
+
+    length_height: float = 0.30  # what lies higher is leg
+    width_height: float = 0.20  # over the floor; over it ankles may stand out
+    inner_joint: tuple[float, float] = (0.60, 0.82)  # MT1 of a foot lies at .72, MT5 at .63
+    outer_joint: tuple[float, float] = (0.52, 0.76)
+    joint_edge: float = 0.008  # nearer to its window's end no joint is believed
+    instep: float = 0.50
+    cone: float = 0.15  # a place on a last's cone
+    lid_crossed: float = 0.05  # a section that runs on a lid farther than that is of a cut leg
+    gap: float = 0.03  # a section that is open wider than that is not measured
+
+
+LANDMARKS = LandmarkSettings()
+
+
+@dataclass(frozen=True)
+class Shape:
+    """A canonical right shape; each landmark is found when it is first asked for, and kept.
+
+    ``vertices_mm`` (n, 3), ``faces`` (m, 3) wound outward, ``kind`` "foot" or "last".
+    """
+
+    vertices_mm: Floats
+    faces: Ints
+    kind: str = "foot"
+
+    # ------------------------------------------------------------ the ends
+
+    @cached_property
+    def low(self) -> Ints:
+        """The faces (k, 3) that are no leg; all of them where none is low."""
+        height_mm = LANDMARKS.length_height * self._rough_length_mm
+        low = self._faces_of(self.vertices_mm[:, 2] < height_mm)
+        return low if len(low) else self.faces
+
+    def under(self, height: float) -> Ints:
+        """The faces (k, 3) lower than a height over the length."""
+        return self._faces_of(self.vertices_mm[:, 2] < height * self.length_mm)
+
+    @cached_property
+    def ends(self) -> tuple[Tip, Tip]:
+        """The rearmost point of the heel (its reach towards -X) and the foremost of the toes."""
+        rough_mm = self._rough_length_mm
+        rear = tip(self.vertices_mm, self.low, -AXES[0], rough_mm)
+        return rear, tip(self.vertices_mm, self.low, AXES[0], rough_mm)
+
+    @cached_property
+    def length_mm(self) -> float:
+        """From the pternion to the foremost point along X."""
+        rear, front = self.ends
+        return rear.reach + front.reach
+
+    @property
+    def pternion(self) -> Floats:
+        """The rearmost point of the heel, (3,)."""
+        rear = self.ends[0]
+        return np.array([-rear.reach, *rear.place[1:]])
+
+    @property
+    def toe_tip(self) -> Floats:
+        """The foremost point of the toes, (3,)."""
+        front = self.ends[1]
+        return np.array([front.reach, *front.place[1:]])
+
+    @cached_property
+    def heel_base(self) -> Floats:
+        """Where the heel's back turns into its bottom: the point farthest back and down, (3,)."""
+        return tip(self.vertices_mm, self.low, BACK_AND_DOWN, self.length_mm).place
+
+    # ------------------------------------------------------------ the ball
+
+    @cached_property
+    def mt1(self) -> Floats | None:
+        """The most medial point of the inner joint (first metatarsal head), (3,)."""
+        return self._joint(1.0, LANDMARKS.inner_joint)
+
+    @cached_property
+    def mt5(self) -> Floats | None:
+        """The most lateral point of the outer joint (fifth metatarsal head), (3,)."""
+        return self._joint(-1.0, LANDMARKS.outer_joint)
+
+    def _joint(self, side: float, window: tuple[float, float]) -> Floats | None:
+        """The outermost point of a joint; None where the outline goes on outward over the window's
+        end, as over a big toe that is turned in: that is no joint.
+        """
+        found = self.outermost(side, window)
+        if found is None:
+            return None
+        share = (float(found[0]) - self.x_mm(0.0)) / self.length_mm
+        inside = window[0] + LANDMARKS.joint_edge < share < window[1] - LANDMARKS.joint_edge
+        return found if inside else None
+
+    def outermost(self, side: float, window: tuple[float, float]) -> Floats | None:
+        """The outermost point (3,) of one side (+1 medial, -1 lateral) between two shares of the
+        length; None where there is no surface.
+        """
+        x, _, z = self.vertices_mm.T
+        start, end = (self.x_mm(share) for share in window)
+        height_mm = LANDMARKS.width_height * self.length_mm
+        a, b, c = ((x > start) & (x < end) & (z < height_mm))[self.faces.T]
+        near = self.faces[a | b | c]  # coarse triangles at the window's ends count too
+        if not len(near):
+            return None
+        found = tip(self.vertices_mm, near, side * AXES[1], self.length_mm)
+        return np.array([found.place[0], side * found.reach, found.place[2]])
+
+    # ------------------------------------------------------------ the top
+
+    @cached_property
+    def lid(self) -> Bools:
+        """The faces (m,) that close the shape at its top: a leg's cut, a last's cone top."""
+        return lid_faces(self.vertices_mm, self.faces, self.length_mm, self.x_mm(0.0))
+
+    @cached_property
+    def at_instep(self) -> Outline:
+        """The section at half the length."""
+        return self.across(LANDMARKS.instep)
+
+    @cached_property
+    def instep(self) -> Floats:
+        """The top of the section at half the length, (3,)."""
+        points = self.at_instep.points
+        return np.array([self.x_mm(LANDMARKS.instep), *points[np.argmax(points[:, 1])]])
+
+    @cached_property
+    def cone_edge(self) -> Floats:
+        """A last's upper front edge: the point (3,) farthest over the line from the cone's top to
+        the instep.
+        """
+        x = self.vertices_mm[:, 0]
+        start_mm, end_mm = self.x_mm(LANDMARKS.cone), self.x_mm(LANDMARKS.instep)
+        top_mm = self.across(LANDMARKS.cone).points[:, 1].max()
+        run, fall = end_mm - start_mm, top_mm - self.instep[2]
+        over = np.array([fall, 0.0, run]) / np.hypot(run, fall)
+        faces = self._faces_of((x > start_mm) & (x < end_mm))
+        return tip(self.vertices_mm, faces, over, self.length_mm).place
+
+    # ------------------------------------------------------------ places and sections
+
+    def x_mm(self, share: float) -> float:
+        """Where a share of the length lies along X."""
+        return float(-self.ends[0].reach + share * self.length_mm)
+
+    def across(self, share: float) -> Outline:
+        """The section normal to X at a share of the length, as (y, z)."""
+        if share not in self._across:
+            self._across[share] = self.cut(np.array([self.x_mm(share), 0.0, 0.0]), AXES[1:])
+        return self._across[share]
+
+    def cut(self, origin: Floats, axes: Floats) -> Outline:
+        """The section by the plane through ``origin`` (3,) along ``axes`` (2, 3)."""
+        return outline(self.vertices_mm, self.faces, origin, axes, self.length_mm)
+
+    def opened(self, section: Outline, below_mm: float = np.inf) -> bool:
+        """Whether a section misses a piece of the surface, below a height where one is given."""
+        return not section.loops or section.gap_mm(below_mm) > LANDMARKS.gap * self.length_mm
+
+    def topped(self, section: Outline) -> bool:
+        """Whether a section runs over the shape's lid, or out of its open top."""
+        lid_mm = float(section.length_mm[self.lid[section.face]].sum())
+        return lid_mm > LANDMARKS.lid_crossed * self.length_mm or self.opened(section)
+
+    @cached_property
+    def _across(self) -> dict[float, Outline]:
+        return {}
+
+    @cached_property
+    def _rough_length_mm(self) -> float:
+        return low_length(self.vertices_mm, LANDMARKS.length_height)[1]
+
+    def _faces_of(self, vertices: Bools) -> Ints:
+        """The faces (k, 3) whose three corners are among the chosen vertices (n,)."""
+        a, b, c = vertices[self.faces.T]
+        return np.asarray(self.faces[a & b & c])

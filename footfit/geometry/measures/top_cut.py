@@ -1,0 +1,105 @@
+"""What closes a shape at its top: the cut of a leg, the top of a last's cone.
+
+Canonical mm: x from heel to toe, z up.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from footfit.geometry.mesh.samples import calmed
+from footfit.geometry.mesh.surface import area_vectors
+from footfit.geometry.numeric.arrays import Bools, Floats, Ints
+from footfit.geometry.pose.sole_plane import Plane, fitted_plane
+
+
+@dataclass(frozen=True, slots=True)
+class LidSettings:
+    """Where a lid is looked for and how flat it is; lengths over L, areas over L squared.
+
+    Attributes
+    ----------
+    height, front : float
+        A leg is cut higher than the one and behind the other.
+    facing : float
+        Cosine to Z of what looks up; the dorsum is steeper there.
+    scale, rounds : float, int
+        The plane is fitted with Cauchy weights of that width: what else looks up has none.
+    thickness, flat_share : float, float
+        How far from its plane a lid's face may lie, and how much of what looks up must lie so.
+    flatness : float
+        Cosine to the plane's normal of a lid's face. At its rim a triangle's normal is drawn
+        towards the wall's by calming, the more the coarser the mesh.
+    area : float
+        A leg's cut has .05.
+    """
+
+    height: float = 0.15
+    front: float = 0.45
+    facing: float = 0.80
+    calm_rounds: int = 2
+    scale: float = 0.004
+    rounds: int = 12
+    thickness: float = 0.01
+    flat_share: float = 0.7
+    flatness: float = 0.85
+    area: float = 0.01
+
+
+LIDS = LidSettings()
+
+
+def lid_faces(
+    vertices: Floats,
+    faces: Ints,
+    length: float,
+    start_x: float,
+    settings: LidSettings = LIDS,
+) -> Bools:
+    """The faces (m,) that close a shape at its top.
+
+    What looks up behind the bend of the ankle or, where that lies in one plane, all that lies in
+    it, at any place.
+
+    Parameters
+    ----------
+    vertices : (n, 3)
+    faces : (m, 3)
+    length, start_x : float
+        The shape's length, and where it begins along X.
+    """
+    found = np.zeros(len(faces), dtype=bool)
+    a, b, c = (vertices[:, 2] > settings.height * length)[faces.T]
+    candidates = np.flatnonzero(a & b & c)
+    high = faces[candidates]
+    vectors = area_vectors(vertices, high)
+    for _ in range(settings.calm_rounds):  # else noise turns the dorsum's small faces up
+        vectors = calmed(vectors, high, len(vertices))
+    areas = np.sqrt(np.einsum("ij,ij->i", vectors, vectors))
+    middles = (vertices[high[:, 0]] + vertices[high[:, 1]]) / 3.0 + vertices[high[:, 2]] / 3.0
+    behind = middles[:, 0] < start_x + settings.front * length
+    behind &= vectors[:, 2] > settings.facing * areas
+    total = float(areas[behind].sum())
+    if total <= settings.area * length**2:
+        return found
+    plane = _steady_plane(middles[behind], vectors[behind], areas[behind], length, settings)
+    level = np.abs(plane.heights(middles)) < settings.thickness * length
+    level &= vectors @ plane.normal > settings.flatness * areas
+    flat = float(areas[behind & level].sum()) > settings.flat_share * total
+    found[candidates[level if flat else behind]] = True
+    return found
+
+
+def _steady_plane(
+    points: Floats, vectors: Floats, areas: Floats, length: float, settings: LidSettings
+) -> Plane:
+    """The plane that most of an area lies in: from its mean normal, by Cauchy weights."""
+    normal = vectors.sum(axis=0)
+    normal /= np.linalg.norm(normal)
+    plane = Plane(normal, float(normal @ (areas @ points) / areas.sum()))
+    for _ in range(settings.rounds):
+        away = plane.heights(points) / (settings.scale * length)
+        plane = fitted_plane(points, areas / (1.0 + np.square(away)), normal)
+    return plane

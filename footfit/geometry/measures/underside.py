@@ -1,0 +1,89 @@
+"""The underside seen from the side: where the arch is, how the middle runs."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from footfit.geometry.measures.landmarks import Shape
+from footfit.geometry.mesh.sections import depth_at, extremes_below, lowest, sections_across
+from footfit.geometry.numeric.arrays import Bools, Floats, Ints
+from footfit.geometry.numeric.smoothing import local_quadratic
+
+
+@dataclass(frozen=True, slots=True)
+class BottomSettings:
+    """Where the underside is read, over the length; ``places`` over the width, 0 lateral."""
+
+    step: float = 0.015  # from section to section
+    band: float = 0.10  # over the section's lowest point: the width the places are shares of
+    reach: float = 0.30  # what lies higher is no underside
+    bandwidth: float = 0.03
+    whole: tuple[float, float] = (0.04, 0.96)
+    arch: tuple[float, float] = (0.28, 0.62)
+    arch_places: tuple[float, ...] = (0.70, 0.75, 0.80)
+    middle_places: tuple[float, ...] = (0.35, 0.50, 0.65)
+
+
+BOTTOM = BottomSettings()
+
+
+@dataclass(frozen=True, slots=True)
+class Underside:
+    """The height of the underside ``z_mm`` (k,) at ``x_mm`` (k,)."""
+
+    x_mm: Floats
+    z_mm: Floats
+
+    def smooth(self, spread_mm: float) -> Underside:
+        """The same curve, smoothed by local parabolas that weigh down over ``spread_mm``."""
+        return Underside(self.x_mm, local_quadratic(self.x_mm, self.x_mm, spread_mm)[0] @ self.z_mm)
+
+    def line(self) -> tuple[float, float]:
+        """Slope and height at x = 0 of the straight line along it."""
+        slope, height = np.polyfit(self.x_mm, self.z_mm, 1)
+        return float(slope), float(height)
+
+
+def underside(
+    shape: Shape,
+    window: tuple[float, float],
+    places: tuple[float, ...],
+    settings: BottomSettings = BOTTOM,
+) -> Underside | None:
+    """The underside's mean height at some shares of the width, 0 lateral and 1 medial.
+
+    Parameters
+    ----------
+    shape : Shape
+    window : (2,)
+        From where to where, over the length.
+    places : (p,)
+
+    Returns
+    -------
+    Underside or None
+        None where a section has no surface that looks down at one of the places.
+    """
+    count = 1 + round((window[1] - window[0]) / settings.step)
+    x = shape.x_mm(0.0) + np.linspace(*window, count) * shape.length_mm
+    faces = shape.under(settings.reach)
+    segments = sections_across(shape.vertices_mm, faces, x)
+    y, z = segments.points[:, :, 1], segments.points[:, :, 2]
+    limit = lowest(z, segments) + settings.band * shape.length_mm
+    lateral, medial = extremes_below(y, z, limit, segments)
+    down = _looks_down(shape.vertices_mm, faces[segments.face])
+    depths = np.array(
+        [depth_at(lateral + at * (medial - lateral), y, z, segments, down)[0] for at in places]
+    )
+    if not np.all(depths <= limit):
+        return None
+    return Underside(x, depths.mean(axis=0))
+
+
+def _looks_down(vertices: Floats, faces: Ints) -> Bools:
+    """Which faces (m, 3) have an outward normal that points down, (m,)."""
+    a, b, c = (vertices[faces[:, corner], :2] for corner in range(3))
+    u, v = b - a, c - a
+    return np.asarray(u[:, 0] * v[:, 1] < u[:, 1] * v[:, 0])

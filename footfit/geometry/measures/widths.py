@@ -1,0 +1,105 @@
+"""Widths: of the ball, of the heel, of a last's bottom."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from footfit.geometry.measures.landmarks import Shape
+from footfit.geometry.measures.lengths import NO_BALL
+from footfit.geometry.measures.measure_value import OPEN, Reading
+from footfit.geometry.mesh.outlines import Outline
+
+
+@dataclass(frozen=True, slots=True)
+class WidthSettings:
+    """Where widths are taken, over the length."""
+
+    forefoot: tuple[float, float] = (0.50, 0.90)
+    heel: float = 1.0 / 6.0
+    ball: float = 0.66
+    beside: tuple[float, ...] = (-0.015, 0.0, 0.015)  # sections that are averaged
+    bottom_beside: tuple[float, ...] = (-0.03, -0.015, 0.0, 0.015, 0.03)
+    height: float = 0.15  # over each section's lowest point; over it ankles may stand out
+
+
+WIDTHS = WidthSettings()
+
+
+def ball_width(shape: Shape) -> Reading:
+    """From MT1 to MT5 in plan (the oblique ball width)."""
+    if shape.mt1 is None or shape.mt5 is None:
+        return Reading(None, NO_BALL)
+    return Reading(float(np.hypot(*(shape.mt1 - shape.mt5)[:2])))
+
+
+def ball_width_orthogonal(shape: Shape) -> Reading:
+    """Between the two tangents along X at the forefoot (ISO 7250-1 foot breadth)."""
+    medial, lateral = (shape.outermost(side, WIDTHS.forefoot) for side in (1.0, -1.0))
+    if medial is None or lateral is None:
+        return Reading(None, NO_BALL)
+    return Reading(float(medial[1] - lateral[1]))
+
+
+def heel_width(shape: Shape) -> Reading:
+    """Across the heel at one sixth of the length from the pternion."""
+    return _mean_width(shape, [WIDTHS.heel + by for by in WIDTHS.beside], "heel", _lower_width)
+
+
+def bottom_width_ball(shape: Shape) -> Reading:
+    """Across the bottom of a last at the ball, from feather edge to feather edge."""
+    return _bottom_width(shape, WIDTHS.ball, "ball")
+
+
+def bottom_width_heel(shape: Shape) -> Reading:
+    """Across the bottom of a last at one sixth of the length, from feather edge to feather edge."""
+    return _bottom_width(shape, WIDTHS.heel, "heel")
+
+
+def _bottom_width(shape: Shape, share: float, place: str) -> Reading:
+    shares = [share + by for by in WIDTHS.bottom_beside]
+    return _mean_width(shape, shares, place, _feather_width)
+
+
+def _mean_width(
+    shape: Shape, shares: Sequence[float], place: str, width: Callable[[Outline, float], float]
+) -> Reading:
+    """The mean width of the sections at some shares of the length."""
+    widths = []
+    for share in shares:
+        section = shape.across(share)
+        below_mm = section.points[:, 1].min(initial=np.inf) + WIDTHS.height * shape.length_mm
+        if shape.opened(section, below_mm):
+            return Reading(None, OPEN.format(place=place))
+        widths.append(width(section, shape.length_mm))
+    return Reading(float(np.mean(widths)))
+
+
+def _lower_width(section: Outline, length_mm: float) -> float:
+    """The extent across of what is not high over a section's lowest point."""
+    points = section.points
+    low = points[:, 1] < points[:, 1].min() + WIDTHS.height * length_mm
+    return float(np.ptp(points[low, 0]))
+
+
+def _feather_width(section: Outline, length_mm: float) -> float:  # noqa: ARG001
+    """Between the points of a section that lines of 45 degrees touch from below on either side."""
+    return _touched(section, 1.0) - _touched(section, -1.0)
+
+
+def _touched(section: Outline, side: float) -> float:
+    """Where across a section a line of 45 degrees touches it from below on one side.
+
+    Between the outline's points, by the parabola through the outermost and its neighbours.
+    """
+    out = [side * loop[:, 0] - loop[:, 1] for loop in section.loops]
+    index = int(np.argmax([values.max() for values in out]))
+    values, across = out[index], section.loops[index][:, 0]
+    at = int(np.argmax(values))
+    before, top, after = values[at - 1], values[at], values[(at + 1) % len(values)]
+    bend = before - 2.0 * top + after
+    shift = 0.5 * (before - after) / bend if bend < 0.0 else 0.0
+    beside = across[(at + 1) % len(values)] if shift > 0.0 else across[at - 1]
+    return float(across[at] + abs(shift) * (beside - across[at]))

@@ -1,0 +1,1 @@
+"""Triangle surfaces: areas, topology, sections, outlines, samples, moments, holes, caps."""

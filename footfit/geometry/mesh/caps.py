@@ -1,0 +1,218 @@
+"""A smooth cap for one hole: it meets the rim and goes on as the surface comes in.
+
+Over the unit disk, a map whose Laplacian is harmonic is fixed by its values p and its outward
+derivative q on the circle, wave by wave: (a r^n + b r^(n + 2)) e^(i n t) with a + b = p and
+n a + (n + 2) b = q. So a cap is two Fourier transforms; no system is solved.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from footfit.geometry.mesh.surface import area_vectors, unit
+from footfit.geometry.numeric.arrays import Floats, Ints
+
+Waves = NDArray[np.complex128]
+_TURN = 2.0 * np.pi
+
+
+@dataclass(frozen=True, slots=True)
+class CapSettings:
+    """Everything numeric of a cap.
+
+    rim_samples, slope_samples, harmonics
+        How finely a rim and the surface's slope there are read, and how many waves a cap follows.
+    band, faces_most
+        How far around a rim the surface says how it goes on, over the rim's extent; and how many
+        faces are asked at most.
+    stretch_most
+        A slope's length over what it has in the plane of the flat cap.
+    patch_cosine
+        A rim whose surface lies more inward than this is the edge of a patch and no hole.
+    rings_most, ring_steps
+        Rings of triangles at most; each ring has so many more sides than the one within.
+    """
+
+    rim_samples: int = 256
+    slope_samples: int = 32
+    harmonics: int = 6
+    band: float = 0.15
+    faces_most: int = 20_000
+    stretch_most: float = 3.0
+    patch_cosine: float = -0.6
+    rings_most: int = 12
+    ring_steps: int = 6
+
+
+CAPS = CapSettings()
+
+
+@dataclass(frozen=True, slots=True)
+class Facets:
+    """The faces' middles and area vectors, (m, 3) each."""
+
+    middles: Floats
+    vectors: Floats
+
+    @classmethod
+    def of(cls, vertices: Floats, faces: Ints) -> Facets:
+        """The facets of a mesh."""
+        return cls(vertices[faces].mean(axis=1), area_vectors(vertices, faces))
+
+    def near(self, centre: Floats, reach: float, most: int) -> Facets:
+        """Those within ``reach`` of a point, thinned to about ``most``."""
+        away = self.middles - centre
+        found = np.flatnonzero(np.einsum("ij,ij->i", away, away) < reach**2)
+        found = found[:: max(1, len(found) // most)]
+        return Facets(self.middles[found], self.vectors[found])
+
+
+@dataclass(frozen=True, slots=True)
+class Cap:
+    """The inner vertices (k, 3) of a cap, and its triangles (t, 3).
+
+    An index below the rim's length is the rim's vertex, a higher one an inner vertex.
+    """
+
+    points: Floats
+    triangles: Ints
+
+
+def extent_of(rim: Floats) -> float:
+    """Twice the distance of a rim's farthest point (k, 3) from the rim's middle."""
+    return 2.0 * float(_lengths(rim - rim.mean(axis=0)).max())
+
+
+def farthest_of(rim: Floats) -> int:
+    """The number of a rim's point (k, 3) that is farthest from its middle.
+
+    A cap that starts there is the same in any order of vertices and, mirrored, in a mirror.
+    """
+    return int(_lengths(rim - rim.mean(axis=0)).argmax())
+
+
+def cap(rim: Floats, facets: Facets, ring: float, settings: CapSettings = CAPS) -> Cap | None:
+    """A cap for a rim.
+
+    Parameters
+    ----------
+    rim : (k, 3)
+        In the order in which the cap's triangles run it, against the surface's; from the
+        farthest on.
+    facets : Facets
+        Of the surface around it.
+    ring : float
+        About the distance between the cap's rings of vertices.
+
+    Returns
+    -------
+    Cap or None
+        None where the rim is the outer edge of a patch.
+    """
+    extent = extent_of(rim)
+    turn, waves = _rim_waves(rim, settings)
+    near = facets.near(rim.mean(axis=0), (0.5 + 3.0 * settings.band) * extent, settings.faces_most)
+    slope = _slope_waves(waves, near, settings.band * extent, settings)
+    if slope is None:
+        return None
+    order = _orders(settings)
+    b = 0.5 * (slope - order[:, None] * waves)
+    rings = int(np.clip(round(0.5 * extent / ring), 1, settings.rings_most))
+    counts = [settings.ring_steps * k for k in range(rings - 1, 0, -1)]
+    share = np.repeat(np.append(np.arange(rings - 1, 0, -1), 0) / rings, [*counts, 1])
+    angles = np.concatenate([*(_even(count) for count in counts), np.zeros(1)])
+    radial = (waves - b) * share[:, None, None] ** order[:, None]
+    radial = radial + b * share[:, None, None] ** (order[:, None] + 2.0)
+    spin = np.exp(1j * np.outer(angles, _numbers(settings)))
+    points = np.einsum("kn,knc->kc", spin, radial).real
+    return Cap(points, _triangles(turn, counts))
+
+
+def _even(count: int) -> Floats:
+    return np.asarray(_TURN * np.arange(count) / count)
+
+
+def _numbers(settings: CapSettings) -> Floats:
+    """The waves' numbers, (2 harmonics + 1,)."""
+    return np.arange(-settings.harmonics, settings.harmonics + 1.0)
+
+
+def _orders(settings: CapSettings) -> Floats:
+    return np.abs(_numbers(settings))
+
+
+def _rim_waves(rim: Floats, settings: CapSettings) -> tuple[Floats, Waves]:
+    """Each rim vertex's share of a turn by the rim's length, (k,), and the rim's waves (w, 3)."""
+    sides = np.linalg.norm(np.roll(rim, -1, axis=0) - rim, axis=1)
+    run = _TURN * np.append(0.0, np.cumsum(sides)) / sides.sum()
+    closed = np.vstack([rim, rim[:1]])
+    angles = _even(settings.rim_samples)
+    samples = np.column_stack([np.interp(angles, run, column) for column in closed.T])
+    return run[:-1], _waves(samples, settings)
+
+
+def _waves(samples: Floats, settings: CapSettings) -> Waves:
+    """The first waves (w, 3) of evenly spaced samples (s, 3) around a turn."""
+    back = np.exp(-1j * np.outer(_numbers(settings), _even(len(samples))))
+    return np.asarray(back @ samples / len(samples))
+
+
+def _slope_waves(waves: Waves, near: Facets, reach: float, settings: CapSettings) -> Waves | None:
+    """The waves (w, 3) of the outward derivative at the rim, along the surface around it.
+
+    A flat cap's derivative is laid into the tangent plane that the facets within ``reach`` have.
+    """
+    spin = np.exp(1j * np.outer(_even(settings.slope_samples), _numbers(settings)))
+    place = (spin @ waves).real
+    flat = (spin @ (_orders(settings)[:, None] * waves)).real
+    squares = ((place[:, None, :] - near.middles) ** 2).sum(axis=2)
+    weight = np.exp(-squares / (0.5 * reach**2))
+    area = weight * np.sqrt(np.einsum("ij,ij->i", near.vectors, near.vectors))
+    outside = area @ near.middles - area.sum(axis=1)[:, None] * place
+    outward = place - waves[settings.harmonics].real
+    if _mean_cosine(outside, outward) < settings.patch_cosine:
+        return None
+    normal = unit(weight @ near.vectors)
+    along = flat - normal * np.einsum("ij,ij->i", normal, flat)[:, None]
+    longer = _lengths(flat) / np.maximum(_lengths(along), np.finfo(np.float64).tiny)
+    return _waves(along * np.minimum(longer, settings.stretch_most)[:, None], settings)
+
+
+def _mean_cosine(one: Floats, other: Floats) -> float:
+    """The cosine between rows of (k, 3), averaged by the length of ``one``."""
+    total = float((_lengths(one) * _lengths(other)).sum())
+    return float(np.einsum("ij,ij->", one, other)) / total if total > 0.0 else -1.0
+
+
+def _lengths(rows: Floats) -> Floats:
+    return np.asarray(np.sqrt(np.einsum("ij,ij->i", rows, rows)))
+
+
+# ---------------------------------------------------------------- triangles
+
+
+def _triangles(turn: Floats, counts: list[int]) -> Ints:
+    """Triangles from the rim, at shares ``turn`` of a turn, over rings to the middle, (t, 3)."""
+    starts = len(turn) + np.append(0, np.cumsum(counts)).astype(np.int64)
+    angles = [turn, *(_even(count) for count in counts)]
+    rings = [
+        np.arange(len(turn)),
+        *(s + np.arange(c) for s, c in zip(starts, counts, strict=False)),
+    ]
+    bands = [_band(rings[k], angles[k], rings[k + 1], angles[k + 1]) for k in range(len(counts))]
+    last = rings[-1]
+    fan = np.stack([last, np.roll(last, -1), np.full(len(last), starts[-1])], axis=1)
+    return np.concatenate([*bands, fan])
+
+
+def _band(outer: Ints, at: Floats, inner: Ints, within: Floats) -> Ints:
+    """Triangles between two rings, their sides in the order of their middles' angles."""
+    at, within = (0.5 * (a + np.append(a[1:], _TURN)) for a in (at, within))
+    beside = np.searchsorted(within, at, side="left") % len(inner)
+    opposite = np.searchsorted(at, within, side="right") % len(outer)
+    one = np.stack([outer, np.roll(outer, -1), inner[beside]], axis=1)
+    other = np.stack([outer[opposite], np.roll(inner, -1), inner], axis=1)
+    return np.concatenate([one, other])

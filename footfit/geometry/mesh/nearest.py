@@ -1,0 +1,234 @@
+"""The nearest point of a triangle surface, and on which side of the surface one is."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from footfit.geometry.mesh.surface import area_vectors, corner_angles, unit
+from footfit.geometry.mesh.topology import boundary_vertices
+from footfit.geometry.numeric.arrays import Bools, Floats, Ints
+
+
+@dataclass(frozen=True, slots=True)
+class NearestSettings:
+    """How the nearest triangle is looked for.
+
+    A triangle stands in the tree as the middles of its parts, ``spacing`` apart (of the longest
+    extent) and at most ``most_splits`` to an edge. The triangles of each point's ``candidates``
+    nearest samples are tried exactly, ``points_at_once`` points at a time. Too few samples can
+    only make a distance come out too large.
+    """
+
+    spacing: float = 0.02
+    most_splits: int = 32
+    candidates: int = 10
+    points_at_once: int = 20_000
+
+
+NEAREST = NearestSettings()
+
+
+@dataclass(frozen=True, slots=True)
+class Nearest:
+    """For each of p points: the ``face`` (p,) that is nearest, the ``place`` (p, 3) on it, its
+    barycentric ``weights`` (p, 3), and the ``distance`` (p,) to it.
+    """
+
+    face: Ints
+    place: Floats
+    weights: Floats
+    distance: Floats
+
+
+def nearest_on_surface(
+    points: Floats, vertices: Floats, faces: Ints, settings: NearestSettings = NEAREST
+) -> Nearest:
+    """The nearest point of a surface to each point.
+
+    Parameters
+    ----------
+    points : (p, 3)
+    vertices : (n, 3)
+    faces : (m, 3)
+        At least one.
+
+    Examples
+    --------
+    >>> corners, faces = np.array([[0.0, 0, 0], [4, 0, 0], [0, 4, 0]]), np.array([[0, 1, 2]])
+    >>> found = nearest_on_surface(np.array([[1.0, 1, 7], [-3, -4, 0]]), corners, faces)
+    >>> found.distance.tolist(), found.place.tolist()
+    ([7.0, 5.0], [[1.0, 1.0, 0.0], [0.0, 0.0, 0.0]])
+    """
+    from scipy.spatial import KDTree
+
+    samples, owners = surface_samples(vertices, faces, settings)
+    tree = KDTree(samples)
+    pieces = [
+        _nearest_of(points[start : start + settings.points_at_once], tree, owners, vertices[faces])
+        for start in range(0, len(points), settings.points_at_once)
+    ]
+    if not pieces:
+        return Nearest(np.empty(0, dtype=np.int64), np.empty((0, 3)), np.empty((0, 3)), np.empty(0))
+    fields = zip(*((one.face, one.place, one.weights, one.distance) for one in pieces), strict=True)
+    face, place, weights, distance = (np.concatenate(field) for field in fields)
+    return Nearest(face, place, weights, distance)
+
+
+def _nearest_of(points: Floats, tree: object, owners: Ints, corners: Floats) -> Nearest:
+    count = min(NEAREST.candidates, len(owners))
+    sample = tree.query(points, k=count)[1].reshape(len(points), count)  # type: ignore[attr-defined]
+    tried = np.sort(owners[sample], axis=1)  # equal distances: the lowest face, on any machine
+    row, column = np.nonzero(np.diff(tried, axis=1, prepend=-1))
+    face = tried[row, column]
+    weights = nearest_weights(points[row], corners[face])
+    place = np.einsum("pj,pjk->pk", weights, corners[face])
+    away = place - points[row]
+    squared = np.einsum("ij,ij->i", away, away)
+    order = np.lexsort((face, squared, row))
+    best = order[np.flatnonzero(np.diff(row[order], prepend=-1))]
+    return Nearest(face[best], place[best], weights[best], np.sqrt(squared[best]))
+
+
+def nearest_weights(points: Floats, corners: Floats) -> Floats:
+    """The barycentric weights (p, 3) of the nearest point of each point's own triangle.
+
+    Parameters
+    ----------
+    points : (p, 3)
+    corners : (p, 3, 3)
+        A triangle without area is taken as its longest edge.
+    """
+    a, b, c = corners[:, 0], corners[:, 1], corners[:, 2]
+    u, v, w = b - a, c - a, points - a
+    uu, uv, vv, wu, wv = (_dot(p, q) for p, q in ((u, u), (u, v), (v, v), (w, u), (w, v)))
+    determinant = uu * vv - uv * uv
+    safe = np.where(determinant > 0.0, determinant, 1.0)
+    s, t = (vv * wu - uv * wv) / safe, (uu * wv - uv * wu) / safe
+    inside = (determinant > 0.0) & (s >= 0.0) & (t >= 0.0) & (s + t <= 1.0)
+    weights = np.stack([1.0 - s - t, s, t], axis=1)
+    outside = np.flatnonzero(~inside)
+    weights[outside] = _on_edges(points[outside], corners[outside])
+    return weights
+
+
+def _on_edges(points: Floats, corners: Floats) -> Floats:
+    """The weights (p, 3) of the nearest point on the three edges of each point's triangle."""
+    best, least = np.zeros((len(points), 3)), np.full(len(points), np.inf)
+    for first in range(3):
+        second = (first + 1) % 3
+        start, along = corners[:, first], corners[:, second] - corners[:, first]
+        length = _dot(along, along)
+        share = _dot(points - start, along) / np.where(length > 0.0, length, 1.0)
+        share = np.clip(share, 0.0, 1.0)
+        away = points - start - share[:, None] * along
+        squared = _dot(away, away)
+        nearer = np.flatnonzero(squared < least)
+        best[nearer] = 0.0
+        best[nearer, first], best[nearer, second] = 1.0 - share[nearer], share[nearer]
+        least[nearer] = squared[nearer]
+    return best
+
+
+def _dot(one: Floats, other: Floats) -> Floats:
+    products: Floats = np.einsum("ij,ij->i", one, other)
+    return products
+
+
+def surface_samples(
+    vertices: Floats, faces: Ints, settings: NearestSettings = NEAREST
+) -> tuple[Floats, Ints]:
+    """Points of a surface (s, 3) and each one's face (s,): the middles of all triangles, of large
+    ones those of their parts, and the corners (a needle's middle is far from its tip).
+    """
+    corners = vertices[faces]
+    spacing = settings.spacing * float(np.ptp(corners.reshape(-1, 3), axis=0).max())
+    longest = np.linalg.norm(corners - corners[:, [1, 2, 0]], axis=2).max(axis=1)
+    wanted = np.ceil(longest / (spacing if spacing > 0.0 else 1.0))
+    splits = np.clip(wanted, 1, settings.most_splits).astype(np.int64)
+    at, owner = np.unique(faces.ravel(), return_index=True)
+    points, owners = [vertices[at]], [owner // 3]
+    for split in np.unique(splits).tolist():
+        chosen = np.flatnonzero(splits == split)
+        points.append((part_middles(split) @ corners[chosen]).reshape(-1, 3))
+        owners.append(np.repeat(chosen, split * split))
+    return np.concatenate(points), np.concatenate(owners)
+
+
+def part_middles(split: int) -> Floats:
+    """Barycentric coordinates (split^2, 3) of the middles of a triangle's equal parts.
+
+    Examples
+    --------
+    >>> part_middles(2).shape, bool(np.allclose(part_middles(2).mean(axis=0), 1 / 3))
+    ((4, 3), True)
+    """
+    upright = [(3 * i + 1, 3 * j + 1) for i in range(split) for j in range(split - i)]
+    turned = [(3 * i + 2, 3 * j + 2) for i in range(split - 1) for j in range(split - 1 - i)]
+    rows = [(i, j, 3 * split - i - j) for i, j in upright + turned]
+    return np.array(rows, dtype=np.float64) / (3 * split)
+
+
+# ---------------------------------------------------------------- the side
+
+
+def outward_at(found: Nearest, vertices: Floats, faces: Ints) -> Floats:
+    """The surface's outward direction (p, 3) at the nearest points, for telling the sides apart.
+
+    The pseudonormal of [baerentzen2005]: a face's normal inside a face, the mean of two on an
+    edge, the sum weighted by the corners' angles at a vertex. Its dot product with the way from
+    the nearest point to the point is positive outside and negative inside, exactly, also where
+    the nearest point lies on a crease.
+    """
+    normals = unit(area_vectors(vertices, faces))
+    lying = found.weights > 0.0
+    on = lying.sum(axis=1)
+    outward = normals[found.face].copy()
+    at_vertex = np.flatnonzero(on == 1)
+    if len(at_vertex):
+        sums = _vertex_pseudonormals(vertices, faces, normals)
+        corner = np.argmax(lying[at_vertex], axis=1)
+        outward[at_vertex] = sums[faces[found.face[at_vertex], corner]]
+    at_edge = np.flatnonzero(on == 2)
+    if len(at_edge):
+        missing = np.argmin(lying[at_edge], axis=1)
+        outward[at_edge] += normals[faces_across(faces, found.face[at_edge], missing)]
+    return outward
+
+
+def _vertex_pseudonormals(vertices: Floats, faces: Ints, normals: Floats) -> Floats:
+    """The faces' normals summed at each vertex (n, 3), by the angle that they have there."""
+    angles = corner_angles(vertices, faces)
+    sums = np.empty_like(vertices)
+    for axis in range(3):
+        felt = (angles * normals[:, [axis]]).ravel()
+        sums[:, axis] = np.bincount(faces.ravel(), weights=felt, minlength=len(vertices))
+    return sums
+
+
+def faces_across(faces: Ints, face: Ints, corner: Ints) -> Ints:
+    """The face (p,) beyond the edge of ``face`` (p,) that lies opposite to its ``corner`` (p,); the
+    face itself where there is none.
+
+    Examples
+    --------
+    >>> faces = np.array([[0, 1, 2], [2, 1, 3]])
+    >>> faces_across(faces, np.array([0, 0]), np.array([0, 1])).tolist()
+    [1, 0]
+    """
+    span = int(faces.max()) + 1
+    start, end = faces[:, [1, 2, 0]].ravel(), faces[:, [2, 0, 1]].ravel()  # opposite to 0, 1, 2
+    keys = start * span + end
+    order = np.argsort(keys, kind="stable")
+    reverse = faces[face, (corner + 2) % 3] * span + faces[face, (corner + 1) % 3]
+    place = np.minimum(np.searchsorted(keys[order], reverse), len(keys) - 1)
+    other = order[place]
+    return np.where(keys[other] == reverse, other // 3, face)
+
+
+def at_rim(found: Nearest, faces: Ints, n_vertices: int) -> Bools:
+    """Which points (p,) are nearest to the surface's open rim, where it has no side."""
+    rim = boundary_vertices(faces, n_vertices)[faces[found.face]]
+    lying = found.weights > 0.0
+    return np.asarray(~lying.all(axis=1) & (rim | ~lying).all(axis=1))

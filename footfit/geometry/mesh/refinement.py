@@ -1,0 +1,152 @@
+"""Vertices put into big flat facets, so that what is measured at vertices can see them."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from footfit.geometry.mesh.surface import face_normals
+from footfit.geometry.mesh.topology import dilated, half_edges, lowest_connected, sorted_keys
+from footfit.geometry.numeric.arrays import Bools, Floats, Ints
+
+
+@dataclass(frozen=True, slots=True)
+class RefinementSettings:
+    """When a side is inside a flat facet, and how far splitting goes.
+
+    turn_most_deg
+        Faces that turn by less than this over their common side are one facet.
+    faces_least
+        A facet of fewer faces is left: on a curved surface two faces may chance to lie in one
+        plane, and the middle of a chord is not on the surface.
+    rounds
+        Each halves what is too long.
+    growth_most, vertices_enough
+        No further round is begun past this many times the given vertices, and this many.
+    """
+
+    turn_most_deg: float = 0.02
+    faces_least: int = 6
+    rounds: int = 8
+    growth_most: int = 2
+    vertices_enough: int = 20_000
+
+
+SETTINGS = RefinementSettings()
+
+
+def with_flat_facets_split(vertices: Floats, faces: Ints, longest: float) -> tuple[Floats, Ints]:
+    """Split sides longer than ``longest`` that lie inside flat facets.
+
+    Parameters
+    ----------
+    vertices : (n, 3) float64
+    faces : (m, 3) int64
+        Welded and consistently wound.
+    longest : float
+        In the coordinates' unit.
+
+    Returns
+    -------
+    vertices : (k, 3) float64
+        The given ones first, then mid-points. No point of the surface moves.
+    faces : (l, 3) int64
+        Neighbours share every new vertex: a closed mesh stays closed.
+
+    Examples
+    --------
+    >>> turn = np.linspace(0.0, 2 * np.pi, 7)[:6]
+    >>> rim = np.stack([np.cos(turn), np.sin(turn), 0 * turn], axis=1)
+    >>> hexagon = np.concatenate([rim, np.zeros((1, 3))])
+    >>> fan = np.array([[k, (k + 1) % 6, 6] for k in range(6)])
+    >>> [len(part) for part in with_flat_facets_split(hexagon, fan, 0.9)]
+    [13, 18]
+    """
+    enough = max(SETTINGS.vertices_enough, SETTINGS.growth_most * len(vertices))
+    for _ in range(SETTINGS.rounds):
+        if len(vertices) > enough or not _some_to_split(vertices, faces, longest):
+            break
+        side, pairs, flat = _sides(vertices, faces, SETTINGS.faces_least)
+        length = np.linalg.norm(vertices[pairs[:, 1]] - vertices[pairs[:, 0]], axis=1)
+        chosen = flat & (length > longest)
+        if not chosen.any():
+            break
+        middle = np.where(chosen, len(vertices) - 1 + np.cumsum(chosen), -1)[side]
+        vertices = np.concatenate([vertices, vertices[pairs[chosen]].mean(axis=1)])
+        faces = _split(vertices, faces, middle)
+    return vertices, faces
+
+
+def _some_to_split(vertices: Floats, faces: Ints, longest: float) -> bool:
+    """Whether a side longer than ``longest`` lies inside a facet: mostly none does, and fast.
+
+    Where two faces lie in one plane by chance, the rings around them hold no facet.
+    """
+    corners = [np.take(vertices[:, axis], faces) for axis in range(3)]
+    square = sum(((x[:, [1, 2, 0]] - x) ** 2 for x in corners), start=np.zeros(faces.shape))
+    long = np.flatnonzero(square.ravel() > longest**2)
+    ends = np.stack([faces.ravel()[long], faces[:, [1, 2, 0]].ravel()[long]])
+    order, ordered = sorted_keys(ends.min(axis=0) * len(vertices) + ends.max(axis=0))
+    first = np.flatnonzero(ordered[1:] == ordered[:-1])
+    pairs = faces[long[order[np.stack([first, first + 1])]] // 3]
+    little = _turn_little(*(face_normals(vertices, side) for side in pairs))
+    touched = np.zeros(len(vertices), dtype=bool)
+    touched[pairs[:, little]] = True
+    touched = dilated(touched, faces, SETTINGS.faces_least - 2)
+    around = faces[touched[faces].any(axis=1)]
+    return len(around) > 0 and bool(_sides(vertices, around, SETTINGS.faces_least)[2].any())
+
+
+def _turn_little(normals: Floats, others: Floats) -> Bools:
+    along = np.einsum("ij,ij->i", normals, others)
+    little: Bools = along > np.cos(np.radians(SETTINGS.turn_most_deg))
+    return little
+
+
+def _sides(vertices: Floats, faces: Ints, least: int) -> tuple[Ints, Ints, Bools]:
+    """The side's number of each half-edge (m, 3), each side's ends (k, 2), and whether it is flat.
+
+    Flat is a side inside a facet of at least ``least`` faces.
+    """
+    ends = half_edges(faces)
+    order, ordered = sorted_keys(ends.min(axis=1) * len(vertices) + ends.max(axis=1))
+    starts = np.append(True, ordered[1:] != ordered[:-1])
+    first = np.flatnonzero(starts)
+    count = np.diff(np.append(first, len(ordered)))
+    side = np.empty(len(ordered), dtype=np.int64)
+    side[order] = np.cumsum(starts) - 1
+    pairs = np.stack([order[first], order[np.minimum(first + 1, len(order) - 1)]], axis=1) // 3
+    normals = face_normals(vertices, faces)
+    flat = (count == 2) & _turn_little(normals[pairs[:, 0]], normals[pairs[:, 1]])
+    facet = lowest_connected(pairs[flat], len(faces))
+    flat &= np.bincount(facet, minlength=len(faces))[facet[pairs[:, 0]]] >= least
+    return side.reshape(-1, 3), ends[order[first]], flat
+
+
+def _split(vertices: Floats, faces: Ints, middle: Ints) -> Ints:
+    """The faces with the new vertices (m, 3) in the middle of their sides; -1 is a whole side."""
+    count = (middle >= 0).sum(axis=1)
+    # Turn each face so that with one split side it comes first, with two the whole one comes last.
+    lone = np.where(count[:, None] == 1, middle >= 0, middle < 0)
+    turn = np.argmax(lone, axis=1) + (count == 2)
+    places = (turn[:, None] + np.arange(3)) % 3
+    a, b, c = np.take_along_axis(faces, places, axis=1).T
+    p, q, r = np.take_along_axis(middle, places, axis=1).T  # on ab, bc, ca
+    shorter = _distance(vertices, a, q) <= _distance(vertices, p, c)
+    parts = (
+        (count == 0, ((a, b, c),)),
+        (count == 1, ((a, p, c), (p, b, c))),
+        ((count == 2) & shorter, ((p, b, q), (a, p, q), (a, q, c))),
+        ((count == 2) & ~shorter, ((p, b, q), (a, p, c), (p, q, c))),
+        (count == 3, ((a, p, r), (p, b, q), (r, q, c), (p, q, r))),
+    )
+    pieces = [
+        np.stack(corners, axis=1)[chosen] for chosen, triangles in parts for corners in triangles
+    ]
+    return np.concatenate(pieces)
+
+
+def _distance(vertices: Floats, one: Ints, other: Ints) -> Floats:
+    distance: Floats = np.linalg.norm(vertices[one] - vertices[other], axis=1)
+    return distance

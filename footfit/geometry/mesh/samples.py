@@ -1,0 +1,150 @@
+"""Points spread over a surface: for fitting (few, even) and for integrals (many, exact areas)."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import reduce
+
+import numpy as np
+
+from footfit.geometry.mesh.surface import area_vectors, unit, vertex_sums
+from footfit.geometry.numeric.arrays import Floats, Ints
+
+# The plastic number's fractions: the R2 sequence fills the unit square evenly and needs no seed.
+_R2 = np.array([0.7548776662466927, 0.5698402909980532])
+# A triangle turned farther than this against its surroundings lies at a crease, not in noise.
+CREASE_COSINE = 0.85
+# Of the edge that quadrature allows: larger triangles are hardly tilted by noise.
+CALMED_EDGE = 0.4
+
+
+@dataclass(frozen=True, slots=True)
+class SurfaceSample:
+    """Points (k, 3) with unit outward normals (k, 3) and the area (k,) each stands for."""
+
+    points: Floats
+    normals: Floats
+    areas: Floats
+
+
+def even_sample(vertices: Floats, faces: Ints, count: int) -> SurfaceSample:
+    """``count`` points spread by area over the surface, the same for the same mesh.
+
+    Normals are smooth: interpolated from the vertices', so that a scanner's noise is averaged.
+    """
+    vectors = area_vectors(vertices, faces)
+    areas = np.sqrt(np.einsum("ij,ij->i", vectors, vectors))
+    cumulative = np.cumsum(areas)
+    along = (np.arange(count) + 0.5) * cumulative[-1] / count
+    chosen = np.minimum(np.searchsorted(cumulative, along), len(faces) - 1)
+    u, v = np.modf(np.outer(_R2, np.arange(1, count + 1)))[0]
+    root = np.sqrt(u)
+    weights = np.stack([1 - root, root * (1 - v), root * v], axis=1)
+    corners = faces[chosen]
+    smooth = vertex_sums(vectors, faces, len(vertices))
+    return SurfaceSample(
+        points=np.einsum("kc,kci->ki", weights, vertices[corners]),
+        normals=unit(np.einsum("kc,kci->ki", weights, smooth[corners])),
+        areas=np.full(count, cumulative[-1] / count),
+    )
+
+
+def farthest_points(points: Floats, count: int) -> Ints:
+    """Indices of ``count`` points, each the farthest from those before it.
+
+    The first is the one farthest from the mean. (n, 3) -> (min(count, n),).
+    """
+    count = min(count, len(points))
+    chosen = np.empty(count, dtype=np.int64)
+    columns = np.ascontiguousarray((points - points.mean(axis=0)).T, dtype=np.float32)
+    chosen[0] = np.einsum("ij,ij->j", columns, columns).argmax()
+    nearest = np.full(columns.shape[1], np.inf, dtype=np.float32)
+    for place in range(1, count):
+        away = columns - columns[:, chosen[place - 1], None]
+        np.minimum(nearest, np.einsum("ij,ij->j", away, away), out=nearest)
+        chosen[place] = nearest.argmax()
+    return chosen
+
+
+def quadrature(vertices: Floats, faces: Ints, edge: float, rounds: int = 5) -> SurfaceSample:
+    """One point per triangle, after triangles with an edge longer than ``edge`` are quartered.
+
+    So that an integral over a coarse mesh or over a big flat facet is as good as over a fine one;
+    ``rounds`` bounds the splitting.
+    """
+    corners = vertices[faces]
+    longest = _longest_sides(corners)
+    plain = area_vectors(vertices, faces)
+    small = longest < CALMED_EDGE * edge
+    vectors = np.where(small[:, None], calmed(plain, faces, len(vertices)), plain)
+    finished: list[tuple[Floats, Floats]] = []
+    for _ in range(rounds):
+        large = longest > edge
+        if not large.any():
+            break
+        finished.append((_middles(corners[~large]), vectors[~large]))
+        corners, vectors = _quartered(corners[large]), np.tile(vectors[large] / 4, (4, 1))
+        longest = np.tile(longest[large] / 2, 4)
+    finished.append((_middles(corners), vectors))
+    vectors = np.concatenate([part for _, part in finished])
+    areas = np.sqrt(np.einsum("ij,ij->i", vectors, vectors))
+    return SurfaceSample(
+        points=np.concatenate([part for part, _ in finished]),
+        normals=vectors / np.maximum(areas, np.finfo(np.float64).tiny)[:, None],
+        areas=areas,
+    )
+
+
+def gathered(sample: SurfaceSample, edge: float) -> SurfaceSample:
+    """One point for those in a cube of ``edge`` that face alike: their mean, their area together.
+
+    Area and first moments stay as they are; the order of the points does not matter.
+    """
+    cells = np.floor(sample.points / edge).astype(np.int64)
+    cells -= cells.min(axis=0)
+    span = cells.max(axis=0) + 1
+    facing = np.abs(sample.normals).argmax(axis=1)
+    up = np.take_along_axis(sample.normals, facing[:, None], axis=1)[:, 0] > 0
+    keys = ((cells[:, 0] * span[1] + cells[:, 1]) * span[2] + cells[:, 2]) * 6 + 2 * facing + up
+    order = np.argsort(keys, kind="stable")
+    starts = np.flatnonzero(np.append(True, np.diff(keys[order]) != 0))
+    each = sample.areas[order]
+    areas = np.add.reduceat(each, starts)
+    points = np.add.reduceat(each[:, None] * sample.points[order], starts) / areas[:, None]
+    normals = np.add.reduceat(each[:, None] * sample.normals[order], starts)
+    return SurfaceSample(points, unit(normals), areas)
+
+
+def calmed(vectors: Floats, faces: Ints, n_vertices: int) -> Floats:
+    """Area vectors (m, 3) laid along the mean normal of their surroundings, creases left alone.
+
+    Noise tilts triangles and so enlarges their areas, the more the smaller they are: a finely
+    meshed toe outweighs the heel. Projected, they lose that: with 0.3 mm of noise the frame's
+    worst turn over 45 cases fell from .40 to .24 deg.
+    """
+    around = unit(vertex_sums(vectors, faces, n_vertices))
+    normals = unit(around[faces[:, 0]] + around[faces[:, 1]] + around[faces[:, 2]])
+    along = np.einsum("ij,ij->i", vectors, normals)
+    lengths = np.sqrt(np.einsum("ij,ij->i", vectors, vectors))
+    smooth = along > CREASE_COSINE * lengths
+    return np.where(smooth[:, None], normals * along[:, None], vectors)
+
+
+def _longest_sides(corners: Floats) -> Floats:
+    a, b, c = (corners[:, i] for i in range(3))  # NumPy is slow along an axis of three
+    squares = (np.einsum("ki,ki->k", side, side) for side in (a - b, b - c, c - a))
+    return np.asarray(np.sqrt(reduce(np.maximum, squares)))
+
+
+def _middles(corners: Floats) -> Floats:
+    middles: Floats = (corners[:, 0] + corners[:, 1] + corners[:, 2]) / 3.0
+    return middles
+
+
+def _quartered(corners: Floats) -> Floats:
+    """The four triangles (4 k, 3, 3) that the middles of the sides cut out of each, k of a kind."""
+    middles = 0.5 * (corners + corners[:, [1, 2, 0]])
+    a, b, c = (corners[:, i] for i in range(3))
+    ab, bc, ca = (middles[:, i] for i in range(3))
+    parts = ((a, ab, ca), (ab, b, bc), (ca, bc, c), (ab, bc, ca))
+    return np.concatenate([np.stack(part, axis=1) for part in parts])

@@ -1,0 +1,221 @@
+"""Exact plane sections of a triangle mesh, many planes at a time.
+
+A section is the set of segments in which a plane cuts the faces. It does not depend on where the
+vertices lie on a flat facet, so that everything measured on sections is the same on a subdivided
+mesh, and a sole of a few big facets is measured as well as a fine one.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from footfit.geometry.numeric.arrays import Bools, Floats, Ints
+
+# Of three corners on two sides of a plane, the one that is alone; the index is the number whose
+# bit i says that corner i is above.
+_LONE_CORNER = np.array([0, 0, 1, 2, 2, 1, 0, 0])
+
+
+@dataclass(frozen=True, slots=True)
+class Planes:
+    """A family of planes that do not meet inside the mesh, in ascending order.
+
+    ``levels`` (k,) ascending: plane i passes between the vertices whose value is at most
+    ``levels[i]`` and those whose value is more. ``origins`` (k, 3) on the planes, ``normals``
+    (k, 3) of unit length and towards ascending levels.
+    """
+
+    levels: Floats
+    origins: Floats
+    normals: Floats
+
+
+@dataclass(frozen=True, slots=True)
+class Segments:
+    """Where planes cut faces: ``points`` (m, 2, 3), ordered by ``plane`` (m,), with ``face`` (m,).
+
+    ``planes`` is the number of planes of the family; some may cut nothing.
+    """
+
+    planes: int
+    plane: Ints
+    face: Ints
+    points: Floats
+
+
+def planes_across(x: Floats) -> Planes:
+    """Planes normal to the X axis.
+
+    Parameters
+    ----------
+    x : (k,) ascending
+
+    Returns
+    -------
+    Planes
+        For :func:`plane_sections` with ``values = vertices[:, 0]``.
+    """
+    x = np.asarray(x, dtype=np.float64)
+    origins = np.zeros((len(x), 3))
+    origins[:, 0] = x
+    return Planes(x, origins, np.tile([1.0, 0.0, 0.0], (len(x), 1)))
+
+
+def plane_sections(vertices: Floats, faces: Ints, values: Floats, planes: Planes) -> Segments:
+    """All sections of a mesh by a family of planes.
+
+    Parameters
+    ----------
+    vertices : (n, 3)
+    faces : (m, 3)
+    values : (n,)
+        The level of each vertex in the family: a vertex is above plane i where its value is
+        more than ``planes.levels[i]``. For :func:`planes_across` these are the x coordinates.
+    planes : Planes
+
+    Returns
+    -------
+    Segments
+        A vertex that lies on a plane counts as below it, so that each crossed face gives one
+        segment and a closed mesh gives closed sections.
+
+    Examples
+    --------
+    The square section of a tetrahedron's middle has four segments:
+
+    >>> corners = np.array([[0, 0, 0], [0, 1, 0], [1, 0, 1], [1, 1, -1]], dtype=float)
+    >>> faces = np.array([[0, 1, 2], [0, 3, 1], [0, 2, 3], [1, 3, 2]])
+    >>> len(plane_sections(corners, faces, corners[:, 0], planes_across(np.array([0.5]))).plane)
+    4
+    """
+    plane, face = _crossings(values[faces], planes.levels)
+    corners = faces[face]
+    above = values[corners] > planes.levels[plane, None]
+    lone = _LONE_CORNER[above @ np.array([1, 2, 4])]
+    row = np.arange(len(face))
+    lone_above = above[row, lone]
+    apex = corners[row, lone]
+    points = np.empty((len(face), 2, 3))
+    for end in (0, 1):
+        other = corners[row, (lone + 1 + end) % 3]
+        below, upper = np.where(lone_above, other, apex), np.where(lone_above, apex, other)
+        points[:, end] = _crossing_points(vertices, below, upper, plane, planes)
+    return Segments(len(planes.levels), plane, face, points)
+
+
+def sections_across(vertices: Floats, faces: Ints, x: Floats) -> Segments:
+    """Sections normal to the X axis at ``x`` (k,), ascending."""
+    return plane_sections(vertices, faces, vertices[:, 0], planes_across(x))
+
+
+def _crossings(corner_values: Floats, levels: Floats) -> tuple[Ints, Ints]:
+    """Which plane crosses which face, ordered by plane: both (m,)."""
+    # Column by column: a reduction over an axis of three is five times slower.
+    a, b, c = corner_values.T
+    first = np.searchsorted(levels, np.minimum(np.minimum(a, b), c), side="left")
+    last = np.searchsorted(levels, np.maximum(np.maximum(a, b), c), side="left")
+    count = last - first
+    face = np.repeat(np.arange(len(count)), count)
+    before = np.cumsum(count) - count
+    plane = first[face] + np.arange(len(face)) - before[face]
+    # A 16-bit stable sort is a radix sort: ten times faster here than sorting 64-bit numbers.
+    narrow = plane.astype(np.uint16) if len(levels) < 2**16 else plane
+    order = np.argsort(narrow, kind="stable")
+    return plane[order], face[order]
+
+
+def _crossing_points(
+    vertices: Floats, below: Ints, above: Ints, plane: Ints, planes: Planes
+) -> Floats:
+    """Where edges from ``below`` to ``above`` meet their plane, (m, 3)."""
+    start, end = vertices[below], vertices[above]
+    origin, normal = planes.origins[plane], planes.normals[plane]
+    under = np.einsum("ij,ij->i", start - origin, normal)
+    over = np.einsum("ij,ij->i", end - origin, normal)
+    rise = over - under
+    share = np.clip(-under / np.where(rise == 0.0, 1.0, rise), 0.0, 1.0)
+    return np.asarray(start + share[:, None] * (end - start), dtype=np.float64)
+
+
+def lowest(values: Floats, segments: Segments) -> Floats:
+    """The least of ``values`` (m,) or (m, 2) on each plane, (planes,); NaN where there is none."""
+    per_segment = values if values.ndim == 1 else np.minimum(values[:, 0], values[:, 1])
+    result = np.full(segments.planes, np.nan)
+    if len(per_segment):
+        start = np.flatnonzero(np.diff(segments.plane, prepend=-1))
+        result[segments.plane[start]] = np.minimum.reduceat(per_segment, start)
+    return np.where(np.isfinite(result), result, np.nan)
+
+
+def highest(values: Floats, segments: Segments) -> Floats:
+    """The greatest of ``values`` (m,) or (m, 2) on each plane; NaN where there is none."""
+    return -lowest(-values, segments)
+
+
+def extremes_below(
+    across: Floats, height: Floats, limit: Floats, segments: Segments
+) -> tuple[Floats, Floats]:
+    """The two extremes of each section's part that is not higher than a limit.
+
+    Parameters
+    ----------
+    across, height : (m, 2)
+        Coordinates in the plane of the segments' two ends.
+    limit : (planes,)
+        The height at which each section is cut off; the cut is exact, also inside a segment.
+
+    Returns
+    -------
+    least, most : (planes,)
+        Of ``across``; NaN where nothing is low enough.
+    """
+    level = limit[segments.plane][:, None]
+    low = height <= level
+    drop = np.where(height[:, 1] == height[:, 0], 1.0, height[:, 1] - height[:, 0])
+    share = (level[:, 0] - height[:, 0]) / drop
+    cut = across[:, 0] + share * (across[:, 1] - across[:, 0])
+    straddles = low[:, 0] != low[:, 1]
+    ends = ((across[:, 0], low[:, 0]), (across[:, 1], low[:, 1]), (cut, straddles))
+    first, second, third = (np.where(allowed, place, np.inf) for place, allowed in ends)
+    least = lowest(np.minimum(np.minimum(first, second), third), segments)
+    first, second, third = (np.where(allowed, place, -np.inf) for place, allowed in ends)
+    most = highest(np.maximum(np.maximum(first, second), third), segments)
+    return least, most
+
+
+def depth_at(
+    place: Floats, across: Floats, height: Floats, segments: Segments, counts: Bools | None = None
+) -> tuple[Floats, Ints]:
+    """The lowest height of each section straight above and below a place on its width.
+
+    Parameters
+    ----------
+    place : (planes,)
+        Where on the width.
+    across, height : (m, 2)
+    counts : (m,), optional
+        Which segments to look at; all by default.
+
+    Returns
+    -------
+    depth : (planes,)
+        NaN where the section has nothing there.
+    segment : (planes,)
+        The segment in which it was found, -1 where there is none.
+    """
+    at = place[segments.plane]
+    left, right = across[:, 0], across[:, 1]
+    spans = (np.minimum(left, right) <= at) & (at <= np.maximum(left, right)) & (left != right)
+    index = np.flatnonzero(spans if counts is None else spans & counts)
+    share = (at[index] - left[index]) / (right[index] - left[index])
+    value = height[index, 0] + share * (height[index, 1] - height[index, 0])
+    order = np.lexsort((value, segments.plane[index]))
+    index, value = index[order], value[order]
+    start = np.flatnonzero(np.diff(segments.plane[index], prepend=-1))
+    depth = np.full(segments.planes, np.nan)
+    segment = np.full(segments.planes, -1, dtype=np.int64)
+    depth[segments.plane[index[start]]] = value[start]
+    segment[segments.plane[index[start]]] = index[start]
+    return depth, segment

@@ -1,0 +1,349 @@
+"""Which vertices, edges and faces of a triangle mesh belong together; NumPy only.
+
+Faces are (m, 3) int64 indices into ``n`` vertices. Nothing here looks at coordinates but
+:func:`welded`, and nothing drops a face: cleaning is the reader's business.
+"""
+
+from __future__ import annotations
+
+from functools import reduce
+
+import numpy as np
+from numpy.typing import NDArray
+
+from footfit.geometry.numeric.arrays import Bools, Floats, Ints
+
+# Odd constants of the splitmix64 generator: they spread the bits of a coordinate over the key.
+_MIX = np.array([0x9E3779B97F4A7C15, 0xBF58476D1CE4E5B9, 0x94D049BB133111EB], dtype=np.uint64)
+
+
+def welded(vertices: Floats, faces: Ints) -> tuple[Floats, Ints, Ints]:
+    """Merge vertices with exactly equal coordinates (-0.0 equals 0.0).
+
+    Parameters
+    ----------
+    vertices : (n, 3) float64
+        Finite coordinates, any unit.
+    faces : (m, 3) int64
+
+    Returns
+    -------
+    vertices : (k, 3) float64
+        In the order of their first occurrence; unreferenced ones are kept.
+    faces : (m, 3) int64
+        The same faces in the same order; one that has collapsed is kept too.
+    source_to_vertex : (n,) int64
+        The merged vertex of each vertex given.
+
+    Examples
+    --------
+    >>> corners = np.array([[0.0, 0, 0], [1, 0, 0], [0, 1, 0], [1, 0, -0.0], [1, 1, 0], [0, 1, 0]])
+    >>> _, faces, source = welded(corners, np.array([[0, 1, 2], [3, 4, 5]]))
+    >>> source.tolist(), faces.tolist()
+    ([0, 1, 2, 1, 3, 2], [[0, 1, 2], [1, 3, 2]])
+    """
+    if len(vertices) == 0:
+        return vertices.copy(), faces.copy(), np.empty(0, dtype=np.int64)
+    points = np.ascontiguousarray(vertices, dtype=np.float64) + 0.0  # + 0.0 makes -0.0 a 0.0
+    order, starts = _runs_of_equals(points)
+    group = np.cumsum(starts) - 1
+    first = np.minimum.reduceat(order, np.flatnonzero(starts))
+    rank = np.empty(len(first), dtype=np.int64)
+    by_first = np.argsort(first)
+    rank[by_first] = np.arange(len(first))
+    source_to_vertex = np.empty(len(points), dtype=np.int64)
+    source_to_vertex[order] = rank[group]
+    return points[first[by_first]], source_to_vertex[faces], source_to_vertex
+
+
+def _runs_of_equals(points: Floats) -> tuple[Ints, Bools]:
+    """Return an order with equal points side by side, and where in it a new point starts.
+
+    Sorting one word that holds a hash and the index is several times as fast as a lexical sort
+    of three columns; where two different points share a hash, the lexical sort is done after all.
+    """
+    bits = points.view(np.uint64)
+    hashed = np.zeros(len(points), dtype=np.uint64)
+    for column in range(3):
+        hashed = (hashed ^ bits[:, column]) * _MIX[column]
+        hashed ^= hashed >> np.uint64(29)
+    index_bits = np.uint64(max(1, int(len(points) - 1).bit_length()))
+    word = (hashed << index_bits) | np.arange(len(points), dtype=np.uint64)
+    word.sort()
+    order = (word & ((np.uint64(1) << index_bits) - np.uint64(1))).astype(np.int64)
+    starts = _starts(points[order])
+    if int(np.count_nonzero(starts)) != _distinct(word >> index_bits):
+        order = np.lexsort(points.T).astype(np.int64)
+        starts = _starts(points[order])
+    return order, starts
+
+
+def _starts(ordered: Floats) -> Bools:
+    starts = np.ones(len(ordered), dtype=bool)
+    starts[1:] = np.any(ordered[1:] != ordered[:-1], axis=1)
+    return starts
+
+
+def _distinct(ordered: NDArray[np.uint64]) -> int:
+    return 1 + int(np.count_nonzero(ordered[1:] != ordered[:-1]))
+
+
+def half_edges(faces: Ints) -> Ints:
+    """The directed edges of the faces, (3 m, 2) int64; row 3 f + c runs from corner c of face f."""
+    return np.stack([faces, faces[:, [1, 2, 0]]], axis=2).reshape(-1, 2)
+
+
+def edges(faces: Ints) -> Ints:
+    """The undirected edges, each once, (k, 2) int64 with the lower index first, sorted.
+
+    Examples
+    --------
+    >>> edges(np.array([[0, 1, 2], [2, 1, 3]])).tolist()
+    [[0, 1], [0, 2], [1, 2], [1, 3], [2, 3]]
+    """
+    if len(faces) == 0:
+        return np.empty((0, 2), dtype=np.int64)
+    keys, span = _edge_keys(faces)
+    keys.sort()
+    keys = keys[np.append(True, keys[1:] != keys[:-1])]
+    return np.stack([keys // span, keys % span], axis=1)
+
+
+def sorted_keys(keys: Ints) -> tuple[Ints, Ints]:
+    """The stable order of non-negative keys (n,), and the keys in that order.
+
+    Examples
+    --------
+    >>> [part.tolist() for part in sorted_keys(np.array([7, 5, 7, 0]))]
+    [[3, 1, 0, 2], [0, 5, 7, 7]]
+    """
+    count = len(keys)
+    if count == 0 or int(keys.max()) < np.iinfo(np.int64).max // count - 1:
+        words = np.sort(keys * count + np.arange(count))  # key and index in one word: fast
+        return words % max(count, 1), words // max(count, 1)
+    order = np.argsort(keys, kind="stable").astype(np.int64)
+    return order, keys[order]
+
+
+def _edge_keys(faces: Ints) -> tuple[Ints, int]:
+    start, end = faces.ravel(), faces[:, [1, 2, 0]].ravel()
+    span = int(faces.max()) + 1
+    keys: Ints = np.minimum(start, end) * span + np.maximum(start, end)
+    return keys, span
+
+
+def _edge_groups(faces: Ints) -> tuple[Ints, Ints, Ints]:
+    """Half-edges ordered by their edge, each edge's first place in that order, and its count."""
+    keys, _ = _edge_keys(faces)
+    order, ordered = sorted_keys(keys)
+    starts = np.flatnonzero(np.append(True, ordered[1:] != ordered[:-1]))
+    return order, starts, np.diff(np.append(starts, len(ordered)))
+
+
+def boundary_edges(faces: Ints) -> Ints:
+    """Edges that lie in exactly one face, (k, 2) int64, directed as that face runs them.
+
+    Examples
+    --------
+    >>> boundary_edges(np.array([[0, 1, 2], [2, 1, 3]])).tolist()
+    [[0, 1], [2, 0], [1, 3], [3, 2]]
+    """
+    if len(faces) == 0:
+        return np.empty((0, 2), dtype=np.int64)
+    order, starts, counts = _edge_groups(faces)
+    single: Ints = half_edges(faces)[np.sort(order[starts[counts == 1]])]
+    return single
+
+
+def boundary_vertices(faces: Ints, n_vertices: int) -> Bools:
+    """Whether each vertex lies on a boundary edge, (n_vertices,) bool."""
+    on_boundary = np.zeros(n_vertices, dtype=bool)
+    on_boundary[boundary_edges(faces)] = True
+    return on_boundary
+
+
+def boundary_loops(faces: Ints) -> list[Ints]:
+    """The boundary as closed loops of vertices, the last joined to the first.
+
+    Where the mesh is wound consistently a loop has the surface on its left, seen from outside.
+    Where loops touch in a vertex they are split there, so that no loop meets a vertex twice. On
+    inconsistently wound faces the pieces that do not close are returned as they are.
+
+    Examples
+    --------
+    >>> [loop.tolist() for loop in boundary_loops(np.array([[0, 1, 2], [2, 1, 3]]))]
+    [[0, 1, 3, 2]]
+    """
+    successors: dict[int, list[int]] = {}
+    for start, end in boundary_edges(faces).tolist():
+        successors.setdefault(start, []).append(end)
+    loops: list[Ints] = []
+    for start in sorted(successors):
+        while successors[start]:
+            loops.extend(_loops_from(start, successors))
+    return loops
+
+
+def _loops_from(start: int, successors: dict[int, list[int]]) -> list[Ints]:
+    """Walk from ``start`` until no edge is left, cutting off a loop at each vertex met again."""
+    loops: list[Ints] = []
+    path, place = [start], {start: 0}
+    while successors.get(path[-1]):
+        following = successors[path[-1]].pop()
+        if following not in place:
+            place[following] = len(path)
+            path.append(following)
+            continue
+        cut = place[following]
+        loops.append(np.array(path[cut:], dtype=np.int64))
+        for vertex in path[cut + 1 :]:
+            del place[vertex]
+        del path[cut + 1 :]
+    return [*loops, np.array(path, dtype=np.int64)] if len(path) > 1 else loops
+
+
+def dilated(mask: Bools, faces: Ints, rings: int) -> Bools:
+    """The vertices within ``rings`` edges of those in ``mask``, (n,) bool.
+
+    Examples
+    --------
+    >>> strip = np.array([[0, 1, 2], [2, 1, 3], [2, 3, 4]])
+    >>> dilated(np.arange(5) == 0, strip, 1).tolist()
+    [True, True, True, False, False]
+    """
+    reached = mask.copy()
+    for _ in range(rings):
+        reached[faces[reached[faces].any(axis=1)]] = True
+    return reached
+
+
+def face_components(faces: Ints, n_vertices: int) -> Ints:
+    """The connected component of each face, (m,) int64.
+
+    Faces that share a vertex are connected. Components count from 0 in the order of their
+    lowest vertex.
+
+    Examples
+    --------
+    >>> face_components(np.array([[4, 5, 6], [0, 1, 2], [2, 1, 3]]), 7).tolist()
+    [1, 0, 0]
+    """
+    if len(faces) == 0:
+        return np.empty(0, dtype=np.int64)
+    lowest = lowest_connected(faces, n_vertices)[faces[:, 0]]
+    labels: Ints = np.unique(lowest, return_inverse=True)[1].astype(np.int64).reshape(-1)
+    return labels
+
+
+def lowest_connected(groups: Ints, n: int) -> Ints:
+    """The lowest index connected with each of ``n``, where each row of ``groups`` is connected.
+
+    Hooking and pointer jumping: every row hangs its members' parents under the lowest one, then
+    each jumps to its grandparent; the rounds needed grow with the logarithm of the size.
+    """
+    parent = np.arange(n, dtype=np.int64)
+    while True:
+        members = parent[groups]
+        lowest = reduce(np.minimum, members.T)  # NumPy is slow along an axis of three
+        hooked = parent.copy()
+        for column in range(groups.shape[1]):
+            np.minimum.at(hooked, members[:, column], lowest)
+        hooked = hooked[hooked]
+        if np.array_equal(hooked, parent):
+            return parent
+        parent = hooked
+
+
+def euler_characteristic(faces: Ints) -> int:
+    """V - E + F over the vertices that faces use: 2 - 2 genus - holes for one piece.
+
+    Examples
+    --------
+    >>> euler_characteristic(np.array([[0, 2, 1], [0, 1, 3], [1, 2, 3], [2, 0, 3]]))
+    2
+    """
+    return len(np.unique(faces)) - len(edges(faces)) + len(faces)
+
+
+def is_closed(faces: Ints) -> bool:
+    """Whether every edge lies in exactly two faces (False for no faces)."""
+    return len(faces) > 0 and bool(np.all(_edge_groups(faces)[2] == 2))
+
+
+def is_consistently_wound(faces: Ints) -> bool:
+    """Whether no two faces run an edge that only they share in the same direction."""
+    return not bool(np.any(_shared_edges(faces)[1]))
+
+
+def consistently_wound(faces: Ints) -> Ints:
+    """Turn faces over until neighbours agree, (m, 3) int64; as few as possible are turned.
+
+    Neighbours are two faces that alone share an edge. Each piece follows its own majority; a
+    piece that has no two sides (a Moebius band) is left as it is. Which side is outside is not
+    decided here.
+
+    Examples
+    --------
+    >>> consistently_wound(np.array([[0, 1, 2], [1, 2, 3], [2, 4, 3]])).tolist()
+    [[1, 0, 2], [1, 2, 3], [2, 4, 3]]
+    """
+    pairs, disagree = _shared_edges(faces)
+    if not disagree.any():
+        return faces.copy()
+    # Two copies of each face, as it is (2 f) and turned over (2 f + 1); neighbours' copies that
+    # agree are connected, so that each two-sided piece falls into its two windings.
+    twisted = disagree.astype(np.int64)
+    links = np.concatenate(
+        [
+            np.stack([2 * pairs[:, 0], 2 * pairs[:, 1] + twisted], axis=1),
+            np.stack([2 * pairs[:, 0] + 1, 2 * pairs[:, 1] + 1 - twisted], axis=1),
+        ]
+    )
+    winding = lowest_connected(links, 2 * len(faces)).reshape(-1, 2)
+    turned = winding[:, 1] < winding[:, 0]
+    piece = winding.min(axis=1)
+    members = np.bincount(piece, minlength=2 * len(faces))
+    turns = np.bincount(piece, weights=turned, minlength=2 * len(faces))
+    turned ^= (2 * turns > members)[piece] & (winding[:, 0] != winding[:, 1])
+    wound = faces.copy()
+    wound[turned] = faces[turned][:, [1, 0, 2]]
+    return wound
+
+
+def _shared_edges(faces: Ints) -> tuple[Ints, Bools]:
+    """Pairs of faces (k, 2) that alone share an edge, and whether they run it the same way."""
+    if len(faces) == 0:
+        return np.empty((0, 2), dtype=np.int64), np.empty(0, dtype=bool)
+    order, starts, counts = _edge_groups(faces)
+    first = starts[counts == 2]
+    one, other = order[first], order[first + 1]
+    origin = half_edges(faces)[:, 0]
+    return np.stack([one // 3, other // 3], axis=1), origin[one] == origin[other]
+
+
+def closed_fan_vertices(faces: Ints, n_vertices: int) -> Bools:
+    """Whether the faces around each vertex are one closed, consistently wound fan, (n_vertices,).
+
+    False on a boundary, at an edge of three faces or of two that run it the same way, where two
+    fans touch in a vertex, and for a vertex without faces.
+    """
+    if len(faces) == 0:
+        return np.zeros(n_vertices, dtype=bool)
+    order, starts, counts = _edge_groups(faces)
+    ends = half_edges(faces)
+    one, other = order[starts], order[np.minimum(starts + 1, len(order) - 1)]
+    regular = (counts == 2) & (ends[one, 0] == ends[other, 1])
+    closed = np.bincount(faces.ravel(), minlength=n_vertices) > 0
+    closed[ends[one[~regular]]] = False
+    # A half-edge's number is that of the corner it starts from; a fan is corners joined over edges.
+    one, other = one[regular], other[regular]
+    joined = np.stack([np.append(one, other), _next_corner(np.append(other, one))], axis=1)
+    roots = np.unique(lowest_connected(joined, faces.size))
+    fans = np.bincount(faces.ravel()[roots], minlength=n_vertices)
+    single: Bools = closed & (fans == 1)
+    return single
+
+
+def _next_corner(corner: Ints) -> Ints:
+    following: Ints = corner - corner % 3 + (corner + 1) % 3
+    return following

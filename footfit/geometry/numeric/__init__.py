@@ -1,0 +1,1 @@
+"""Arrays, angles, rotations, smoothing, polylines and quantiles: no mesh is known here."""

@@ -1,0 +1,28 @@
+"""Quantiles of values that stand for different areas."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from footfit.geometry.numeric.arrays import Floats
+
+
+def area_quantile(values: Floats, areas: Floats, share: float) -> float:
+    """The value below which ``share`` of the area lies; (n,), (n,) -> float, linear in between.
+
+    Raises
+    ------
+    ValueError
+        If there are no values.
+
+    Examples
+    --------
+    >>> area_quantile(np.array([3.0, 1.0, 2.0]), np.array([1.0, 1.0, 2.0]), 0.5)
+    2.0
+    """
+    if len(values) == 0:
+        raise ValueError("a quantile of nothing")
+    order = np.argsort(values)
+    weights = areas[order]
+    middles = np.cumsum(weights) - 0.5 * weights
+    return float(np.interp(share * weights.sum(), middles, values[order]))

@@ -1,0 +1,180 @@
+"""The canonical frame of a shape whose pose is roughly known: sole plane, plan axis, docking.
+
+X from heel to toe, Z up, Y to the wearer's left; x = 0 at the heel's docking quantile, y = 0 at
+the heel's middle, z = 0 the contact plane. mm.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from footfit.geometry.mesh.samples import SurfaceSample
+from footfit.geometry.numeric.angles import angle_between
+from footfit.geometry.numeric.arrays import Floats
+from footfit.geometry.numeric.quantiles import area_quantile
+from footfit.geometry.pose.sole_plane import (
+    FLOOR,
+    LEVEL,
+    FloorSettings,
+    Plane,
+    rim_plane,
+    sole_plane,
+    support,
+)
+
+
+@dataclass(frozen=True, slots=True)
+class FrameSettings:
+    """Everything numeric of the refinement and the docking; lengths over L."""
+
+    floor: FloorSettings = FLOOR
+    rounds: int = 2
+    axis_height: float = 0.15  # the plan axis is that of what lies below; a leg does not move it
+    axis_softness: float = 0.01
+    length_height: float = 0.30
+    support_minimum: float = 0.05
+    tilt_maximum_deg: float = 16.0
+    docking_share: float = 0.003
+    docking_height: float = 0.20
+    heel_strip: tuple[float, float] = (0.02, 0.10)
+    heel_strips: int = 8
+
+
+FRAME = FrameSettings()
+
+
+@dataclass(frozen=True, slots=True)
+class CanonicalFrame:
+    """The frame: canonical = rotation @ p + shift, in the unit of p.
+
+    ``length`` is the extent along X below ``length_height``; ``sole`` is False where the frame
+    rests on the rim instead; ``tilt_deg`` is how far the sole plane turned the given pose.
+    """
+
+    rotation: Floats
+    shift: Floats
+    length: float
+    support: float
+    sole: bool
+    tilt_deg: float
+
+
+def canonical_frame(
+    sample: SurfaceSample, length: float, settings: FrameSettings = FRAME
+) -> CanonicalFrame:
+    """The canonical frame of a sample in an approximate canonical pose.
+
+    Parameters
+    ----------
+    sample : SurfaceSample
+        Points of the whole surface with areas, x roughly heel to toe, z up, ground near z = 0.
+    length : float
+        Its approximate length, in the sample's unit.
+    """
+    rotation, plane = _settled(sample, length, settings, rim=False)
+    tilt_deg = float(np.degrees(angle_between(rotation[2], np.array([0.0, 0.0, 1.0]))))
+    turned = turned_sample(sample, rotation)
+    length = length_of(turned.points, plane.offset, length, settings)
+    held = support(turned, plane, length, settings.floor)
+    sole = held >= settings.support_minimum and tilt_deg <= settings.tilt_maximum_deg
+    if not sole:
+        rotation, plane = _settled(sample, length, settings, rim=True)
+        turned = turned_sample(sample, rotation)
+        length = length_of(turned.points, plane.offset, length, settings)
+    shift = docking(turned, plane.offset, length, sole, settings)
+    return CanonicalFrame(rotation, shift, length, held, sole, tilt_deg)
+
+
+def turned_sample(sample: SurfaceSample, rotation: Floats) -> SurfaceSample:
+    """The sample with points and normals turned by a rotation (3, 3)."""
+    return SurfaceSample(sample.points @ rotation.T, sample.normals @ rotation.T, sample.areas)
+
+
+def length_of(
+    points: Floats, ground: float, length: float, settings: FrameSettings = FRAME
+) -> float:
+    """The extent along x of points (n, 3) lower than ``length_height``: no leg lengthens a foot."""
+    low = points[points[:, 2] - ground < settings.length_height * length, 0]
+    return float(np.ptp(low)) if len(low) else 0.0
+
+
+def _settled(
+    sample: SurfaceSample, length: float, settings: FrameSettings, *, rim: bool
+) -> tuple[Floats, Plane]:
+    """The rotation that puts plane and axis in place, and the plane after it."""
+    rotation = np.eye(3)
+    turned, plane = sample, LEVEL
+    for _ in range(settings.rounds):
+        found = (
+            rim_plane(turned, length, settings.floor)
+            if rim
+            else sole_plane(turned, length, plane, settings.floor)
+        )
+        level = levelling(found.normal)
+        plane = Plane(LEVEL.normal, found.offset)
+        axis = plan_axis(turned_sample(turned, level), plane.offset, length, settings)
+        rotation = about_z(axis) @ level @ rotation
+        turned = turned_sample(sample, rotation)
+    return rotation, plane
+
+
+def levelling(normal: Floats) -> Floats:
+    """The smallest rotation (3, 3) that takes a unit vector (3,), not -Z, to Z."""
+    x, y, z = normal
+    f = 1 / (1 + z)
+    return np.array([[1 - x * x * f, -x * y * f, -x], [-x * y * f, 1 - y * y * f, -y], [x, y, z]])
+
+
+def about_z(axis: Floats) -> Floats:
+    """The rotation (3, 3) about Z that takes a plan direction (2,) to X."""
+    c, s = axis / np.hypot(*axis)
+    return np.array([[c, s, 0.0], [-s, c, 0.0], [0.0, 0.0, 1.0]])
+
+
+def plan_axis(
+    sample: SurfaceSample, ground: float, length: float, settings: FrameSettings = FRAME
+) -> Floats:
+    """The direction (2,) of the low part's longest plan extent, heel to toe: 2-D PCA by area."""
+    height = (sample.points[:, 2] - ground) / length
+    steepness = np.clip((height - settings.axis_height) / settings.axis_softness, -50, 50)
+    weights = sample.areas / (1 + np.exp(steepness))
+    plan = sample.points[:, :2]
+    away = plan - weights @ plan / weights.sum()
+    axis = np.linalg.eigh((weights[:, None] * away).T @ away)[1][:, 1]
+    return np.asarray(axis * np.where(axis[0] < 0, -1.0, 1.0))
+
+
+def docking(
+    sample: SurfaceSample,
+    ground: float,
+    length: float,
+    sole: bool,
+    settings: FrameSettings = FRAME,
+) -> Floats:
+    """The shift (3,) that puts the origin at the heel, in a sample that is turned already.
+
+    Quantiles of area, never the rearmost or lowest vertex: that moves by millimetres.
+    """
+    points = sample.points
+    height = points[:, 2] - ground
+    low = height < settings.docking_height * length
+    x0 = area_quantile(points[low, 0], sample.areas[low], settings.docking_share)
+    z0 = ground
+    if sole:
+        down = (height < settings.floor.support_height * length) & (sample.normals[:, 2] < -0.5)
+        z0 = area_quantile(points[down, 2], sample.areas[down], settings.docking_share)
+    y0 = _heel_middle(points[low], x0, length, settings)
+    return -np.array([x0, y0, z0])
+
+
+def _heel_middle(points: Floats, x0: float, length: float, settings: FrameSettings) -> float:
+    edges = x0 + np.linspace(*settings.heel_strip, settings.heel_strips + 1) * length
+    strip = np.searchsorted(edges, points[:, 0]) - 1
+    middles = [
+        0.5 * (points[strip == i, 1].min() + points[strip == i, 1].max())
+        for i in range(settings.heel_strips)
+        if np.any(strip == i)
+    ]
+    return float(np.mean(middles)) if middles else 0.0

@@ -1,0 +1,1 @@
+"""From raw triangles to a surface: welded, without debris, wound outward."""

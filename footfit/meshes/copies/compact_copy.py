@@ -1,0 +1,201 @@
+"""The compact copy of a mesh that the catalogue keeps, so that no original file is needed.
+
+The bytes: a header (magic, version, counts, step, origin), then zlib over the vertices as
+multiples of the step and the faces, both as differences to the row before, byte by byte
+("shuffled": all lowest bytes first), which is what zlib compresses best.
+"""
+
+from __future__ import annotations
+
+import math
+import struct
+import zlib
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from footfit.errors import CatalogueDamaged
+from footfit.geometry.mesh.topology import welded
+from footfit.geometry.numeric.arrays import Floats, Ints
+from footfit.meshes.clean.cleaning import compact, has_distinct_corners
+from footfit.meshes.copies.deviation import largest_deviation_mm
+from footfit.results import MeshCopy
+
+_HEADER = struct.Struct("<4sBxxxIId3d")
+_MAGIC = b"ffmc"
+_VERSION = 1
+_COLUMN_BYTES = 4
+
+
+@dataclass(frozen=True, slots=True)
+class CopySettings:
+    """How close a copy is, and how large one may be.
+
+    Attributes
+    ----------
+    step_mm : float
+        Coordinates are whole multiples of it: off by half of it at most.
+    error_mm : float
+        A decimation that deviates further is done again with twice the faces.
+    aggression : float
+        fast_simplification's ``agg``; lower is slower and truer.
+    most_faces, most_vertices : int
+        What an expansion accepts; a copy is never decimated to more than these.
+    zlib_level : int
+    """
+
+    step_mm: float = 0.005
+    error_mm: float = 0.25
+    aggression: float = 5.0
+    most_faces: int = 3_000_000
+    most_vertices: int = 9_000_000
+    zlib_level: int = 9
+
+
+COPY_SETTINGS = CopySettings()
+
+
+def compact_copy(
+    vertices_mm: Floats,
+    faces: Ints,
+    target_faces: int = 10_000,
+    settings: CopySettings = COPY_SETTINGS,
+) -> MeshCopy:
+    """A decimated, quantised, compressed copy with its measured error.
+
+    Parameters
+    ----------
+    vertices_mm : (n, 3) float64
+    faces : (m, 3) int64
+        At least one face.
+    target_faces : int
+        Where this many faces deviate by more than ``settings.error_mm``, the target is doubled,
+        up to no decimation at all.
+    settings : CopySettings
+
+    Returns
+    -------
+    MeshCopy
+        ``error_mm`` is the larger of both sides' largest sampled distance between the mesh given
+        and the copy as :func:`expanded` returns it.
+    """
+    vertices_mm, faces, _ = welded(vertices_mm, faces)
+    while True:
+        lighter, fewer = _decimated(vertices_mm, faces, target_faces, settings)
+        data = _encoded(lighter, fewer, settings)
+        copy_vertices, copy_faces = expanded(data, settings)
+        error = largest_deviation_mm(vertices_mm, faces, copy_vertices, copy_faces)
+        if error <= settings.error_mm or target_faces >= len(faces):
+            return MeshCopy(data, len(copy_faces), error)
+        target_faces *= 2
+
+
+def expanded(data: bytes, settings: CopySettings = COPY_SETTINGS) -> tuple[Floats, Ints]:
+    """The mesh in a copy's bytes.
+
+    Parameters
+    ----------
+    data : bytes
+        From :func:`compact_copy`.
+    settings : CopySettings
+
+    Returns
+    -------
+    vertices_mm : (n, 3) float64
+    faces : (m, 3) int64
+
+    Raises
+    ------
+    CatalogueDamaged
+        The bytes are not those of a copy: cut off, changed, or promising more than is allowed.
+    """
+    try:
+        magic, version, n, m, step, *origin = _HEADER.unpack_from(data)
+    except struct.error as error:
+        raise _damaged("it is cut off") from error
+    if magic != _MAGIC or version != _VERSION:
+        raise _damaged("its header is not one this version knows")
+    if not (0 < n <= settings.most_vertices and 0 < m <= settings.most_faces):
+        raise _damaged("its counts are impossible")
+    if not (0.0 < step < 1.0 and all(math.isfinite(value) for value in origin)):
+        raise _damaged("its scale is impossible")
+    rows = _unpacked(data[_HEADER.size :], 3 * (n + m))
+    steps, faces = rows[: 3 * n].reshape(-1, 3), rows[3 * n :].reshape(-1, 3)
+    steps, faces = np.cumsum(steps, axis=0), np.cumsum(faces, axis=0)
+    if faces.min() < 0 or faces.max() >= n:
+        raise _damaged("a face names a vertex that is not there")
+    return np.array(origin) + steps * step, faces
+
+
+def _damaged(reason: str) -> CatalogueDamaged:
+    return CatalogueDamaged(
+        f"a stored mesh copy is damaged ({reason}): ingest the last again with --replace"
+    )
+
+
+def _decimated(
+    vertices: Floats, faces: Ints, target_faces: int, settings: CopySettings
+) -> tuple[Floats, Ints]:
+    if len(faces) <= target_faces:
+        return vertices, faces
+    import fast_simplification
+
+    lighter, fewer = fast_simplification.simplify(
+        vertices, faces.astype(np.int32), target_count=target_faces, agg=settings.aggression
+    )
+    lighter, fewer = np.asarray(lighter, dtype=np.float64), np.asarray(fewer, dtype=np.int64)
+    kept = fewer[has_distinct_corners(fewer)] if len(fewer) else faces
+    return (lighter, kept) if len(fewer) and len(kept) else (vertices, faces)
+
+
+def _encoded(vertices: Floats, faces: Ints, settings: CopySettings) -> bytes:
+    """Quantised, put into an order in which neighbours follow each other, packed."""
+    origin = vertices.min(axis=0)
+    steps = np.rint((vertices - origin) / settings.step_mm)
+    steps, faces, _ = welded(steps, faces)
+    faces = faces[has_distinct_corners(faces)]
+    steps, faces, _ = compact(steps, faces, np.empty(0, dtype=np.int64))
+    order = np.argsort(_interleaved(steps.astype(np.int64)), kind="stable")
+    rank = np.empty(len(order), dtype=np.int64)
+    rank[order] = np.arange(len(order))
+    steps, faces = steps[order].astype(np.int64), _sorted_faces(rank[faces])
+    header = _HEADER.pack(_MAGIC, _VERSION, len(steps), len(faces), settings.step_mm, *origin)
+    rows = [np.diff(table, axis=0, prepend=0).ravel() for table in (steps, faces)]
+    return header + _packed(np.concatenate(rows), settings.zlib_level)
+
+
+def _interleaved(steps: Ints) -> Ints:
+    """Each row's bits interleaved (Morton order): rows near in space come near in the order."""
+    codes = np.zeros(len(steps), dtype=np.int64)
+    for bit in range(21):
+        for axis in range(3):
+            codes |= ((steps[:, axis] >> bit) & 1) << (3 * bit + axis)
+    return codes
+
+
+def _sorted_faces(faces: Ints) -> Ints:
+    """Each face from its lowest vertex on (its winding stays), the faces in rising order."""
+    lowest = np.argmin(faces, axis=1)
+    turned = np.take_along_axis(faces, (lowest[:, None] + np.arange(3)) % 3, axis=1)
+    return turned[np.lexsort(turned.T[::-1])]
+
+
+def _packed(values: Ints, level: int) -> bytes:
+    """Signed values to even and odd ones (so that small ones have zero high bytes), shuffled."""
+    folded = ((values << 1) ^ (values >> 63)).astype("<u4")
+    return zlib.compress(folded.view(np.uint8).reshape(-1, _COLUMN_BYTES).T.tobytes(), level)
+
+
+def _unpacked(data: bytes, count: int) -> NDArray[np.int64]:
+    inflater = zlib.decompressobj()
+    try:
+        shuffled = inflater.decompress(data, _COLUMN_BYTES * count)
+        more = inflater.decompress(inflater.unconsumed_tail, 1)
+    except zlib.error as error:
+        raise _damaged("it does not decompress") from error
+    if len(shuffled) != _COLUMN_BYTES * count or more or not inflater.eof or inflater.unused_data:
+        raise _damaged("it has another length than its header says")
+    columns = np.frombuffer(shuffled, dtype=np.uint8).reshape(_COLUMN_BYTES, -1)
+    folded = np.ascontiguousarray(columns.T).view("<u4").ravel().astype(np.int64)
+    return (folded >> 1) ^ -(folded & 1)

@@ -1,0 +1,1 @@
+"""One file a mesh format: bytes in, raw vertices and faces out."""

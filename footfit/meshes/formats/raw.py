@@ -1,0 +1,87 @@
+"""What a reader hands on: the file's own vertices and faces, checked but not yet cleaned."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from footfit.errors import DamagedMesh, EmptyMesh, TooLarge
+from footfit.geometry.numeric.arrays import Floats, Ints
+from footfit.meshes.read_limits import Limits
+from footfit.results import Notice
+
+
+@dataclass(frozen=True, slots=True)
+class RawMesh:
+    """Vertices (n, 3) in the file's unit and order, faces (m, 3), and what was noticed.
+
+    ``unit`` is the unit the file itself declares ("mm", "cm", "m", "in"), None where its format
+    has none.
+    """
+
+    vertices: Floats
+    faces: Ints
+    warnings: tuple[Notice, ...] = ()
+    unit: str | None = None
+
+
+def doubles(values: NDArray[np.generic]) -> Floats:
+    """The numbers as float64. A signalling NaN makes NumPy warn; it is refused by `sound`."""
+    with np.errstate(invalid="ignore"):
+        return values.astype(np.float64)
+
+
+def sound(raw: RawMesh, limits: Limits) -> RawMesh:
+    """The same mesh, once its numbers are finite, its indices in range and its counts bearable.
+
+    Raises
+    ------
+    EmptyMesh
+        There are no faces.
+    DamagedMesh
+        A coordinate is NaN, infinite or absurd; a face names a vertex that is not there.
+    TooLarge
+        More vertices or faces than ``limits`` allow.
+    """
+    check_counts(len(raw.vertices), len(raw.faces), limits)
+    if len(raw.faces) == 0:
+        found = f"{len(raw.vertices)} points but no faces" if len(raw.vertices) else "no triangles"
+        raise EmptyMesh(f"the file holds {found}: export a triangle mesh")
+    if raw.faces.min() < 0 or raw.faces.max() >= len(raw.vertices):
+        raise DamagedMesh(
+            f"a face names a vertex that is not there (the file has {len(raw.vertices)} vertices):"
+            " export the mesh again"
+        )
+    low, high = raw.vertices.min(), raw.vertices.max()  # a NaN comes through both
+    if not np.isfinite([low, high]).all():
+        bad = np.flatnonzero(~np.isfinite(raw.vertices).all(axis=1))
+        raise DamagedMesh(
+            f"{len(bad):,} {'vertex is' if len(bad) == 1 else 'vertices are'} not of finite numbers"
+            f" (the first is vertex {bad[0] + 1:,}): export the mesh again"
+        )
+    if max(-low, high) > limits.coordinate:
+        raise DamagedMesh(
+            f"a coordinate is past {limits.coordinate:g}: the file is damaged, export it again"
+        )
+    return raw
+
+
+def check_counts(vertices: int, faces: int, limits: Limits) -> None:
+    """Refuse counts past the limits.
+
+    Raises
+    ------
+    TooLarge
+        Naming the count and its limit.
+    """
+    for count, most, noun in (
+        (faces, limits.faces, "faces"),
+        (vertices, limits.vertices, "vertices"),
+    ):
+        if count > most:
+            raise TooLarge(
+                f"the mesh has {count:,} {noun}, footfit reads up to {most:,}:"
+                " decimate it first (100,000 faces are plenty)"
+            )

@@ -1,0 +1,235 @@
+"""3MF: the one object of its build, in the unit that the model declares.
+
+The model is XML in a ZIP archive. It is parsed piece by piece with the standard library's expat;
+a document type (and with it every entity) is refused, and nothing it names is ever opened.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING, Any, NoReturn
+from xml.parsers import expat
+
+import numpy as np
+from numpy.typing import NDArray
+
+from footfit.errors import DamagedMesh, EmptyMesh, TooLarge, UnknownFormat
+from footfit.geometry.numeric.arrays import Floats
+from footfit.meshes.formats.archive import archive, pieces
+from footfit.meshes.formats.raw import RawMesh, check_counts
+from footfit.meshes.formats.tokens import floats, integers
+from footfit.meshes.read_limits import Limits
+
+if TYPE_CHECKING:
+    from zipfile import ZipFile, ZipInfo
+
+_CORE = "http://schemas.microsoft.com/3dmanufacturing/core/2015/02 "
+_SUFFIX, _USUAL = ".model", "3d/3dmodel.model"
+_LOOKED_AT_BYTES = 65_536
+_UNITS = {  # the unit that footfit counts in, and how many of it there are in one
+    "micron": ("mm", 0.001),
+    "millimeter": ("mm", 1.0),
+    "centimeter": ("cm", 1.0),
+    "meter": ("m", 1.0),
+    "inch": ("in", 1.0),
+    "foot": ("in", 12.0),
+}
+_TRANSFORM = 12
+_BLOCK = 60_000  # words that are turned into numbers at once
+
+Attributes = dict[str, str]
+Step = tuple[str, str | None]  # an object's id and the transform it is used with
+
+
+def is_3mf(data: bytes) -> bool:
+    """Whether the content is a ZIP archive that has a model in it."""
+    mark = _SUFFIX.encode()
+    return data.startswith(b"PK\3\4") and (
+        mark in data[:_LOOKED_AT_BYTES].lower() or mark in data[-_LOOKED_AT_BYTES:].lower()
+    )
+
+
+def read_3mf(data: bytes, limits: Limits) -> RawMesh:
+    """The vertices and faces of the one object that a 3MF builds.
+
+    Raises
+    ------
+    UnknownFormat
+        Several objects, or an extension that changes the shape.
+    DamagedMesh
+        The archive or its XML is broken, or has a document type.
+    EmptyMesh, TooLarge
+        Nothing to build, or more than ``limits`` allow.
+    """
+    zipped = archive(data, limits)
+    model = _parsed(pieces(zipped, _model_part(zipped), limits), limits)
+    if model.unit not in _UNITS:
+        raise DamagedMesh(f"the 3MF counts in {model.unit[:20]!a}, which is no unit of the format")
+    unit, scale = _UNITS[model.unit]
+    shape, transforms = _built(model)
+    vertices = shape.points.rows()
+    with np.errstate(over="ignore", invalid="ignore"):  # what is not finite is refused by `sound`
+        for transform in reversed(transforms):
+            vertices = vertices @ transform[:3] + transform[3]
+        vertices = scale * vertices
+    return RawMesh(vertices, shape.corners.rows(), (), unit)
+
+
+def _model_part(zipped: ZipFile) -> ZipInfo:
+    """The part that holds the model: the usual one, or the only one."""
+    found = [part for part in zipped.filelist if part.filename.lower().endswith(_SUFFIX)]
+    usual = [part for part in found if part.filename.lower().lstrip("/") == _USUAL]
+    if len(usual) == 1:
+        return usual[0]
+    if len(found) != 1:
+        raise UnknownFormat(f"the 3MF archive has {len(found)} models: export the foot alone")
+    return found[0]
+
+
+@dataclass(slots=True)
+class _Triples:
+    """Words that come three by three, turned by ``numbers`` into numbers a block at a time."""
+
+    numbers: Callable[[bytes, int], NDArray[Any]]
+    words: list[str] = field(default_factory=list)
+    blocks: list[NDArray[Any]] = field(default_factory=list)
+    count: int = 0
+
+    def add(self, first: str, second: str, third: str) -> None:
+        self.words += (first, second, third)
+        self.count += 1
+        if len(self.words) >= _BLOCK:
+            self._close()
+
+    def _close(self) -> None:
+        text = " ".join(self.words).encode()
+        self.blocks.append(self.numbers(text, len(self.words)))
+        self.words = []
+
+    def rows(self) -> NDArray[Any]:
+        """All of them, (count, 3)."""
+        self._close()
+        return np.concatenate(self.blocks).reshape(-1, 3)
+
+
+@dataclass(slots=True)
+class _Shape:
+    """One object: a mesh, or others that it puts together."""
+
+    points: _Triples = field(default_factory=lambda: _Triples(floats))
+    corners: _Triples = field(default_factory=lambda: _Triples(integers))
+    components: list[Step] = field(default_factory=list)
+
+
+@dataclass(slots=True)
+class _Model:
+    """What has been read of the XML; its methods are the elements that matter."""
+
+    limits: Limits
+    unit: str = "millimeter"
+    shapes: dict[str, _Shape] = field(default_factory=dict)
+    items: list[Step] = field(default_factory=list)
+    current: _Shape = field(default_factory=_Shape)
+    others: int = 0
+
+    def element(self, name: str, attributes: Attributes) -> None:
+        """Any element's beginning."""
+        if name == _CORE + "vertex":
+            self.current.points.add(attributes["x"], attributes["y"], attributes["z"])
+        elif name == _CORE + "triangle":
+            self.current.corners.add(attributes["v1"], attributes["v2"], attributes["v3"])
+        else:
+            self.others += 1
+            if self.others > self.limits.elements:
+                raise TooLarge("the 3MF's XML has far more parts than one mesh: export as STL")
+            handler = _ELEMENTS.get(name)
+            if handler is not None:
+                handler(self, attributes)
+
+    def model(self, attributes: Attributes) -> None:
+        """One ``model``."""
+        self.unit = attributes.get("unit", self.unit)
+        needed = attributes.get("requiredextensions", "").split()
+        if needed:
+            raise UnknownFormat(
+                f"the 3MF needs its extension {needed[0][:20]!a}, which is not read:"
+                " export a plain 3MF, or STL"
+            )
+
+    def object(self, attributes: Attributes) -> None:
+        """One ``object``."""
+        if attributes["id"] in self.shapes:
+            raise DamagedMesh("two objects of the 3MF have one id: export it again")
+        self.current = self.shapes[attributes["id"]] = _Shape()
+
+    def component(self, attributes: Attributes) -> None:
+        """One ``component``."""
+        self.current.components.append(_step(attributes))
+
+    def item(self, attributes: Attributes) -> None:
+        """One ``item``."""
+        self.items.append(_step(attributes))
+
+
+_ELEMENTS: dict[str, Callable[[_Model, Attributes], None]] = {
+    _CORE + "model": _Model.model,
+    _CORE + "object": _Model.object,
+    _CORE + "component": _Model.component,
+    _CORE + "item": _Model.item,
+}
+
+
+def _step(attributes: Attributes) -> Step:
+    if any(name.endswith(" path") for name in attributes):
+        raise UnknownFormat("the 3MF keeps its mesh in another part: export a plain 3MF, or STL")
+    return attributes["objectid"], attributes.get("transform")
+
+
+def _parsed(chunks: Iterator[bytes], limits: Limits) -> _Model:
+    """The model of the XML that ``chunks`` are."""
+    model = _Model(limits)
+    parser = expat.ParserCreate(namespace_separator=" ")
+    parser.StartDoctypeDeclHandler = _no_doctype
+    parser.StartElementHandler = model.element
+    fed = 0
+    try:
+        for chunk in chunks:
+            parser.Parse(chunk, False)
+            fed += len(chunk)
+            shapes = model.shapes.values()
+            check_counts(
+                sum(shape.points.count for shape in shapes),
+                sum(shape.corners.count for shape in shapes),
+                limits,
+            )
+            if fed - parser.CurrentByteIndex > limits.document_bytes:  # parsing goes quadratic
+                raise TooLarge("the 3MF's XML has a tag of megabytes: export the foot as STL")
+        parser.Parse(b"", True)
+    except (expat.ExpatError, KeyError) as error:
+        raise DamagedMesh("the 3MF's XML is broken: it is damaged, export it again") from error
+    return model
+
+
+def _no_doctype(*_: object) -> NoReturn:
+    raise DamagedMesh("the 3MF's XML declares a document type, which no 3MF has: export it again")
+
+
+def _built(model: _Model) -> tuple[_Shape, list[Floats]]:
+    """The mesh that the build shows, and the transforms (4, 3) from the build inwards."""
+    steps, transforms, seen = model.items, [], set()
+    while True:
+        if not steps:
+            raise EmptyMesh("the 3MF builds no object: export a triangle mesh")
+        if len(steps) > 1:
+            raise UnknownFormat(f"the 3MF builds {len(steps)} objects: export the foot alone")
+        name, transform = steps[0]
+        if name not in model.shapes or name in seen:
+            raise DamagedMesh("the 3MF builds an object that is not there: export it again")
+        seen.add(name)
+        if transform is not None:
+            transforms.append(floats(transform.encode(), _TRANSFORM).reshape(4, 3))
+        shape = model.shapes[name]
+        if not shape.components:
+            return shape, transforms
+        steps = shape.components

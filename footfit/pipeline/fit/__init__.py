@@ -1,0 +1,1 @@
+"""Which last fits a foot: fit profiles, zones, scores, ranking, reasons, comparison."""

@@ -1,0 +1,207 @@
+"""Fit profiles: TOML files that say what kind of shoe is fitted, shipped or the user's own."""
+
+from __future__ import annotations
+
+import hashlib
+import json
+import math
+import tomllib
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
+from footfit.errors import BadOption, BadProfile, UnreadableFile
+from footfit.pipeline.fit.zones import UNIT_KEYS, ZONES
+from footfit.results import FitProfile, ZoneRule
+
+SCHEMA = "footfit.fit-profile/1"
+FOLDER = Path(__file__).parent / "profiles"
+LARGEST_BYTES = 100_000
+TIE_SDS = 1.0
+TOP_KEYS = {"schema", "name", "version", "summary", "tie_sds", "zones"}
+RANGES = ("good", "acceptable", "poor")
+
+
+def shipped() -> tuple[str, ...]:
+    """The names of the profiles that come with footfit."""
+    return tuple(sorted(path.stem for path in FOLDER.glob("*.toml")))
+
+
+def fit_profile(name_or_path: str = "walking") -> FitProfile:
+    """A shipped profile by its name, or one of the user's by its path (``x.toml``).
+
+    Raises
+    ------
+    BadOption
+        There is no shipped profile of that name.
+    UnreadableFile, BadProfile
+        The file is not there, or says what no profile can.
+    """
+    path = Path(name_or_path)
+    if path.suffix != ".toml":
+        names = shipped()
+        if name_or_path not in names:
+            known = ", ".join(names)
+            raise BadOption(
+                f"no fit profile is named {name_or_path!r}; there are {known}, or give a .toml file"
+            )
+        path = FOLDER / f"{name_or_path}.toml"
+    return profile_of(_text(path), str(path))
+
+
+def _text(path: Path) -> str:
+    if not path.is_file():
+        raise UnreadableFile("is not a file; name a fit profile in TOML", str(path))
+    try:
+        if path.stat().st_size > LARGEST_BYTES:
+            raise BadProfile("is too large for a fit profile", str(path))
+        return path.read_text(encoding="utf-8")
+    except OSError as error:
+        raise UnreadableFile(f"cannot be read: {error.strerror}", str(path)) from error
+    except UnicodeDecodeError as error:
+        raise BadProfile("is not UTF-8 text", str(path)) from error
+
+
+def profile_of(text: str, path: str | None = None) -> FitProfile:
+    """The profile that a TOML text says.
+
+    Raises
+    ------
+    BadProfile
+        It is no TOML, lacks a key, has one too many, or a range is out of order; the line says
+        which and what to write.
+    """
+    try:
+        table = tomllib.loads(text)
+    except (tomllib.TOMLDecodeError, RecursionError) as error:
+        words = " ".join(str(error).split()) or "too deep"
+        raise BadProfile(f"is not valid TOML: {words}", path) from error
+    try:
+        return _profile(table)
+    except _Wrong as error:
+        raise BadProfile(str(error), path) from error
+
+
+class _Wrong(Exception):
+    """What is wrong with a profile, without the file's name."""
+
+
+def _profile(table: Mapping[str, Any]) -> FitProfile:
+    _known(table, TOP_KEYS, "the profile")
+    if table.get("schema") != SCHEMA:
+        raise _Wrong(f"schema must be {SCHEMA!r}; another version may read it")
+    zones = table.get("zones")
+    if not isinstance(zones, dict) or not zones:
+        raise _Wrong("has no [zones.NAME] table; copy a shipped profile and change it")
+    if "length" not in zones:
+        raise _Wrong("has no [zones.length]: the length is always judged")
+    rules = {name: _rule(name, asked) for name, asked in zones.items()}
+    tie_sds = _number(table.get("tie_sds", TIE_SDS), "tie_sds")
+    if not 0.0 <= tie_sds <= 10.0:
+        raise _Wrong("tie_sds must be between 0 and 10")
+    version = table.get("version", 1)
+    if not isinstance(version, int) or isinstance(version, bool):
+        raise _Wrong("version must be a whole number")
+    return _hashed(
+        FitProfile(
+            name=_words(table.get("name"), "name"),
+            version=version,
+            summary=_words(table.get("summary", "-"), "summary"),
+            tie_sds=tie_sds,
+            zones=tuple(rules[name] for name in ZONES if name in rules),
+            sha256="",
+        )
+    )
+
+
+def _rule(name: str, asked: object) -> ZoneRule:
+    """The rule of one zone's table."""
+    if name not in ZONES:
+        raise _Wrong(f"[zones.{name}] is no zone; the zones are {', '.join(ZONES)}")
+    where, end = f"[zones.{name}]", UNIT_KEYS[ZONES[name].unit]
+    if not isinstance(asked, dict):
+        raise _Wrong(f"{where} must be a table")
+    keys = {f"{key}{end}" for key in ("target", "cavity", *RANGES)} | {"weight", "required"}
+    _known(asked, keys, where)
+    for key in (f"target{end}", f"good{end}", f"acceptable{end}"):
+        if key not in asked:
+            raise _Wrong(f"{where} lacks {key}")
+    target = _number(asked[f"target{end}"], f"{where} target{end}")
+    ranges = {
+        key: _range(asked[f"{key}{end}"], f"{where} {key}{end}")
+        for key in RANGES
+        if f"{key}{end}" in asked
+    }
+    _nested(where, target, ranges)
+    weight = _number(asked.get("weight", 1.0), f"{where} weight")
+    if not 0.0 <= weight <= 100.0:
+        raise _Wrong(f"{where} weight must be between 0 and 100")
+    required = asked.get("required", False)
+    if not isinstance(required, bool):
+        raise _Wrong(f"{where} required must be true or false")
+    poor = ranges.get("poor")
+    if name == "length":
+        poor, weight = poor or ranges["acceptable"], _length_weight(weight)
+    cavity = _number(asked.get(f"cavity{end}", 0.0), f"{where} cavity{end}")
+    good, acceptable = ranges["good"], ranges["acceptable"]
+    return ZoneRule(name, target, good, acceptable, poor, weight, required, cavity)
+
+
+def _length_weight(weight: float) -> float:
+    """The length is the gate: a profile cannot switch it off."""
+    if weight == 0.0:
+        raise _Wrong("[zones.length] weight must be over 0: the length is always judged")
+    return weight
+
+
+def _nested(where: str, target: float, ranges: Mapping[str, tuple[float, float]]) -> None:
+    """Refuse ranges that do not lie in one another."""
+    inner, name = (target, target), "target"
+    for key in RANGES:
+        if key not in ranges:
+            continue
+        low, high = ranges[key]
+        if not (low <= inner[0] and inner[1] <= high):
+            raise _Wrong(f"{where}: {key} [{low:g}, {high:g}] does not hold its {name}")
+        inner, name = (low, high), f"{key} range"
+
+
+def _known(table: Mapping[str, Any], keys: set[str], where: str) -> None:
+    unknown = sorted(set(table) - keys)
+    if not unknown:
+        return
+    from difflib import get_close_matches
+
+    close = get_close_matches(unknown[0], sorted(keys), n=1)
+    hint = f"did you mean {close[0]}" if close else f"it takes {', '.join(sorted(keys))}"
+    raise _Wrong(f"{where} has an unknown key {unknown[0]!r}; {hint}")
+
+
+def _number(value: object, where: str) -> float:
+    if isinstance(value, bool) or not isinstance(value, int | float) or not math.isfinite(value):
+        raise _Wrong(f"{where} must be a number")
+    return float(value)
+
+
+def _range(value: object, where: str) -> tuple[float, float]:
+    if not isinstance(value, list) or len(value) != 2:
+        raise _Wrong(f"{where} must be two numbers, such as [-5, 0]")
+    low, high = (_number(one, where) for one in value)
+    if low >= high:
+        raise _Wrong(f"{where} must rise: [{low:g}, {high:g}] does not")
+    return low, high
+
+
+def _words(value: object, where: str) -> str:
+    if not isinstance(value, str) or not value.strip() or len(value) > 300:
+        raise _Wrong(f"{where} must be a short text")
+    return value
+
+
+def _hashed(profile: FitProfile) -> FitProfile:
+    """The profile with the hash of its values."""
+    from dataclasses import asdict, replace
+
+    values = {key: value for key, value in asdict(profile).items() if key != "sha256"}
+    text = json.dumps(values, sort_keys=True, ensure_ascii=False)
+    return replace(profile, sha256=hashlib.sha256(text.encode("utf-8")).hexdigest())

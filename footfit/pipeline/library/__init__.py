@@ -1,0 +1,1 @@
+"""The library of lasts: manifest, ingest, list and edit, check, back up, upgrade."""

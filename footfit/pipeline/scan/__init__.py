@@ -1,0 +1,1 @@
+"""From one source to its results: read, prepare, align, measure, profile."""

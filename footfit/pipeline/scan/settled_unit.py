@@ -1,0 +1,100 @@
+"""The unit of a scan, settled by the length that the alignment finds, and how it is said."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+from footfit.errors import ImplausibleSize, UnknownUnits
+from footfit.meshes.units import UNIT_NAMES, UNIT_SCALES
+from footfit.pipeline.scan.preparation import Windows
+from footfit.results import MeshInfo, Notice, Scan
+
+
+@dataclass(frozen=True, slots=True)
+class LengthSettings:
+    """Which lengths along X are plausible, in mm.
+
+    ``window_slack``: by what part the rough pose's length may be off.
+    """
+
+    usual_mm: tuple[float, float] = (180.0, 340.0)
+    possible_mm: tuple[float, float] = (115.0, 370.0)
+    window_slack: float = 0.15
+
+
+LENGTHS = LengthSettings()
+
+
+def length_windows(info: MeshInfo, known_length_mm: float | None) -> Windows:
+    """Lengths that are plausible, in the scan's provisional mm; none where the scale is unknown."""
+    if known_length_mm is not None or info.units_source == "known-length":
+        return ()
+    low, high = LENGTHS.possible_mm
+    scales = [info.unit_scale]
+    if info.units_source == "detected":
+        low, high = LENGTHS.usual_mm
+        scales = list(UNIT_SCALES.values())
+    low, high = low * (1 - LENGTHS.window_slack), high * (1 + LENGTHS.window_slack)
+    return tuple((low * info.unit_scale / s, high * info.unit_scale / s) for s in scales)
+
+
+def info_with_unit(info: MeshInfo, length: float, known_length_mm: float | None) -> MeshInfo:
+    """The info with the unit that the aligned length (provisional mm) confirms.
+
+    Raises
+    ------
+    UnknownUnits, ImplausibleSize
+        No unit, or not the declared one, makes it a foot's or last's.
+    """
+    if known_length_mm is not None:
+        scale = info.unit_scale * known_length_mm / length
+        return replace(info, units="scaled", units_source="known-length", unit_scale=scale)
+    low, high = LENGTHS.usual_mm
+    if info.units_source == "detected":
+        for name, scale in UNIT_SCALES.items():
+            if low <= length * scale / info.unit_scale <= high:
+                return replace(info, units=name, unit_scale=scale)
+        raise UnknownUnits(
+            f"no unit makes the length ({length / info.unit_scale:.4g} in the file) {low:.0f}-"
+            f"{high:.0f} mm; say --units mm|cm|m|in or --known-length MM"
+        )
+    least, most = LENGTHS.possible_mm
+    if info.units_source == "declared" and not least <= length <= most:
+        raise ImplausibleSize(
+            f"taken as {UNIT_NAMES[info.units]}, the length is {length:,.0f} mm, which is no foot's"
+            f" or last's ({least:.0f}-{most:.0f} mm); check --units, or say --known-length MM"
+        )
+    return info
+
+
+def read_notices(scan: Scan, info: MeshInfo, length_mm: float) -> list[Notice]:
+    """What the reader said; the unit as the aligned length settled it, in place of its guess."""
+    kept = [notice for notice in scan.warnings if notice.code != "units_detected"]
+    if info.units_source != "detected" or info.units == "mm":
+        return kept
+    return [*kept, _detected(info, length_mm)]
+
+
+def unit_notes(info: MeshInfo, length_mm: float | None = None) -> tuple[Notice, ...]:
+    """Detected millimetres: no warning, and yet a guess, so people are told of it.
+
+    Any other detected unit is among the warnings already.
+    """
+    if info.units_source != "detected" or info.units != "mm":
+        return ()
+    return (_detected(info, length_mm),)
+
+
+def length_notices(info: MeshInfo, length_mm: float) -> list[Notice]:
+    """A length that is possible, as declared, but unusual."""
+    low, high = LENGTHS.usual_mm
+    if info.units_source == "detected" or low <= length_mm <= high:
+        return []
+    words = f"the length is {length_mm:.1f} mm, outside {low:.0f}-{high:.0f}"
+    return [Notice("length_unusual", words)]
+
+
+def _detected(info: MeshInfo, length_mm: float | None) -> Notice:
+    length = "" if length_mm is None else f", the length is {length_mm:.0f} mm"
+    words = f"taken as {UNIT_NAMES[info.units]}{length} (--units says otherwise)"
+    return Notice("units_detected", words)

@@ -1,0 +1,1 @@
+"""Results as CSV text for spreadsheets."""

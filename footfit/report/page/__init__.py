@@ -1,0 +1,1 @@
+"""Results as HTML pages, each in one file."""

@@ -1,0 +1,137 @@
+"""A map of a surface's curvature: the sole, the two sides and the top, one scale of colours."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any, Literal
+
+import numpy as np
+
+from footfit.geometry.numeric.arrays import Floats, Ints
+from footfit.geometry.numeric.rotations import applied
+from footfit.report.pictures.figures import DIVERGING, bare, house_style, scale_bar
+from footfit.report.pictures.shading import VIEWS, frame_around, shaded_image
+from footfit.report.wording.text import file_name, plain
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
+    from numpy.typing import NDArray
+
+    from footfit.results import SurfaceCurvature
+
+Quantity = Literal["k1", "k2", "mean", "gaussian"]
+
+UNITS = {"k1": "1/mm", "k2": "1/mm", "mean": "1/mm", "gaussian": "1/mm2"}
+WORDS = {
+    "k1": "smallest normal curvature k1",
+    "k2": "largest normal curvature k2",
+    "mean": "mean curvature",
+    "gaussian": "Gaussian curvature",
+}
+SHOWN_QUANTILE = 0.95
+"""The scale of colours reaches to this quantile of the size, so that a spike does not bleach it."""
+UNDEFINED = (0.62, 0.62, 0.62)
+"""Grey: no curvature is defined there, at a rim."""
+COLUMNS = 700
+
+PANELS = {
+    "Sole, from below": VIEWS["from_below"],
+    "From above": VIEWS["from_above"],
+    "From the right": VIEWS["from_right"],
+    "From the left": VIEWS["from_left"],
+}
+
+
+def curvature_figure(
+    curvature: SurfaceCurvature,
+    canonical_transform: Floats | None = None,
+    quantity: Quantity = "mean",
+) -> Figure:
+    """Four views of the surface coloured by one curvature.
+
+    Parameters
+    ----------
+    curvature : SurfaceCurvature
+        Its vertices are in the file's axes, mm.
+    canonical_transform : (4, 4), optional
+        The alignment's, from the file's coordinates to canonical mm. Without one the mesh is
+        drawn along its longest and shortest directions, and the views are numbered.
+    quantity : {"mean", "k1", "k2", "gaussian"}
+    """
+    from matplotlib.figure import Figure
+
+    values: Floats = getattr(curvature, quantity)
+    reach = colour_reach(values)
+    points = _laid(curvature, canonical_transform)
+    with house_style():
+        figure = Figure(figsize=(10.5, 6.6), layout="constrained")
+        grid = figure.add_gridspec(2, 2)
+        colours, scale = _colours(values, reach)
+        for index, (title, view) in enumerate(PANELS.items()):
+            axes = figure.add_subplot(grid[index])
+            _panel(axes, points @ view.T, curvature.faces, colours)
+            axes.set_title(title if canonical_transform is not None else f"View {index + 1}")
+        bar = figure.colorbar(scale, ax=figure.axes, location="right", shrink=0.7, extend="both")
+        bar.set_label(f"{WORDS[quantity]} ({UNITS[quantity]}), + convex, - hollow")
+        bar.outline.set_visible(False)
+        title = _title(curvature, quantity)
+        figure.suptitle(title, x=0.01, ha="left", fontsize=12, fontweight="bold")
+    return figure
+
+
+def colour_reach(values: Floats) -> float:
+    """The value at the end of the scale of colours; 1 where nothing is defined or all is flat."""
+    known = np.abs(values[np.isfinite(values)])
+    return (float(np.quantile(known, SHOWN_QUANTILE)) if len(known) else 0.0) or 1.0
+
+
+def vertex_colours(curvature: SurfaceCurvature) -> NDArray[np.uint8]:
+    """The mean curvature of each vertex as red, green, blue (n, 3), on the picture's scale."""
+    colours, _ = _colours(curvature.mean, colour_reach(curvature.mean))
+    return np.rint(np.asarray(colours)[:, :3] * 255.0).astype(np.uint8)
+
+
+def _title(curvature: SurfaceCurvature, quantity: Quantity) -> str:
+    radius = curvature.radius_mm
+    scale = f"over a radius of {plain(radius)} mm" if radius else "of one ring of neighbours"
+    return f"{file_name(curvature.info.path)}   {WORDS[quantity]} {scale}"
+
+
+def _laid(curvature: SurfaceCurvature, canonical_transform: Floats | None) -> Floats:
+    """The vertices in the canonical frame, or along their own principal directions."""
+    points = curvature.vertices_mm
+    if canonical_transform is not None:
+        return applied(canonical_transform, points / curvature.info.unit_scale)
+    centred = points - points.mean(axis=0)
+    columns = np.linalg.eigh(centred.T @ centred)[1][:, ::-1]
+    columns[:, 2] *= np.sign(np.linalg.det(columns))
+    laid: Floats = centred @ columns
+    return laid
+
+
+def _colours(values: Floats, reach: float) -> tuple[Floats, Any]:
+    """One colour per vertex (n, 3), and the scale that gave it."""
+    from matplotlib import colormaps
+    from matplotlib.cm import ScalarMappable
+    from matplotlib.colors import Normalize
+
+    scale = ScalarMappable(Normalize(-reach, reach), colormaps[DIVERGING])
+    colours = scale.to_rgba(np.nan_to_num(values, nan=0.0))[:, :3].astype(np.float64)
+    colours[~np.isfinite(values)] = UNDEFINED
+    return colours, scale
+
+
+def _panel(axes: Axes, projected: Floats, faces: Ints, colours: Floats) -> None:
+    frame = frame_around(projected, margin=0.06)
+    image = shaded_image(projected, faces, frame, COLUMNS, colours)
+    axes.imshow(image, extent=frame.extent, interpolation="antialiased")
+    axes.set_xlim(frame.left, frame.right)
+    axes.set_ylim(frame.bottom, frame.top)
+    bare(axes)
+    scale_bar(axes, length_mm=_bar_length(frame.right - frame.left), place=(0.03, 0.0))
+
+
+def _bar_length(width_mm: float) -> float:
+    """A round length of about a fifth of the picture."""
+    choices = (1.0, 2.0, 5.0, 10.0, 20.0, 50.0, 100.0, 200.0)
+    return min(choices, key=lambda length: abs(length - width_mm / 5.0))

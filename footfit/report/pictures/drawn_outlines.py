@@ -1,0 +1,81 @@
+"""Outlines of a shape for drawing: the sole's in plan and the profile from the side, by section."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from footfit.geometry.mesh.sections import extremes_below, highest, lowest, sections_across
+from footfit.geometry.numeric.arrays import Floats, Ints
+
+
+@dataclass(frozen=True, slots=True)
+class Drawing:
+    """What an outline is drawn from; ``band`` is the sole's height over the length."""
+
+    stations: int = 160
+    band: float = 0.10
+    inset: float = 0.002
+
+
+DRAWING = Drawing()
+SHADOW = 10.0
+"""A band that takes in every height: the outline of the whole shape's shadow."""
+
+
+@dataclass(frozen=True, slots=True)
+class Outline:
+    """Two edges of a shape at ``x_mm`` (n,): medial and lateral in plan, or low and high."""
+
+    x_mm: Floats
+    first_mm: Floats
+    second_mm: Floats
+
+    def closed(self) -> Floats:
+        """The outline as a closed polygon (2n, 2), without the stations that cut nothing."""
+        known = np.isfinite(self.first_mm) & np.isfinite(self.second_mm)
+        there = np.column_stack([self.x_mm[known], self.first_mm[known]])
+        back = np.column_stack([self.x_mm[known], self.second_mm[known]])
+        return np.concatenate([there, back[::-1]])
+
+    def between(self, start_mm: float, end_mm: float) -> Outline:
+        """The part of the outline from ``start_mm`` to ``end_mm`` along X."""
+        kept = (self.x_mm >= start_mm) & (self.x_mm <= end_mm)
+        return Outline(self.x_mm[kept], self.first_mm[kept], self.second_mm[kept])
+
+
+def sole_outline(vertices_mm: Floats, faces: Ints, band: float = DRAWING.band) -> Outline:
+    """The two edges of the sole: each section's extremes across, up to ``band`` of the length.
+
+    Parameters
+    ----------
+    vertices_mm : (n, 3)
+        Canonical frame, either side.
+    faces : (m, 3)
+    band : float
+        Height over each section's own lowest point, over the length; `SHADOW` for the whole.
+    """
+    x = _stations(vertices_mm)
+    segments = sections_across(vertices_mm, faces, x)
+    across, height = segments.points[:, :, 1], segments.points[:, :, 2]
+    length = float(np.ptp(vertices_mm[:, 0]))
+    limit = lowest(height, segments) + band * length
+    least, most = extremes_below(across, height, limit, segments)
+    return Outline(x, least, most)
+
+
+def side_outline(vertices_mm: Floats, faces: Ints) -> Outline:
+    """The lowest and the highest point of each section, along X."""
+    x = _stations(vertices_mm)
+    segments = sections_across(vertices_mm, faces, x)
+    height = segments.points[:, :, 2]
+    return Outline(x, lowest(height, segments), highest(height, segments))
+
+
+def _stations(vertices_mm: Floats) -> Floats:
+    """Stations along X, closer together at the two ends, where an outline turns."""
+    low, high = float(vertices_mm[:, 0].min()), float(vertices_mm[:, 0].max())
+    share = 0.5 - 0.5 * np.cos(np.linspace(0.0, np.pi, DRAWING.stations))
+    inset = DRAWING.inset * (high - low)
+    return low + inset + share * (high - low - 2 * inset)

@@ -1,0 +1,136 @@
+"""The paper's figures 1 and 2: a mesh with its eigenvectors, before and after the alignment."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from footfit.geometry.numeric.arrays import Floats, Ints
+from footfit.geometry.numeric.rotations import applied
+from footfit.report.pictures.figures import INK, SERIES, SKIN, bare, house_style, scale_bar
+from footfit.report.pictures.flare_figure import shape_words
+from footfit.report.pictures.shading import VIEWS, axonometric_view, frame_around, shaded_image
+from footfit.report.wording.text import plain
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
+
+    from footfit.results import AlignedScan
+
+EYE_DEG = (-52.0, 24.0)
+"""Azimuth and elevation of the eye in the two oblique views."""
+COLUMNS = 560
+REACH = 2.0
+"""An eigenvector's arrow, in standard deviations of the surface along it: each row's own value."""
+ARROWS = tuple(zip(("e1", "e2", "e3"), SERIES, strict=False))
+
+
+def frames_figure(mesh: AlignedScan) -> Figure:
+    """The mesh as the file has it, and aligned: oblique, from above and from the side.
+
+    Parameters
+    ----------
+    mesh : AlignedScan
+        Of any method: the picture shows what the alignment's own ``transform`` does.
+    """
+    from matplotlib.figure import Figure
+
+    alignment = mesh.alignment
+    back = np.linalg.inv(alignment.canonical_transform).astype(np.float64)
+    file_mm = alignment.info.unit_scale * applied(back, mesh.vertices_mm)
+    aligned_mm = applied(alignment.transform @ back, mesh.vertices_mm)
+    frame = alignment.eigenframe
+    turn = alignment.transform[:3, :3] / alignment.info.unit_scale
+    arrows = frame.eigenvectors * REACH * np.sqrt(frame.eigenvalues_mm2)[:, None]
+    scaled = frame.centroid_mm / alignment.info.unit_scale
+    centre = applied(alignment.transform, scaled[None])[0]
+    with house_style():
+        figure = Figure(figsize=(10.5, 7.4), layout="constrained")
+        grid = figure.add_gridspec(2, 2)
+        panels = (
+            ("Before: the file's axes", axonometric_view(*EYE_DEG), False),
+            (f"After: aligned ({alignment.method})", axonometric_view(*EYE_DEG), True),
+            ("After, from above", VIEWS["from_above"], True),
+            ("After, from the right", VIEWS["from_right"], True),
+        )
+        for index, (title, view, after) in enumerate(panels):
+            axes = figure.add_subplot(grid[index])
+            points = aligned_mm if after else file_mm
+            ends = arrows @ turn.T if after else arrows
+            origin = centre if after else frame.centroid_mm
+            _panel(axes, (points, mesh.faces), view, (origin, ends))
+            axes.set_title(title)
+        figure.suptitle(_title(mesh), x=0.01, ha="left", fontsize=12, fontweight="bold")
+    return figure
+
+
+def _title(mesh: AlignedScan) -> str:
+    alignment = mesh.alignment
+    deviations = np.sqrt(alignment.eigenframe.eigenvalues_mm2)
+    spread = ", ".join(plain(float(value)) for value in deviations)
+    length = plain(alignment.length_mm)
+    return f"{shape_words(alignment)}, {length} mm; spread along e1, e2, e3: {spread} mm"
+
+
+def _panel(
+    axes: Axes, mesh: tuple[Floats, Ints], view: Floats, arrows: tuple[Floats, Floats]
+) -> None:
+    """One shaded view with the eigenvectors over it and the axes' directions beside it."""
+    points, faces = mesh
+    projected = points @ view.T
+    origin, ends = arrows[0] @ view.T, arrows[1] @ view.T
+    frame = frame_around(np.concatenate([projected, origin + ends]), margin=0.07)
+    image = shaded_image(projected, faces, frame, COLUMNS, np.array(SKIN))
+    axes.imshow(image, extent=frame.extent, interpolation="antialiased", zorder=1)
+    for (name, colour), end in zip(ARROWS, ends, strict=True):
+        _arrow(axes, origin[:2], end[:2], name, colour)
+    axes.set_xlim(frame.left, frame.right)
+    axes.set_ylim(frame.bottom, frame.top)
+    bare(axes)
+    scale_bar(axes, place=(0.03, 0.01))
+    _triad(axes, view)
+
+
+def _arrow(axes: Axes, origin: Floats, way: Floats, name: str, colour: str) -> None:
+    style = {"arrowstyle": "-|>", "color": colour, "linewidth": 2.0, "shrinkA": 0, "shrinkB": 0}
+    start, tip = _pair(origin), _pair(origin + way)
+    axes.annotate("", tip, xytext=start, arrowprops=style, zorder=4)
+    long = float(np.linalg.norm(way))
+    if long > 0:
+        axes.annotate(
+            name,
+            tip,
+            xytext=_pair(9.0 * way / long),
+            textcoords="offset points",
+            color=colour,
+            fontweight="bold",
+            ha="center",
+            va="center",
+            zorder=5,
+        )
+
+
+def _pair(point: Floats) -> tuple[float, float]:
+    return float(point[0]), float(point[1])
+
+
+def _triad(axes: Axes, view: Floats) -> None:
+    """The directions of X, Y and Z in the upper right corner; an axis towards the eye is a dot."""
+    corner, size = (0.9, 0.88), 22.0
+    for name, way in zip("XYZ", view[:2].T, strict=True):
+        style = {"arrowstyle": "->", "color": INK, "linewidth": 0.9, "shrinkA": 0, "shrinkB": 4}
+        if float(np.linalg.norm(way)) < 0.2:
+            continue
+        axes.annotate(
+            name,
+            corner,
+            xytext=_pair(size * way),
+            xycoords="axes fraction",
+            textcoords="offset points",
+            ha="center",
+            va="center",
+            fontsize=8,
+            arrowprops=style | {"arrowstyle": "<-"},
+        )

@@ -1,0 +1,100 @@
+"""The sections of a foot over those of its last, by station, with the differences in mm."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from footfit.geometry.numeric.arrays import Floats
+from footfit.report.pictures.figures import FILL, FOOT, QUIET, SERIES, bare, house_style, scale_bar
+from footfit.report.wording.text import file_name, plain, signed, visible
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
+
+    from footfit.results import Comparison, SectionComparison
+
+ACROSS = 3
+STRIP = 6
+"""Panels side by side where all stand in one strip, with less said of each."""
+SHOWN_OVER_MM = 6.0
+"""How far over the last a leg is drawn."""
+HALF_WIDTH_MM, UNDER_MM, WIDTH_INCHES = 66.0, 6.0, 10.5
+"""What a panel shows, and how wide the picture is."""
+
+
+def section_figure(comparison: Comparison, across: int = ACROSS, *, titled: bool = True) -> Figure:
+    """One panel a station, seen from behind, all at one scale: the foot filled, the last a line."""
+    from matplotlib.figure import Figure
+
+    sections, brief = comparison.sections, across > ACROSS
+    rows = [sections[at : at + across] for at in range(0, len(sections), across)]
+    tall = [max(_top(section) for section in row) + UNDER_MM for row in rows]
+    inches = WIDTH_INCHES / across / (2.0 * HALF_WIDTH_MM)
+    height = (0.7 if titled else 0.4) + sum((0.9 if brief else 0.6) + inches * one for one in tall)
+    with house_style():
+        figure = Figure(figsize=(WIDTH_INCHES, height), layout="constrained")
+        grid = figure.add_gridspec(len(rows), across, height_ratios=tall)
+        for at, row in enumerate(rows):
+            for column, section in enumerate(row):
+                axes = figure.add_subplot(grid[at, column])
+                _panel(axes, section, _mirror(comparison), brief=brief)
+                axes.set_xlim(-HALF_WIDTH_MM, HALF_WIDTH_MM)
+                axes.set_ylim(-UNDER_MM, tall[at] - UNDER_MM)
+        scale_bar(figure.axes[0], length_mm=20.0, place=(0.0, -0.02))
+        handles, labels = figure.axes[0].get_legend_handles_labels()
+        figure.legend(handles, labels, loc="outside lower center", ncols=2)
+        if titled:
+            figure.suptitle(_title(comparison), x=0.01, ha="left", fontsize=12, fontweight="bold")
+    return figure
+
+
+def _mirror(comparison: Comparison) -> float:
+    """-1 puts a right foot's medial side on the left, as it is seen from behind."""
+    return 1.0 if comparison.foot.aligned.alignment.side.side == "left" else -1.0
+
+
+def _title(comparison: Comparison) -> str:
+    foot = file_name(comparison.foot.aligned.alignment.info.path)
+    return f"{foot} in {visible(comparison.last.labels.name)}: sections from behind"
+
+
+def _panel(axes: Axes, section: SectionComparison, mirror: float, *, brief: bool) -> None:
+    top = _top(section)
+    for index, loop in enumerate(_closed(loop, mirror) for loop in section.foot_outline):
+        points = np.column_stack([loop[:, 0], np.minimum(loop[:, 1], top)])
+        label = "foot" if index == 0 else None
+        axes.fill(*points.T, facecolor=FILL, edgecolor=FOOT, linewidth=1.5, label=label)
+    for index, loop in enumerate(_closed(loop, mirror) for loop in section.last_outline):
+        label = "last" if index == 0 else None
+        axes.plot(*loop.T, color=SERIES[0], linewidth=1.5, label=label)
+    where = f"{plain(section.x_mm, 0)} mm" + ("" if brief else " from the heel")
+    axes.set_title(f"{section.station.capitalize()}, {where}")
+    axes.axhline(0.0, color=QUIET, linewidth=0.5, zorder=0)
+    bare(axes)
+    axes.set_xlabel(_words(section, brief=brief), fontsize=8)
+
+
+def _closed(loop: Floats, mirror: float) -> Floats:
+    ring: Floats = np.concatenate([loop, loop[:1]]) * [mirror, 1.0]
+    return ring
+
+
+def _top(section: SectionComparison) -> float:
+    """The height up to which a foot is drawn."""
+    loops = section.last_outline or section.foot_outline
+    return max((float(loop[:, 1].max()) for loop in loops), default=0.0) + SHOWN_OVER_MM
+
+
+def _words(section: SectionComparison, *, brief: bool) -> str:
+    """The differences that are known: "last minus foot: width +3.2, girth +4.4 mm"."""
+    known = [
+        f"{size.name} {signed(size.difference.value)}"
+        for size in section.sizes
+        if size.difference.value is not None and size.name not in ("medial", "lateral")
+    ]
+    if not known:
+        return "not measurable here"
+    return "\n".join(known) if brief else f"last minus foot: {', '.join(known)} mm"

@@ -1,0 +1,241 @@
+"""Pictures of meshes as arrays: an orthographic view, hidden surfaces removed, softly lit.
+
+A view is a (3, 3) matrix whose rows are the picture's right, its up, and the direction towards
+the eye. Everything is NumPy and the same bytes on every run.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from footfit.geometry.mesh.surface import vertex_normals
+from footfit.geometry.mesh.topology import is_closed
+from footfit.geometry.numeric.arrays import Bools, Floats, Ints
+
+VIEWS = {
+    "from_above": np.array([[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]]),
+    "from_below": np.array([[1.0, 0.0, 0.0], [0.0, -1.0, 0.0], [0.0, 0.0, -1.0]]),
+    "from_right": np.array([[1.0, 0.0, 0.0], [0.0, 0.0, 1.0], [0.0, -1.0, 0.0]]),
+    "from_left": np.array([[-1.0, 0.0, 0.0], [0.0, 0.0, 1.0], [0.0, 1.0, 0.0]]),
+}
+"""Views of a mesh in the canonical frame; the toe is on the right, but on the left in the last."""
+
+
+@dataclass(frozen=True, slots=True)
+class Lighting:
+    """How a surface is lit: a soft light beside the eye, and what is left in the shade."""
+
+    direction: tuple[float, float, float] = (-0.35, 0.55, 0.75)
+    ambient: float = 0.35
+    gain: float = 1.12
+    oversampling: int = 2
+
+
+LIGHTING = Lighting()
+
+
+@dataclass(frozen=True, slots=True)
+class Frame:
+    """The part of the picture plane that is drawn: (left, right, bottom, top) in mm."""
+
+    left: float
+    right: float
+    bottom: float
+    top: float
+
+    @property
+    def extent(self) -> tuple[float, float, float, float]:
+        """The frame as matplotlib's ``imshow`` takes it."""
+        return (self.left, self.right, self.bottom, self.top)
+
+
+@dataclass(frozen=True, slots=True)
+class Fragments:
+    """What each pixel of a picture shows: ``face`` (rows, columns), -1 for none, and where in it.
+
+    ``weights`` (rows, columns, 3) are barycentric.
+    """
+
+    face: Ints
+    weights: Floats
+
+
+def axonometric_view(azimuth_deg: float, elevation_deg: float) -> Floats:
+    """The view of an eye at this azimuth (from +X towards +Y) and elevation.
+
+    Examples
+    --------
+    >>> bool(np.allclose(axonometric_view(-90.0, 0.0), VIEWS["from_right"]))
+    True
+    """
+    a, e = np.radians([azimuth_deg, elevation_deg])
+    right = [-np.sin(a), np.cos(a), 0.0]
+    up = [-np.sin(e) * np.cos(a), -np.sin(e) * np.sin(a), np.cos(e)]
+    eye = [np.cos(e) * np.cos(a), np.cos(e) * np.sin(a), np.sin(e)]
+    return np.array([right, up, eye])
+
+
+def frame_around(points: Floats, margin: float = 0.04) -> Frame:
+    """The smallest frame around projected ``points`` (n, 2 or more), with a margin."""
+    low, high = points[:, :2].min(axis=0), points[:, :2].max(axis=0)
+    pad = margin * float((high - low).max())
+    return Frame(low[0] - pad, high[0] + pad, low[1] - pad, high[1] + pad)
+
+
+def fragments(projected: Floats, faces: Ints, frame: Frame, shape: tuple[int, int]) -> Fragments:
+    """The nearest face of each pixel of a (rows, columns) picture.
+
+    ``projected`` (n, 3) is right, up, towards the eye, in mm. Each triangle is tested at the
+    centre of every pixel of its bounding box; boxes of like size are tested together.
+    """
+    rows, columns = shape
+    scale = np.array([columns / (frame.right - frame.left), rows / (frame.top - frame.bottom), 1.0])
+    pixels = (projected - [frame.left, frame.bottom, 0.0]) * scale
+    corners = pixels[faces]
+    low = np.floor(corners[:, :, :2].min(axis=1)).astype(np.int64)
+    size = np.ceil(corners[:, :, :2].max(axis=1)).astype(np.int64) - low
+    level = np.searchsorted(_BOXES, size.max(axis=1))
+    face, weights = np.full(rows * columns, -1), np.zeros((rows * columns, 3))
+    depth = np.full(rows * columns, -np.inf)
+    for box in np.unique(level):
+        for chunk in _chunks(np.flatnonzero(level == box), int(_BOXES[box]) ** 2):
+            hits = _hits(corners[chunk], low[chunk], int(_BOXES[box]), (rows, columns))
+            _keep_nearest(hits, chunk, depth, (face, weights))
+    return Fragments(face.reshape(shape), weights.reshape(rows, columns, 3))
+
+
+_PIXELS_AT_ONCE = 1_000_000
+_BOXES = np.array([1, 2, 3, 4, 5, 6, 8, 10, 12, 16, 24, 32, 48, 64, *(2**k for k in range(7, 15))])
+
+
+def _chunks(indices: Ints, cost: int) -> list[Ints]:
+    """``indices`` in pieces whose boxes together stay within memory."""
+    return np.array_split(indices, max(1, -(-len(indices) * int(cost) // _PIXELS_AT_ONCE)))
+
+
+@dataclass(frozen=True, slots=True)
+class _Hits:
+    """Pixels inside triangles: which triangle, which pixel, how deep, with which weights."""
+
+    triangle: Ints
+    pixel: Ints
+    depth: Floats
+    weights: Floats
+
+
+def _hits(corners: Floats, low: Ints, box: int, shape: tuple[int, int]) -> _Hits:
+    """Which pixel centres of each triangle's box (box x box pixels) lie in the triangle."""
+    steps = np.arange(box)
+    columns, rows = low[:, :1] + steps, low[:, 1:] + steps
+    first, second = (_weight(corners, which, (columns, rows)) for which in (0, 1))
+    third = 1.0 - first - second
+    inside = (first >= 0) & (second >= 0) & (third >= 0)
+    inside &= ((columns >= 0) & (columns < shape[1]))[:, None, :]
+    inside &= ((rows >= 0) & (rows < shape[0]))[:, :, None]
+    triangle, row, column = np.nonzero(inside)
+    weights = np.stack([first[inside], second[inside], third[inside]], axis=1)
+    depth = np.einsum("ij,ij->i", weights, corners[triangle, :, 2])
+    pixel = rows[triangle, row] * shape[1] + columns[triangle, column]
+    return _Hits(triangle, pixel, depth, weights)
+
+
+def _weight(corners: Floats, which: int, pixels: tuple[Ints, Ints]) -> Floats:
+    """One corner's barycentric weight at each pixel centre of a box: linear in row and column.
+
+    A triangle seen edge-on has no weights: NaN, which lies in no triangle.
+    """
+    origin, one, two = (corners[:, (which + k) % 3, :2] for k in range(3))
+    across = two - one
+    area = across[:, 0] * (origin[:, 1] - one[:, 1]) - across[:, 1] * (origin[:, 0] - one[:, 0])
+    slope = across / np.where(area == 0.0, np.nan, area)[:, None]
+    right = pixels[0] + 0.5 - one[:, :1]
+    up = pixels[1] + 0.5 - one[:, 1:]
+    weight: Floats = (slope[:, :1] * up)[:, :, None] - (slope[:, 1:] * right)[:, None, :]
+    return weight
+
+
+def _keep_nearest(hits: _Hits, chunk: Ints, depth: Floats, kept: tuple[Ints, Floats]) -> None:
+    """Write the hits that lie in front of what ``depth`` and ``kept`` hold."""
+    order = np.lexsort((-hits.triangle, hits.depth, hits.pixel))
+    pixel = hits.pixel[order]
+    last = np.append(pixel[1:] != pixel[:-1], True) if len(pixel) else np.zeros(0, dtype=bool)
+    front = order[last]
+    front = front[hits.depth[front] > depth[hits.pixel[front]]]
+    depth[hits.pixel[front]] = hits.depth[front]
+    kept[0][hits.pixel[front]] = chunk[hits.triangle[front]]
+    kept[1][hits.pixel[front]] = hits.weights[front]
+
+
+def blended(values: Floats, corners: Ints, weights: Floats) -> Floats:
+    """Per-vertex ``values`` (n, k) at points given by their corners and weights, (p, 3) each."""
+    mixed: Floats = np.einsum("pj,pjk->pk", weights, values[corners])
+    return mixed
+
+
+def lit(colours: Floats, normals: Floats) -> Floats:
+    """``colours`` (p, 3) under the light; a surface seen from behind is lit as from before.
+
+    ``normals`` (p, 3) are in view coordinates: the third is towards the eye.
+    """
+    facing = np.where(normals[:, 2] < 0, -1.0, 1.0)[:, None]
+    light = np.asarray(LIGHTING.direction) / np.linalg.norm(LIGHTING.direction)
+    brightness = np.clip((facing * normals) @ light, 0.0, 1.0)
+    shade = LIGHTING.ambient + (1.0 - LIGHTING.ambient) * brightness
+    shaded: Floats = np.clip(colours * shade[..., None] * LIGHTING.gain, 0.0, 1.0)
+    return shaded
+
+
+def shaded_image(
+    projected: Floats, faces: Ints, frame: Frame, columns: int, colours: Floats
+) -> Floats:
+    """An RGBA picture (rows, columns, 4), first row on top, of a mesh in view coordinates.
+
+    Parameters
+    ----------
+    projected : (n, 3)
+        Vertices in view coordinates: right, up, towards the eye, mm.
+    faces : (m, 3)
+        A closed mesh is wound outward.
+    frame : Frame
+        What is drawn.
+    columns : int
+        The picture's width in pixels; its height follows.
+    colours : (3,) or (n, 3)
+        The surface's colour, one for all or one per vertex, each in 0-1.
+    """
+    fine = columns * LIGHTING.oversampling
+    tall = round(columns * (frame.top - frame.bottom) / (frame.right - frame.left))
+    rows = max(tall, 1) * LIGHTING.oversampling
+    normals = vertex_normals(projected, faces)
+    faces = _towards_eye(projected, faces)
+    seen = fragments(projected, faces, frame, (rows, fine))
+    covered: Bools = seen.face >= 0
+    shaded = np.zeros((*covered.shape, 3))
+    corners, weights = faces[seen.face[covered]], seen.weights[covered]
+    normals = blended(normals, corners, weights)
+    normals /= np.maximum(np.linalg.norm(normals, axis=-1, keepdims=True), 1e-12)
+    base = colours if colours.ndim == 1 else blended(colours, corners, weights)
+    shaded[covered] = lit(np.broadcast_to(base, normals.shape), normals)
+    return _downsampled(shaded, covered)[::-1]
+
+
+def _towards_eye(projected: Floats, faces: Ints) -> Ints:
+    """The faces that can be seen: of a closed mesh wound outward those that face the eye."""
+    if not is_closed(faces):
+        return faces
+    a, b, c = (projected[faces[:, corner], :2] for corner in range(3))
+    one, two = b - a, c - a
+    return faces[one[:, 0] * two[:, 1] > one[:, 1] * two[:, 0]]
+
+
+def _downsampled(shaded: Floats, covered: Bools) -> Floats:
+    """Blocks of fine pixels as one with their share of coverage as alpha."""
+    n = LIGHTING.oversampling
+    rows, columns = covered.shape[0] // n, covered.shape[1] // n
+    weight = covered.astype(np.float64).reshape(rows, n, columns, n)
+    alpha = weight.mean(axis=(1, 3))
+    blocks = shaded.reshape(rows, n, columns, n, 3) * weight[..., None]
+    colour = blocks.sum(axis=(1, 3)) / np.maximum(weight.sum(axis=(1, 3)), 1.0)[..., None]
+    return np.concatenate([colour, alpha[..., None]], axis=-1)

@@ -1,0 +1,1 @@
+"""Results as rich renderables for a terminal."""

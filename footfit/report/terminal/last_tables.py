@@ -1,0 +1,199 @@
+"""Answers about the catalogue as rich renderables."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from rich.console import Group
+from rich.text import Text
+
+from footfit.geometry.fit.sizes import LabelCheck, label_check, label_words
+from footfit.report.json.parts import paper_frame_angle_deg
+from footfit.report.terminal.scan_tables import (
+    cell,
+    eigenvalue_words,
+    facts,
+    lined_table,
+    side_words,
+)
+from footfit.report.wording.text import measured_text, plain, signed, size_text, visible
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable
+
+    from rich.console import RenderableType
+
+    from footfit.results import (
+        CatalogueFacts,
+        DemoOutcome,
+        LastRecord,
+        MeshCopy,
+        Reference,
+        UpgradeOutcome,
+    )
+
+MEGABYTE = 1_000_000
+
+
+def list_lasts_table(records: Iterable[LastRecord], reference: str | None) -> RenderableType:
+    """The library, one line per last, by name: a star marks the reference, "!" a label off."""
+    ordered = sorted(records, key=lambda record: record.labels.name)
+    heads = ("last", "style", "size", "side", "length\nmm", "flare\ndeg", "class", "heel\nmm")
+    table = lined_table(*heads, right=frozenset({"length\nmm", "flare\ndeg", "heel\nmm"}))
+    notes: list[Text] = []
+    for record in ordered:
+        labels, heel = record.labels, record.labels.heel_height_mm
+        star = " *" if labels.name == reference else ""
+        off = flagged(record)
+        notes += [Text(f"! {visible(labels.name)}: {label_words(off)}", "yellow")] if off else []
+        size = size_text(labels.size, labels.size_system, labels.width_label)
+        table.add_row(
+            cell(labels.name, "bold").append(star),
+            cell(labels.style),
+            cell(size).append(" !", "bold yellow") if off else cell(size),
+            record.side.side or "undecided",
+            plain(record.length_mm),
+            signed(record.flare.angle_deg),
+            record.flare.flare_class,
+            "-" if heel is None else plain(heel, 0),
+        )
+    noun = "last" if len(ordered) == 1 else "lasts"
+    words = f"{len(ordered)} {noun}; * {visible(reference)} is the reference" if reference else ""
+    closing = Text(words or f"{len(ordered)} {noun}; no reference is set", "dim")
+    return Group(table, *notes, closing)
+
+
+def flagged(record: LastRecord) -> LabelCheck | None:
+    """The check of a label that is more than a size from its last's length, else None."""
+    check = label_check(record.labels.size, record.labels.size_system, record.length_mm)
+    return check if check is not None and check.flagged else None
+
+
+def _size_row(record: LastRecord) -> Text:
+    """The size as labelled, and what is wrong with it."""
+    labels, off = record.labels, flagged(record)
+    size = cell(size_text(labels.size, labels.size_system, labels.width_label))
+    return size.append(f" ! {label_words(off)}", "yellow") if off else size
+
+
+def show_last_table(record: LastRecord, reference: str | None) -> RenderableType:
+    """Everything of one last that a person reads."""
+    labels, flare, info = record.labels, record.flare, record.info
+    upgraded = f", upgraded from {record.upgraded_from}" if record.upgraded_from else ""
+    turned = f"{signed(flare.angle_deg)} ± {plain(flare.angle_sd_deg)} deg ({flare.flare_class})"
+    rows: list[tuple[str, str | Text]] = [
+        ("style", cell(labels.style)),
+        ("size", _size_row(record)),
+        ("family, parent", cell(", ".join(p for p in (labels.family, labels.parent) if p))),
+        ("heel", "-" if labels.heel_height_mm is None else f"{plain(labels.heel_height_mm)} mm"),
+        ("side", side_words(record.side)),
+        ("length", f"{plain(record.length_mm)} mm"),
+        ("flare", f"{turned}, definition {visible(flare.definition.version)}{upgraded}"),
+        *_measures(record),
+        ("reference", "this is the reference last" if labels.name == reference else "no"),
+        ("paper's frame", _paper_words(record)),
+        ("eigenvalues", eigenvalue_words(record.eigenframe)),
+        ("mesh", f"{info.vertices:,} vertices, {info.faces:,} faces, {info.units} in the file"),
+        ("content", f"sha256 {info.sha256}"),
+    ]
+    warnings = [("warning", cell(notice.message, "yellow")) for notice in record.warnings]
+    return facts([*rows, *warnings], title=labels.name)
+
+
+def _measures(record: LastRecord) -> list[tuple[str, str | Text]]:
+    """Every stored measure but the length, which has its own row."""
+    return [
+        (measure.name.replace("_", " "), cell(measured_text(measure.measured, "mm")))
+        for measure in record.measures
+        if measure.name != "length"
+    ]
+
+
+def _paper_words(record: LastRecord) -> str:
+    angle = paper_frame_angle_deg(record)
+    if angle is None:
+        return "none: no reference is set"
+    return f"turned by {plain(angle)} deg from footfit's"
+
+
+def catalogue_info_table(info: CatalogueFacts) -> RenderableType:
+    """Where the catalogue is, what it holds, and that it keeps no feet."""
+    error = info.worst_copy_error_mm
+    worst = "" if error is None else f", at most {plain(error, 2)} mm from the file's mesh"
+    size = plain(info.mesh_copy_bytes / MEGABYTE)
+    return facts(
+        [
+            ("catalogue", cell(info.path)),
+            ("size", f"{plain(info.bytes / MEGABYTE)} MB, schema {visible(info.schema_revision)}"),
+            ("lasts", _counted(info.lasts, info.sides)),
+            ("reference", cell(info.reference)),
+            ("styles", _counts(info.styles)),
+            ("size systems", _counts(info.size_systems)),
+            ("definitions", _counts(info.definitions)),
+            ("mesh copies", f"{info.mesh_copies}, {size} MB{worst}"),
+            ("rows kept", _counts(info.kept)),
+            ("feet", "none: a foot is read, matched and forgotten"),
+        ]
+    )
+
+
+def _counts(counts: Iterable[tuple[str, int]]) -> Text:
+    return cell(", ".join(f"{name or 'none'} {count}" for name, count in counts))
+
+
+def _counted(total: int, sides: Iterable[tuple[str, int]]) -> Text:
+    split = ", ".join(f"{count} {name}" for name, count in sides)
+    return cell(f"{total} ({split})" if split else str(total))
+
+
+def set_reference_line(reference: Reference, lasts: int) -> Text:
+    """Which last the paper's frame now comes from, and how many frames were rewritten."""
+    noun = "frame" if lasts == 1 else "frames"
+    line = Text("reference  ").append(visible(reference.last), "bold")
+    return line.append(f"  {lasts} stored {noun} rewritten", "not bold")
+
+
+def rename_last_line(old: str, new: str) -> Text:
+    """A last under its new name."""
+    return Text("renamed  ").append(f"{visible(old)} to {visible(new)}", "bold")
+
+
+def remove_last_line(last: str) -> Text:
+    """A last that is no longer there."""
+    return Text("removed  ").append(visible(last), "bold")
+
+
+def export_last_line(last: str, output: str, copy: MeshCopy | None) -> Text:
+    """What was written where, and how true the mesh is."""
+    line = Text("exported  ").append(visible(last), "bold").append(f" to {visible(output)}")
+    if copy is None:
+        return line
+    error = plain(copy.error_mm, 2)
+    return line.append(f"  {copy.faces:,} faces, at most {error} mm from the file's mesh")
+
+
+def upgrade_catalogue_line(outcome: UpgradeOutcome) -> RenderableType:
+    """What the upgrade changed, and where the file as it was lies."""
+    before, after = visible(outcome.revision_before), visible(outcome.revision_after)
+    schema = f"{after}, as before" if before == after else f"{before} to {after}"
+    count = len(outcome.recomputed)
+    return facts(
+        [
+            ("catalogue", cell(outcome.path)),
+            ("schema", schema),
+            ("profiles", f"{count} re-computed to {visible(outcome.definition)}"),
+            ("backup", cell(outcome.backup)),
+        ]
+    )
+
+
+def demo_table(demo: DemoOutcome) -> RenderableType:
+    """Where the demo's files lie; the report is the last line."""
+    files = [("file", cell(output)) for output in demo.outputs]
+    rows: list[tuple[str, str | Text]] = [
+        ("folder", cell(demo.folder)),
+        ("lasts", str(demo.lasts)),
+        ("best last", cell(demo.best, "bold")),
+        *files,
+    ]
+    return facts(rows)

@@ -1,0 +1,206 @@
+"""The answer to a customer as rich renderables: the feet, the lasts, the best one zone by zone.
+
+It fits 80 columns; a last takes a row of numbers and, under it, its sentence over the whole width.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from rich.cells import cell_len
+from rich.console import Group
+from rich.padding import Padding
+from rich.table import Table
+from rich.text import Text
+
+from footfit.geometry.fit.sizes import foot_size, foot_sizes, system_named
+from footfit.report.json.parts import NOT_YET
+from footfit.report.json.surface_words import surfaces_words
+from footfit.report.terminal.scan_tables import cell, flare_words, lined_table
+from footfit.report.wording.text import (
+    file_name,
+    is_scanned_last,
+    plain,
+    signed,
+    size_text,
+    tie_words,
+    visible,
+)
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from rich.console import RenderableType
+
+    from footfit.results import Candidate, Match, Profiled, ZoneFit
+
+LIKENESS = {
+    "fit": "order: good toe room first, then what fits better; distance: how far the zones are "
+    "from what the profile asks (0 = the target, 1 = the edge of good); lasts that are tied are "
+    "not told apart by the measures",
+    "flare": "distance: how far the flare profile is from the foot's (0 = the same), at any size",
+    "shape": "distance: how far measures and flare profile are from the mesh's (0 = the same)",
+}
+VERDICT_STYLES = {"good": "green", "acceptable": "yellow", "poor": "red", "reject": "bold red"}
+UNITS = {"mm": "mm", "deg": "deg", "percent": "%", "ratio": ""}
+LARGEST_NAME, LARGEST_LABEL = 20, 16
+NUMBERS = (("toe room\nmm", 8), ("flare\ndeg", 6), ("dist.\n", 5))
+COLUMN_GAP = 2
+SHOWN_SYSTEMS = ("eu", "uk", "us-men", "us-women", "mondopoint")
+
+
+def match_table(match: Match) -> RenderableType:
+    """One customer: the feet, the ranked lasts with reasons, what was left out and why."""
+    parts: list[RenderableType] = []
+    for foot in match.feet:
+        parts.append(_foot_line(foot, match))
+        if not is_scanned_last(foot, match):  # a last has no foot's size
+            parts.append(_size_line(foot, match.size_system))
+    parts.append(Text())
+    if match.candidates:
+        parts += [*_candidates(match.candidates), Text(), *_zones(match)]
+    else:
+        parts.append(Text("No last fits.", "bold"))
+        if match.nearest:
+            parts += [Text("The nearest, and what they miss by:"), *_candidates(match.nearest)]
+    likeness = [Text(LIKENESS[match.by], "dim")] if match.candidates else []
+    return Group(*parts, *likeness, Text(_closing(match), "dim"))
+
+
+def _foot_line(foot: Profiled, match: Match) -> Text:
+    alignment = foot.aligned.alignment
+    side = alignment.side.side or "undecided"
+    line = cell(file_name(alignment.info.path), "bold")
+    length = plain(foot.length_mm)
+    kind = "last" if is_scanned_last(foot, match) else "foot"
+    return line.append(f"  {side} {kind}, {length} mm long, flare {flare_words(foot)}", "not bold")
+
+
+def _size_line(foot: Profiled, asked: str | None) -> RenderableType:
+    """The foot's sizes: the one asked for with the two beside it, or the usual systems."""
+    length_mm, system = foot.length_mm, system_named(asked)
+    if system is not None:
+        size = foot_size(length_mm, system)
+        words = f"size {size.words}; beside it {size.beside[0]} and {size.beside[1]}"
+    else:
+        sizes = {size.system: size.words for size in foot_sizes(length_mm)}
+        words = "sizes: " + ", ".join(sizes[name] for name in SHOWN_SYSTEMS)
+    return Padding(Text(words), (0, 0, 0, 2))
+
+
+def _candidates(candidates: Sequence[Candidate]) -> list[RenderableType]:
+    """The lasts, each a row of numbers and a sentence."""
+    judged = any(candidate.verdict for candidate in candidates)
+    names = ["last", *(visible(candidate.last) for candidate in candidates)]
+    labels = ["style, size", *(_labels(candidate) for candidate in candidates)]
+    widths = [
+        2,
+        _width(names, LARGEST_NAME),
+        _width(labels, LARGEST_LABEL),
+        *([10] if judged else []),
+        *(width for _, width in NUMBERS),
+    ]
+    heads = ["", "last", "style, size", *(["verdict"] if judged else []), *(n for n, _ in NUMBERS)]
+    rows: list[RenderableType] = [_row(widths, [Text(head, "bold") for head in heads])]
+    rows.append(Text("─" * (sum(widths) + COLUMN_GAP * (len(widths) - 1)), "dim"))
+    for candidate in candidates:
+        rows += [_row(widths, _cells(candidate, judged=judged)), _sentence(candidate)]
+    return rows
+
+
+def _width(texts: Sequence[str], largest: int) -> int:
+    return min(largest, max(cell_len(text) for text in texts))
+
+
+def _row(widths: Sequence[int], cells: Sequence[Text]) -> Table:
+    """One row of a table whose columns have these widths; the last three hold numbers."""
+    grid = Table.grid(padding=(0, COLUMN_GAP, 0, 0))
+    first_number = len(widths) - len(NUMBERS)
+    for place, width in enumerate(widths):
+        right = place >= first_number or place == 0
+        grid.add_column(width=width, justify="right" if right else "left", overflow="fold")
+    grid.add_row(*cells)
+    return grid
+
+
+def _labels(candidate: Candidate) -> str:
+    size = size_text(candidate.size, candidate.size_system, candidate.width_label)
+    return ", ".join(visible(part) for part in (candidate.style, size) if part)
+
+
+def _cells(candidate: Candidate, *, judged: bool) -> list[Text]:
+    clearance = dict(candidate.clearance_mm).get("length", NOT_YET).value
+    verdict = cell(candidate.verdict, VERDICT_STYLES.get(candidate.verdict or "", ""))
+    return [
+        Text(str(candidate.rank)),
+        cell(candidate.last, "bold"),
+        cell(_labels(candidate)),
+        *([verdict] if judged else []),
+        Text("-" if clearance is None else signed(clearance)),
+        Text(signed(candidate.flare.delta_deg)),
+        Text(plain(candidate.distance, 2)),
+    ]
+
+
+def _sentence(candidate: Candidate) -> RenderableType:
+    """Why, with whom it is tied, and where the surfaces are tight or loose, under the row."""
+    words = cell(candidate.why)
+    if candidate.mirrored:
+        words.append("; mirrored")
+    if candidate.tied_with:
+        words.append(f"; {tie_words(candidate.tied_with)}")
+    rooms = [Text(line, "dim") for line in surfaces_words(candidate.surfaces)]
+    return Padding(Group(words, *rooms), (0, 0, 0, 4))
+
+
+# ---------------------------------------------------------------- zone by zone
+
+
+def _zones(match: Match) -> list[RenderableType]:
+    """The best last zone by zone; nothing for an answer without zones."""
+    best = match.candidates[0]
+    if not best.fits:
+        return []
+    title = Text("Zone by zone, the last minus the foot: ").append(visible(best.last), "bold")
+    feet = [fit.side or "foot" for fit in best.fits] if len(best.fits) > 1 else ["clearance"]
+    table = lined_table("zone", *feet, "asked", "verdict", right=frozenset({*feet, "asked"}))
+    for zones in zip(*(fit.zones for fit in best.fits), strict=True):
+        table.add_row(
+            zones[0].zone.replace("_", " "),
+            *(_clearance(zone) for zone in zones),
+            _asked(zones[0]),
+            _zone_verdict(zones),
+        )
+    return [title, table]
+
+
+def _clearance(zone: ZoneFit) -> Text:
+    if zone.clearance.value is None:
+        return Text("-", "dim")
+    digits = 2 if zone.unit == "ratio" else 1
+    return Text(f"{signed(zone.clearance.value, digits)} {UNITS[zone.unit]}".rstrip())
+
+
+def _asked(zone: ZoneFit) -> str:
+    return f"{signed(zone.target)} {UNITS[zone.unit]}".rstrip()
+
+
+def _zone_verdict(zones: Sequence[ZoneFit]) -> Text:
+    """The worst of the feet that the zone counts for, or why there is none."""
+    order = list(VERDICT_STYLES)
+    known = [zone.verdict for zone in zones if zone.counts and zone.verdict is not None]
+    if not known:
+        reason = next((z.clearance.reason for z in zones if z.clearance.reason), "counts nothing")
+        return Text("not judged: ", "dim").append(visible(reason))
+    worst = max(known, key=order.index)
+    return Text(worst, VERDICT_STYLES[worst])
+
+
+def _closing(match: Match) -> str:
+    noun = "last" if match.catalogue_lasts == 1 else "lasts"
+    words = f"{len(match.candidates)} of {match.catalogue_lasts} {noun}, by {match.by}"
+    words += f", profile {visible(match.profile)}" if match.by == "fit" else ""
+    left_out = "; ".join(
+        f"{count} {visible(reason).replace('_', ' ')}" for reason, count in match.rejected
+    )
+    return f"{words}. Left out: {left_out}." if left_out else f"{words}."

@@ -1,0 +1,190 @@
+"""Answers about meshes as rich renderables for a terminal of 80 columns or more.
+
+Words carry every meaning; colour only repeats it. Every outside string goes through `cell`,
+which shows control characters and lets no markup through. Warnings are not repeated here: the
+command line says them on stderr.
+"""
+
+from __future__ import annotations
+
+import io
+from typing import TYPE_CHECKING
+
+from rich import box
+from rich.console import Console, Group
+from rich.table import Table
+from rich.text import Text
+
+from footfit.report.wording.text import plain, signed, visible
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable, Sequence
+
+    from rich.console import RenderableType
+
+    from footfit.results import (
+        Alignment,
+        Eigenframe,
+        IngestOutcome,
+        Profiled,
+        SideVerdict,
+        SurfaceCurvature,
+    )
+
+STATUS_STYLES = {"added": "green", "replaced": "green", "unchanged": "dim", "refused": "bold red"}
+
+
+def terminal_text(renderable: RenderableType, width: int = 80, colour: bool = False) -> str:
+    """What a terminal of ``width`` columns would show, with ANSI colours or as plain text."""
+    target = io.StringIO()
+    console = Console(
+        file=target,
+        width=width,
+        force_terminal=colour,
+        color_system="standard" if colour else None,
+        legacy_windows=False,
+        highlight=False,
+        emoji=False,
+        markup=False,
+    )
+    console.print(renderable)
+    return "\n".join(line.rstrip() for line in target.getvalue().splitlines()) + "\n"
+
+
+def cell(text: str | None, style: str = "") -> Text:
+    """An outside string as a cell: no markup, no control characters; a dash for nothing."""
+    return Text(visible(text), style) if text else Text("-", "dim")
+
+
+def facts(rows: Iterable[tuple[str, str | Text]], title: str | None = None) -> RenderableType:
+    """Names and values in two columns, under a bold title."""
+    grid = Table.grid(padding=(0, 2))
+    grid.add_column(style="dim", no_wrap=True)
+    grid.add_column(overflow="fold")
+    for name, value in rows:
+        grid.add_row(name, value if isinstance(value, Text) else Text(value))
+    return Group(Text(visible(title), "bold"), grid) if title else grid
+
+
+def lined_table(*columns: str, right: frozenset[str] = frozenset()) -> Table:
+    """An empty table with a line under its head; the columns of ``right`` hold numbers."""
+    table = Table(box=box.SIMPLE_HEAD, pad_edge=False, padding=(0, 1, 0, 0), header_style="bold")
+    for column in columns:
+        number = column in right
+        table.add_column(column, justify="right" if number else "left", overflow="fold")
+    return table
+
+
+def side_words(side: SideVerdict) -> str:
+    """The side, how surely, and who said so.
+
+    Examples
+    --------
+    >>> from footfit.results import SideVerdict
+    >>> side_words(SideVerdict("left", "sure", -4.21, "detected"))
+    'left (detected, sure, score -4.2)'
+    >>> side_words(SideVerdict(None, "undecided", 0.1, "detected"))
+    'undecided (score +0.1)'
+    """
+    if side.side is None:
+        return f"undecided (score {signed(side.score)})"
+    if side.source == "given":
+        return f"{side.side} (given)"
+    return f"{side.side} ({side.source}, {side.confidence}, score {signed(side.score)})"
+
+
+def align_table(alignment: Alignment) -> RenderableType:
+    """One mesh, aligned."""
+    frame, pose, info = alignment.eigenframe, alignment.pose, alignment.info
+    centroid = ", ".join(plain(float(value)) for value in frame.centroid_mm)
+    rows: list[tuple[str, str | Text]] = [
+        ("mesh", f"{info.faces:,} faces, {'closed' if info.watertight else 'open'}"),
+        ("units", f"{info.units} ({info.units_source})"),
+        ("side", side_words(alignment.side)),
+        ("method", alignment.method),
+        ("length", f"{plain(alignment.length_mm)} mm"),
+        ("eigenvalues", eigenvalue_words(frame)),
+        ("centroid", f"{centroid} mm (the file's axes)"),
+        ("pose", f"cost {plain(pose.cost, 2)}, margin {plain(pose.margin, 2)}, {_sole(pose.sole)}"),
+    ]
+    if alignment.reference is not None:
+        rows.append(("reference", cell(alignment.reference.last)))
+    return facts(rows, title=info.path or "standard input")
+
+
+def eigenvalue_words(frame: Eigenframe) -> str:
+    """Each eigenvector's own value, under the names that the frames' picture gives them.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from footfit.results import Eigenframe
+    >>> eigenvalue_words(Eigenframe(np.zeros(3), np.eye(3), np.array([5200.0, 480.0, 610.0])))
+    'e1 5200.0, e2 480.0, e3 610.0 mm2'
+    """
+    values = (plain(float(value)) for value in frame.eigenvalues_mm2)
+    return ", ".join(f"e{row} {value}" for row, value in enumerate(values, 1)) + " mm2"
+
+
+def _sole(sole: bool) -> str:
+    return "rests on its sole" if sole else "no sole: referred to its rim"
+
+
+def flare_table(profiled: Profiled) -> RenderableType:
+    """The flare of one mesh, with the spread of its curvature."""
+    alignment, flare = profiled.aligned.alignment, profiled.flare
+    rows: list[tuple[str, str | Text]] = [
+        ("side", side_words(alignment.side)),
+        ("flare", Text(flare_words(profiled), "bold")),
+        ("length", f"{plain(alignment.length_mm)} mm"),
+        ("definition", flare.definition.version),
+    ]
+    for channel, values in flare.curvature.items():
+        rows.append((channel, "not measurable" if values is None else _range_words(values)))
+    return facts(rows, title=alignment.info.path or "standard input")
+
+
+def flare_words(profiled: Profiled) -> str:
+    """The flare angle with its uncertainty and class."""
+    flare = profiled.flare
+    angle, spread = signed(flare.angle_deg), plain(flare.angle_sd_deg)
+    return f"{angle} ± {spread} deg ({flare.flare_class})"
+
+
+def _range_words(values: Sequence[float] | object) -> str:
+    import numpy as np
+
+    array = np.asarray(values, dtype=np.float64)
+    known = array[np.isfinite(array)]
+    if not len(known):
+        return "not measurable"
+    return f"{signed(float(known.min()))} to {signed(float(known.max()))} (curvature times length)"
+
+
+def ingest_line(outcome: IngestOutcome) -> Text:
+    """One file on one line: what became of it."""
+    line = Text(f"{outcome.status:<10}", STATUS_STYLES.get(outcome.status, ""))
+    if outcome.error is not None:
+        return line.append(visible(f"{outcome.path}: {outcome.error}"), "default")
+    line.append(visible(outcome.last or "-"), "bold default")
+    if outcome.side is not None:
+        line.append(f"  {outcome.side}", "not bold")
+    if outcome.flare_angle_deg is not None:
+        line.append(f"  flare {signed(outcome.flare_angle_deg)} deg", "not bold")
+    return line.append("  is now the reference", "not bold") if outcome.reference else line
+
+
+def curvature_table(curvature: SurfaceCurvature) -> RenderableType:
+    """The spread of a surface's curvature."""
+    from footfit.report.json.documents import spread_part
+
+    scale = f"radius {plain(curvature.radius_mm)} mm" if curvature.radius_mm else "one ring"
+    rows: list[tuple[str, str | Text]] = [("scale", scale)]
+    named = (("k1", curvature.k1, "1/mm"), ("k2", curvature.k2, "1/mm"))
+    more = (("mean", curvature.mean, "1/mm"), ("gaussian", curvature.gaussian, "1/mm2"))
+    for name, values, unit in (*named, *more):
+        quantiles = " / ".join(
+            "-" if value is None else f"{value:+.5f}" for value in spread_part(values).values()
+        )
+        rows.append((name, f"{quantiles} {unit} (5 % / median / 95 %)"))
+    return facts(rows, title=curvature.info.path or "standard input")
