@@ -40,7 +40,7 @@ def main(log: str, arguments: list[str]) -> int:
         resource.setrlimit(resource.RLIMIT_AS, (int(most), int(most)))
     from footfit.cli.app import application
     from footfit.cli.boundary import guarded
-    from footfit.pipeline.batch.runs import runs
+    from footfit.pipeline.batch import runs
 
     apart = runs.outcomes
     runs.outcomes = lambda work, items, _jobs: apart(work, items, runs.HERE)

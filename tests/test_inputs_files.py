@@ -57,6 +57,7 @@ def own(path: str) -> bool:
         sys.prefix,
         sys.base_prefix,
         str(ROOT),
+        *filter(None, sys.path),  # where libraries are
         "/proc/",
         "/sys/",
         "/usr/",

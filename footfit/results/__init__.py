@@ -19,7 +19,7 @@ from footfit.results.compare import (
     SurfaceRoom,
 )
 from footfit.results.fit import FitProfile, FootFit, ZoneFit, ZoneRule
-from footfit.results.lasts import LastLabels, LastRecord
+from footfit.results.last_record import LastLabels, LastRecord
 from footfit.results.library import (
     CatalogueFacts,
     DemoOutcome,

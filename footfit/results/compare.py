@@ -9,7 +9,7 @@ if TYPE_CHECKING:
     from footfit.geometry.fit.clearance import ZoneClearance
     from footfit.geometry.fit.placement import Docking
     from footfit.geometry.numeric.arrays import Floats, Ints
-    from footfit.results.lasts import LastRecord
+    from footfit.results.last_record import LastRecord
     from footfit.results.profile import Profiled
     from footfit.results.values import Measured, Notice, SideName
 

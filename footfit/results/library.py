@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
-    from footfit.results.lasts import LastRecord
+    from footfit.results.last_record import LastRecord
     from footfit.results.values import Notice, SideName
 
 

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 if TYPE_CHECKING:
     from footfit.results.compare import SurfaceRoom
     from footfit.results.fit import FitProfile, FootFit
-    from footfit.results.lasts import LastRecord
+    from footfit.results.last_record import LastRecord
     from footfit.results.profile import Profiled
     from footfit.results.values import Measured, Notice, SearchBy, SideName, Verdict
 
