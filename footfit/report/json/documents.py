@@ -33,7 +33,7 @@ from footfit.report.json.parts import (
     sizes_part,
     warnings_part,
 )
-from footfit.report.json.surface_words import surfaces_part
+from footfit.report.json.surface_parts import surfaces_part
 
 if TYPE_CHECKING:
     from footfit.geometry.numeric.arrays import Floats

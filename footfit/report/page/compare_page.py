@@ -8,14 +8,13 @@ import numpy as np
 
 from footfit.report.page.page import Cell, page, picture, table, text, together, warning
 from footfit.report.page.scene import scene_block
-from footfit.report.terminal.comparison_tables import (
+from footfit.report.wording.comparison_words import (
     SIZE_HEADS,
-    difference_text,
     flare_delta_deg,
     lengths_words,
     swing_words,
 )
-from footfit.report.wording.text import file_name, plain, signed, visible
+from footfit.report.wording.text import difference_text, file_name, plain, signed, visible
 from footfit.results import Candidate, FlareDifference, Match
 
 if TYPE_CHECKING:

@@ -12,7 +12,6 @@ from typing import TYPE_CHECKING
 from footfit import __version__
 from footfit.geometry.fit.sizes import foot_sizes, system_named
 from footfit.report.json.parts import NOT_YET
-from footfit.report.json.surface_words import surfaces_words
 from footfit.report.page.compare_page import (
     heat_picture,
     room_part,
@@ -31,7 +30,9 @@ from footfit.report.page.page import (
     together,
     warning,
 )
+from footfit.report.wording.comparison_words import surfaces_words
 from footfit.report.wording.text import (
+    SHOWN_SYSTEMS,
     file_name,
     is_scanned_last,
     measured_text,
@@ -54,7 +55,6 @@ HOW = {
     "shape": "All lasts, nearest in length and flare profile first: which last is this?",
 }
 UNITS = {"mm": " mm", "deg": "°", "percent": " %", "ratio": ""}
-SHOWN_SYSTEMS = ("eu", "uk", "us-men", "us-women", "mondopoint")
 PAIR_NOTICES = {"pair_difference", "feet_differ_by_a_size"}
 ONLY_FEW_FEET = 2
 """A customer has at most two feet; a pair's pictures stand side by side on paper."""

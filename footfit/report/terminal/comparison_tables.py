@@ -11,9 +11,15 @@ from footfit.report.csv.answers_csv import csv_text
 from footfit.report.json.lines import Json, document
 from footfit.report.json.numbers import degrees, measured_value, millimetres
 from footfit.report.json.parts import mesh_part, side_part, warnings_part
-from footfit.report.json.surface_words import zone_clearance_part
+from footfit.report.json.surface_parts import zone_clearance_part
 from footfit.report.terminal.scan_tables import lined_table
-from footfit.report.wording.text import file_name, plain, signed, visible
+from footfit.report.wording.comparison_words import (
+    SIZE_HEADS,
+    flare_delta_deg,
+    lengths_words,
+    swing_words,
+)
+from footfit.report.wording.text import difference_text, file_name, plain, signed, visible
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
@@ -21,15 +27,8 @@ if TYPE_CHECKING:
     from rich.console import RenderableType
 
     from footfit.report.csv.answers_csv import Cell
-    from footfit.results import Comparison, Measured, SectionComparison
+    from footfit.results import Comparison, SectionComparison
 
-SIZE_HEADS = {
-    "width": "width",
-    "medial": "medial edge",
-    "lateral": "lateral edge",
-    "height": "height",
-    "girth": "girth",
-}
 CSV_COLUMNS = (
     "path",
     "last",
@@ -80,11 +79,6 @@ def compare_document(comparison: Comparison) -> Json:
     )
 
 
-def flare_delta_deg(comparison: Comparison) -> float:
-    """The flare angles' difference, last minus foot."""
-    return comparison.last.flare.angle_deg - comparison.foot.flare.angle_deg
-
-
 def section_part(section: SectionComparison) -> Json:
     """One section's sizes, of foot and last, and their difference."""
     sizes: Json = {
@@ -128,25 +122,6 @@ def _headline(comparison: Comparison) -> Text:
     return line.append(" (mirrored)" if comparison.mirrored else "", "not bold")
 
 
-def lengths_words(comparison: Comparison) -> str:
-    """Both lengths and the flare's difference."""
-    foot, last = comparison.foot.aligned.alignment.length_mm, comparison.last.length_mm
-    return (
-        f"foot {plain(foot)} mm, last {plain(last)} mm: {signed(last - foot)} mm; flare "
-        f"{signed(flare_delta_deg(comparison))} deg"
-    )
-
-
-def swing_words(comparison: Comparison) -> str:
-    """How far the axes part at the ball, in words."""
-    swing = comparison.docking.swing_mm
-    side = "medial" if swing > 0 else "lateral"
-    return (
-        f"heel on heel, the foot's tread had to go {plain(abs(swing))} mm to {side} to lie on the "
-        "last's"
-    )
-
-
 def _zones_table(comparison: Comparison) -> RenderableType:
     columns = ("mean mm", "5 %", "95 %", "tight cm2", "loose cm2", "of cm2")
     table = lined_table("zone", *columns, right=frozenset(columns))
@@ -171,20 +146,6 @@ def _sections_table(comparison: Comparison) -> RenderableType:
             section.station, plain(section.x_mm, 0), *(cells[name] for name in SIZE_HEADS)
         )
     return table
-
-
-def difference_text(measured: Measured) -> str:
-    """A difference with its spread, or a dash.
-
-    Examples
-    --------
-    >>> from footfit.results import Measured
-    >>> difference_text(Measured(3.24, 0.71)), difference_text(Measured(None, reason="cut"))
-    ('+3.2 ± 0.7', '-')
-    """
-    if measured.value is None:
-        return "-"
-    return f"{signed(measured.value)} ± {plain(measured.sd or 0.0)}"
 
 
 # ---------------------------------------------------------------- CSV

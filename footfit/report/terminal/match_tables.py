@@ -15,9 +15,10 @@ from rich.text import Text
 
 from footfit.geometry.fit.sizes import foot_size, foot_sizes, system_named
 from footfit.report.json.parts import NOT_YET
-from footfit.report.json.surface_words import surfaces_words
 from footfit.report.terminal.scan_tables import cell, flare_words, lined_table
+from footfit.report.wording.comparison_words import surfaces_words
 from footfit.report.wording.text import (
+    SHOWN_SYSTEMS,
     file_name,
     is_scanned_last,
     plain,
@@ -46,7 +47,6 @@ UNITS = {"mm": "mm", "deg": "deg", "percent": "%", "ratio": ""}
 LARGEST_NAME, LARGEST_LABEL = 20, 16
 NUMBERS = (("toe room\nmm", 8), ("flare\ndeg", 6), ("dist.\n", 5))
 COLUMN_GAP = 2
-SHOWN_SYSTEMS = ("eu", "uk", "us-men", "us-women", "mondopoint")
 
 
 def match_table(match: Match) -> RenderableType:

@@ -11,6 +11,10 @@ if TYPE_CHECKING:
     from footfit.results import Match, Measured, Profiled
 
 
+SHOWN_SYSTEMS = ("eu", "uk", "us-men", "us-women", "mondopoint")
+"""The size systems that a foot's size is shown in, in this order."""
+
+
 def visible(text: str) -> str:
     r"""``text`` with every character that hides, moves or breaks shown as its escape.
 
@@ -92,6 +96,21 @@ def measured_text(measured: Measured, unit: str, *, sign: bool = False) -> str:
     number = signed(measured.value) if sign else plain(measured.value)
     spread = f" ± {plain(measured.sd)}" if measured.sd is not None else ""
     return f"{number}{spread} {unit}"
+
+
+def difference_text(measured: Measured) -> str:
+    """A difference with its sign and uncertainty, or a dash where there is none.
+
+    Examples
+    --------
+    >>> from footfit.results import Measured
+    >>> difference_text(Measured(3.24, 0.71)), difference_text(Measured(None, reason="cut"))
+    ('+3.2 ± 0.7', '-')
+    """
+    if measured.value is None:
+        return "-"
+    spread = f" ± {plain(measured.sd)}" if measured.sd is not None else ""
+    return f"{signed(measured.value)}{spread}"
 
 
 def size_text(size: str | None, system: str | None, width: str | None = None) -> str:
