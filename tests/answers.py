@@ -115,6 +115,10 @@ def info(path="feet/anna.stl", unit_scale=1.0):
     return MeshInfo(path, "0" * 64, "stl", 3842, 7680, True, "mm", "detected", unit_scale)
 
 
+NOISE_MM = 0.4
+"""What an extent is longer than the measured length."""
+
+
 def alignment(path="feet/anna.stl", left=False, length_mm=260.0, warnings=(), reference=None):
     transform = placed(turned(), [12.0, -3.0, 40.0])
     vertices, _ = tube(length_mm, left=left)
@@ -135,7 +139,8 @@ def alignment(path="feet/anna.stl", left=False, length_mm=260.0, warnings=(), re
         printed_frame=replace(frame, centroid_mm=centroid + 1.0),
         pose=PoseQuality(0.21, 0.18, 0.15, True, "foot"),
         reference=reference,
-        length_mm=length_mm,
+        length=Measured(length_mm, 0.25),
+        extent_mm=length_mm + NOISE_MM,
         warnings=tuple(warnings),
     )
 
@@ -169,7 +174,7 @@ def record(name="derby-42", turn_deg=8.0, length_mm=273.0, left=False, **labels)
         printed_frame=known.printed_frame,
         canonical_transform=known.canonical_transform,
         paper_transform=known.canonical_transform,
-        length_mm=length_mm,
+        extent_mm=length_mm + NOISE_MM,
         flare=profile(turn_deg),
         measures=(Measure("length", Measured(length_mm, 0.4), "length/1"),),
         warnings=(),

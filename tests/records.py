@@ -105,7 +105,7 @@ def last(
         ),
         canonical_transform=canonical,
         paper_transform=None,
-        length_mm=length,
+        extent_mm=length + 0.4,
         flare=profile(seed),
         measures=(
             Measure("length", Measured(length, 0.4), "pternion to foremost point along X"),

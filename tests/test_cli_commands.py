@@ -32,6 +32,7 @@ ALIGN_KEYS = {
     "reference",
     "pose",
     "length_mm",
+    "extent_mm",
     "warnings",
 }
 CANDIDATE_KEYS = {
@@ -57,7 +58,7 @@ def test_align_takes_the_file_to_the_frame_it_reports(
     assert run.code == 0
     document = run.document
     assert set(document) >= ALIGN_KEYS
-    assert document["schema"] == "footfit.align/1"
+    assert document["schema"] == "footfit.align/2"
     transform = np.array(document["transform"])
     assert np.linalg.det(transform[:3, :3]) > 0
     ours = read_scan(output).vertices_mm
@@ -171,7 +172,7 @@ def test_a_batch_goes_on_after_a_bad_file(footfit: Footfit, foot: Path, tmp_path
     assert run.code == 3
     assert [line["schema"] for line in run.lines] == [
         "footfit.error/1",
-        "footfit.align/1",
+        "footfit.align/2",
         "footfit.error/1",
     ]
     assert json.loads(run.last_error)["code"] == "unreadable_file"

@@ -30,6 +30,7 @@ from footfit.meshes.units import UNIT_NAMES, UNIT_SCALES
 from footfit.pipeline.scan import align
 from footfit.pipeline.scan.align import aligned
 from footfit.pipeline.scan.flare import profiled
+from footfit.pipeline.scan.measure import measured_scan
 from footfit.pipeline.scan.settled_unit import unit_notes
 from footfit.results import MeshInfo, Notice, Reference, Scan
 from tests import distortions, shapes
@@ -128,10 +129,10 @@ def test_distortions_hardly_move_the_frame(last, home):
         assert np.linalg.norm(found.transform[:3, 3] - home.transform[:3, 3]) < 0.8
 
 
-def test_lengths_are_exact_along_x(last):
+def test_extents_are_exact_along_x(last):
     found = aligned(scan_of(*last))
     low = found.vertices_mm[found.vertices_mm[:, 2] < 0.3 * LENGTH_MM]
-    assert found.alignment.length_mm == pytest.approx(np.ptp(low[:, 0]))
+    assert found.alignment.extent_mm == pytest.approx(np.ptp(low[:, 0]))
 
 
 # ---------------------------------------------------------------- units
@@ -194,6 +195,8 @@ def test_a_known_length_settles_the_scale(last, factor):
     scan = scan_of(vertices * factor, faces, units="scaled", source="known-length", scale=1.0)
     found = aligned(scan, known_length_mm=251.5)
     assert found.alignment.length_mm == pytest.approx(251.5)
+    rows = {measure.name: measure.measured for measure in measured_scan(found).measures}
+    assert rows["length"].value == pytest.approx(251.5)
     assert found.alignment.info.units == "scaled"
     by_transform = applied(found.alignment.transform, scan.vertices_mm)
     assert np.abs(by_transform - found.vertices_mm).max() < 1e-6
@@ -310,7 +313,7 @@ def test_holes_in_sole_wall_and_heel_are_bridged_and_said(last, home, box):
     turn = angle_deg(found.alignment.transform[:3, :3], home.transform[:3, :3])
     assert turn < 0.1
     assert np.linalg.norm(found.alignment.transform[:3, 3] - home.transform[:3, 3]) < 0.3
-    assert found.alignment.length_mm == pytest.approx(home.length_mm, abs=0.3)
+    assert found.alignment.extent_mm == pytest.approx(home.extent_mm, abs=0.3)
     assert [code for code in codes(found.alignment) if "hole" in code] == ["holes_filled"]
     flat = profiled(aligned(scan_of(vertices, faces))).flare.angle_deg
     assert profiled(found).flare.angle_deg == pytest.approx(flat, abs=0.3)

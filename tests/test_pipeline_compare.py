@@ -19,6 +19,7 @@ from footfit.pipeline.fit.compare import best_comparison, compared, repeatabilit
 from footfit.pipeline.fit.match import matched
 from footfit.pipeline.library.lasts import library
 from footfit.pipeline.scan.reading import profiled_source
+from tests import answers
 from tests.answers import turned
 from tests.comparisons import comparison, last
 from tools.lasts import LastSpec, last_mesh
@@ -78,7 +79,7 @@ def test_edges_add_up_to_the_width():
 
 def test_a_foot_in_a_last_far_too_short_is_said(stocked):
     foot = comparison().foot
-    short = replace(last(), record=replace(last().record, length_mm=200.0))
+    short = replace(last(), record=answers.record(length_mm=200.0))
     codes = {notice.code for notice in compared(foot, short).warnings}
     assert "far_size" in codes
 
@@ -111,7 +112,7 @@ def test_the_command_writes_every_file_and_says_what_they_say(footfit, foot, sto
     run = footfit("compare", foot, LAST, "--json", "--catalogue", stocked, *files)
     assert run.code == 0, run.err
     document = run.document
-    assert document["schema"] == "footfit.compare/1"
+    assert document["schema"] == "footfit.compare/2"
     assert document["last"] == LAST
     assert heat.read_bytes().startswith(b"ply\n")
     assert sections.read_bytes().startswith(b"<?xml")

@@ -69,8 +69,9 @@ def test_an_undecided_side_is_refused_with_what_to_type(right):
 def test_measures_carry_their_sd_and_definition(right):
     found = profiled(right)
     by_name = {measure.name: measure for measure in found.measures}
+    assert by_name["length"].measured.value == pytest.approx(right.alignment.length_mm, abs=1e-9)
     # steadied against noise: a few tenths inside the plain extent (docs/measures.md)
-    assert 0.0 < right.alignment.length_mm - by_name["length"].measured.value < 1.0
+    assert 0.0 < right.alignment.extent_mm - by_name["length"].measured.value < 1.0
     for measure in found.measures:
         value, sd = measure.measured.value, measure.measured.sd
         assert (value is None) == (sd is None) == (measure.measured.reason is not None)
@@ -80,7 +81,7 @@ def test_measures_carry_their_sd_and_definition(right):
 
 def test_what_is_not_there_has_a_reason_and_no_sd(right):
     centres = right.vertices_mm[right.faces].mean(axis=1)
-    start = right.vertices_mm[:, 0].min() + right.alignment.length_mm / 6.0
+    start = right.vertices_mm[:, 0].min() + right.alignment.extent_mm / 6.0
     holed = replace(right, faces=right.faces[np.abs(centres[:, 0] - start) > 8.0])
     heel = next(m for m in profiled(holed).measures if m.name == "heel_width")
     assert (heel.measured.value, heel.measured.sd) == (None, None)
@@ -121,7 +122,7 @@ def test_a_flare_that_no_foot_has_is_said(right):
     """The forefoot turned by a quarter, as of a foot that hangs in the air."""
     assert profiled(right).suspects == ()
     vertices = right.vertices_mm
-    turned = bends.bent(vertices, bends.x_axis(right.alignment.length_mm), 30.0)
+    turned = bends.bent(vertices, bends.x_axis(right.alignment.extent_mm), 30.0)
     (found,) = profiled(replace(right, vertices_mm=turned)).suspects
     assert found.code == "suspect_flare"
     assert "(-3 to +33)" in found.message

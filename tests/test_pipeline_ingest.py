@@ -82,7 +82,9 @@ def test_rows_of_other_files_are_said_and_stop_nothing() -> None:
 
 def test_a_known_length_is_another_reading_unless_it_is_the_stored_one() -> None:
     sha, labels = STORED.info.sha256, STORED.labels
-    for known, expected in ((STORED.length_mm, "unchanged"), (STORED.length_mm + 1, "replaced")):
+    known_mm = {STORED.length_mm: "unchanged", STORED.length_mm + 1: "replaced"}
+    scaled_by_its_extent = {STORED.extent_mm: "unchanged"}  # as older versions did
+    for known, expected in (known_mm | scaled_by_its_extent).items():
         one = Entry(Source("x.stl"), labels, ReadingOptions(known_length_mm=known))
         assert decision(sha, one, BY_NAME, BY_CONTENT, True) == expected
 

@@ -102,6 +102,23 @@ def test_a_ball_line_over_four_percent_off_is_a_reject() -> None:
     assert dict(found.rejected) == {"ball_line_too_far_back": 1, "ball_line_too_far_forward": 1}
 
 
+def test_a_last_whose_length_is_not_known_is_left_out_and_said() -> None:
+    whole = last("whole")
+    rows = {row.name: row for row in whole.measures}
+    rows["length"] = Measure("length", Measured(None, reason="open at the toes"), "length/1")
+    cut = replace(last("cut"), measures=tuple(rows.values()))
+    assert (cut.length_mm, cut.length.reason) == (None, "open at the toes")
+    found = answer(whole, cut)
+    assert [c.last for c in found.candidates] == ["whole"]
+    assert dict(found.rejected) == {"length_unknown": 1}
+    nothing = answer(cut, last("short", 250.0))
+    assert [c.last for c in nothing.nearest] == ["short"]
+    assert dict(nothing.rejected) == {"length_unknown": 1, "too_short": 1}
+    (alone,) = answer(cut, by="flare").candidates
+    assert zone(alone, "length").clearance == Measured(None, reason="the last: open at the toes")
+    assert "not known" in answer(cut, by="shape").candidates[0].why
+
+
 # ---------------------------------------------------------------- verdicts
 
 
@@ -132,7 +149,7 @@ def test_the_ball_line_is_what_the_length_does_not_explain(excess: float, ball: 
     carried = BALL_SHARE * excess
     inside = min(carried, 0.0) <= ball <= max(carried, 0.0)
     off = 0.0 if inside else min(abs(ball), abs(ball - carried))
-    assert abs(found.value) == pytest.approx(100.0 * off / 260.0, abs=1e-9)
+    assert abs(found.value) == pytest.approx(100.0 * off / one.extent_mm, abs=1e-9)
 
 
 def test_a_better_verdict_ranks_before_a_nearer_distance() -> None:
@@ -349,7 +366,7 @@ def test_a_heel_makes_the_bottom_longer_than_its_chord() -> None:
         pitch = np.arcsin(heel_mm / chord_mm)
         length_mm = chord_mm + forepart_mm * np.cos(pitch)
         pitched = last("a", length_mm, heel_height_mm=heel_mm, ball_length=chord_mm)
-        gain = pitch_gain_mm(zone_shape(pitched))
+        gain = pitch_gain_mm(zone_shape(replace(pitched, extent_mm=length_mm)))
         assert length_mm + gain == pytest.approx(chord_mm + forepart_mm)
     flat = last("a", heel_height_mm=None)
     assert pitch_gain_mm(zone_shape(flat)) == 0.0

@@ -162,11 +162,13 @@ def test_metres_measure_as_millimetres(footfit: Footfit, foot: Path, tmp_path: P
 def test_toes_that_were_not_scanned_give_no_length_and_no_match(stocked: Path) -> None:
     scan = read_scan(SAMPLES / "feet" / "mh008_R.stl")
     whole = aligned(scan, side="right")
-    length_mm = whole.alignment.length_mm
+    length_mm = whole.alignment.extent_mm
     cut = plane_cut(whole.vertices_mm, whole.faces, np.array([0.965 * length_mm, 0, 0]), AHEAD)
     short = profiled(aligned(moved_scan(scan, *cut), side="right"))
     assert "open_end" in {notice.code for notice in short.aligned.alignment.warnings}
-    rows = {row.name: row.measured for row in short.measures}
+    alignment, rows = short.aligned.alignment, {row.name: row.measured for row in short.measures}
+    assert alignment.length == rows["length"]
+    assert 0.95 * length_mm < alignment.extent_mm < 0.99 * length_mm
     assert rows["length"].value is None
     assert "open at the toes" in rows["length"].reason
     assert rows["ball_girth"].value is not None

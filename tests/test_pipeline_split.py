@@ -58,8 +58,8 @@ def test_a_file_that_cannot_be_read_has_its_own_line(
     run = footfit("align", tmp_path / "none.stl", both, "--split", "--json")
     assert [line["schema"] for line in run.lines] == [
         "footfit.error/1",
-        "footfit.align/1",
-        "footfit.align/1",
+        "footfit.align/2",
+        "footfit.align/2",
     ]
 
 

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 if TYPE_CHECKING:
     from footfit.geometry.numeric.arrays import Floats, Ints
     from footfit.results.meshes import MeshInfo
-    from footfit.results.values import Confidence, Method, Notice, SideName
+    from footfit.results.values import Confidence, Measured, Method, Notice, SideName
 
 
 @dataclass(frozen=True, slots=True)
@@ -80,6 +80,10 @@ class Alignment:
     orders its rows by eigenvalue and makes the largest entry of each positive.
     ``printed_frame`` is by Eq. 1-4 as printed and settled, whatever the method. ``reference`` is
     the last whose OM_E was used, None for method "footfit" without one.
+
+    ``length`` is the measure of that name: the length that people read, without a value where an
+    end was not scanned. ``extent_mm`` is how far the mesh reaches along X below the leg, vertex to
+    vertex: definitions are scaled by it.
     """
 
     info: MeshInfo
@@ -91,8 +95,14 @@ class Alignment:
     printed_frame: Eigenframe
     pose: PoseQuality
     reference: Reference | None
-    length_mm: float
+    length: Measured
+    extent_mm: float
     warnings: tuple[Notice, ...]
+
+    @property
+    def length_mm(self) -> float | None:
+        """The measured length; None where an end was not scanned."""
+        return self.length.value
 
 
 @dataclass(frozen=True, slots=True)

@@ -73,3 +73,9 @@ class Comparison:
     zones: tuple[ZoneClearance, ...]
     sections: tuple[SectionComparison, ...]
     warnings: tuple[Notice, ...]
+
+    @property
+    def longer_mm(self) -> float | None:
+        """How much longer the last is than the foot; None where one length is not known."""
+        foot_mm, last_mm = self.foot.length_mm, self.last.length_mm
+        return None if foot_mm is None or last_mm is None else last_mm - foot_mm

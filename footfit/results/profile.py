@@ -26,14 +26,14 @@ class Profiled:
     suspects: tuple[Notice, ...] = ()
 
     @property
-    def length_mm(self) -> float:
-        """The measure ``length``, or where it was not taken the mesh's extent, which noise adds to.
+    def length_mm(self) -> float | None:
+        """The measured length, which sizes are read from; None where an end was not scanned."""
+        return self.aligned.alignment.length_mm
 
-        Sizes and lengths that people read are from this one.
-        """
-        taken = (row.measured.value for row in self.measures if row.name == "length")
-        length = next(taken, None)
-        return self.aligned.alignment.length_mm if length is None else length
+    @property
+    def length_or_extent_mm(self) -> float:
+        """The length, or the extent where there is none: tells which of two feet is longer."""
+        return self.aligned.alignment.extent_mm if self.length_mm is None else self.length_mm
 
 
 @dataclass(frozen=True, slots=True)

@@ -58,7 +58,7 @@ def _record(stored: StoredLast, names: Mapping[int, str]) -> LastRecord:
         paper_transform=(
             None if frame["paper_transform"] is None else array_of(frame["paper_transform"], 4, 4)
         ),
-        length_mm=frame["length_mm"],
+        extent_mm=frame["length_mm"],
         flare=_profile(flare),
         measures=tuple(_measure(row) for row in stored.measures),
         warnings=tuple(Notice(row["code"], row["message"]) for row in stored.notices),

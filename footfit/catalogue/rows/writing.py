@@ -151,7 +151,7 @@ def _frame_fields(key: int, record: LastRecord) -> Fields:
         "pose_support": float(pose.support),
         "pose_sole": bool(pose.sole),
         "pose_kind": pose.kind,
-        "length_mm": float(record.length_mm),
+        "length_mm": float(record.extent_mm),
     }
 
 

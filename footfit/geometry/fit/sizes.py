@@ -227,9 +227,10 @@ _LABEL = re.compile(r"\s*(\d+(?:[.,]\d+)?)\s*(1/2|½)?\s*([cky])?\s*", re.IGNORE
 
 
 def label_check(
-    label: str | None, system_name: str | None, last_length_mm: float
+    label: str | None, system_name: str | None, last_length_mm: float | None
 ) -> LabelCheck | None:
-    """A last's label against its length; None where the label or its system says no number.
+    """A last's label against its length; None where the label or its system says no number, or
+    the length is not known.
 
     A label that can be an adult's or a child's counts as the one that is nearer to the length.
 
@@ -242,7 +243,7 @@ def label_check(
     (True, None)
     """
     system, size = system_named(system_name), _labelled(label)
-    if system is None or size is None:
+    if system is None or size is None or last_length_mm is None:
         return None
     value, child = size
     meant = [] if child else [value]

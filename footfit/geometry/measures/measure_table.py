@@ -107,6 +107,11 @@ MEASURES: tuple[Measure, ...] = (
 # fmt: on
 
 
+def measure_named(name: str) -> Measure:
+    """The entry of that name."""
+    return next(entry for entry in MEASURES if entry.name == name)
+
+
 def of_kind(kind: str) -> tuple[Measure, ...]:
     """The entries of the table that a "foot" or a "last" has."""
     return tuple(entry for entry in MEASURES if kind in entry.kinds)

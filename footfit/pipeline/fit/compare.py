@@ -155,7 +155,9 @@ def _warnings(foot: Profiled, last: LastRecord) -> tuple[Notice, ...]:
             "the foot's scan has no sole: the room under it and its height are not to be trusted"
         )
         notices.append(Notice("no_sole", words))
-    longer = last.length_mm - foot.aligned.alignment.length_mm
+    longer = last.extent_mm - foot.aligned.alignment.extent_mm
+    if foot.length_mm is not None and last.length_mm is not None:
+        longer = last.length_mm - foot.length_mm
     if abs(longer) > FAR_MM:
         words = f"the last is {abs(longer):.0f} mm {'longer' if longer > 0 else 'shorter'}"
         notices.append(Notice("far_size", f"{words} than the foot: no shoe for it in any zone"))

@@ -262,10 +262,11 @@ def _why(answer: _Answer, placing: Placing, place: int, fits: tuple[FootFit, ...
         sd = 0.0 if flare is None else flare.clearance.sd or 0.0
         return reasons.flare_words(found.flare[row].delta_deg, sd)
     if answer.by == "shape":
-        longer = answer.feet[governing(answer.feet)].aligned.alignment.length_mm
-        differs = found.lasts[row].length_mm - longer
+        ours, theirs = answer.feet[governing(answer.feet)].length_mm, found.lasts[row].length_mm
         delta = found.flare[row].delta_deg
-        return f"length differs by {differs:+.1f} mm, flare by {delta:+.1f} deg"
+        if ours is None or theirs is None:
+            return f"flare differs by {delta:+.1f} deg; one of the lengths is not known"
+        return f"length differs by {theirs - ours:+.1f} mm, flare by {delta:+.1f} deg"
     unknown = reasons.unknown_words(found.columns, np.isfinite(found.judged.score[row]).tolist())
     if placing.tier[place] == placing.tier[0]:
         return reasons.best_sentence(zones) + unknown

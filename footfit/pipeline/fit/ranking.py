@@ -11,6 +11,7 @@ import numpy as np
 from footfit.geometry.flare.flare_profile import profile_distances
 from footfit.geometry.numeric.arrays import Floats, Ints
 from footfit.pipeline.fit.scoring import (
+    NOT_JUDGED,
     REJECT,
     VERDICTS,
     Column,
@@ -114,7 +115,7 @@ def field(
 
 def governing(feet: Sequence[Profiled]) -> int:
     """Which foot decides the length: the longest, the first of equals."""
-    return max(range(len(feet)), key=lambda i: (feet[i].length_mm, -i))
+    return max(range(len(feet)), key=lambda i: (feet[i].length_or_extent_mm, -i))
 
 
 def flare_differences(
@@ -157,10 +158,10 @@ def size_squares(mesh: Profiled, lasts: Sequence[LastRecord]) -> Floats:
     Measures of one shape move together: they count as INDEPENDENT ones, however many there are.
     """
     ours = {m.name: m for m in mesh.measures}
-    length = mesh.aligned.alignment.length_mm
+    extent_mm = mesh.aligned.alignment.extent_mm
     squares = []
     for last in lasts:
-        own = (last.length_mm - length) ** 2 / (2.0 * LENGTH_SD_MM**2)
+        own = (last.extent_mm - extent_mm) ** 2 / (2.0 * LENGTH_SD_MM**2)
         shared = []
         for measure in last.measures:
             other = ours.get(measure.name)
@@ -195,12 +196,12 @@ def _labels(last: LastRecord) -> tuple[str | None, ...]:
 def _twins(one: LastRecord, other: LastRecord) -> bool:
     """Is one the other side's last of the same model and size? Their labels are alike."""
     named = one.labels.style is not None and one.labels.size is not None
-    return named and abs(one.length_mm - other.length_mm) < TWIN_LENGTH_MM
+    return named and abs(one.extent_mm - other.extent_mm) < TWIN_LENGTH_MM
 
 
 def placed(found: Field, profile: FitProfile, by: SearchBy) -> Placing:
-    """The order of the lasts: by fit those that are no reject, length first: by the verdict on
-    the length, by the whole verdict, then by distance.
+    """The order of the lasts: by fit those that are no reject and whose toe room is known, length
+    first: by the verdict on the length, by the whole verdict, then by distance.
     """
     names = [last.labels.name for last in found.lasts]
     if by != "fit":
@@ -210,10 +211,15 @@ def placed(found: Field, profile: FitProfile, by: SearchBy) -> Placing:
         tier = fixed_tiers([float(found.distance[i]) for i in order], TIE_DISTANCE)
         return Placing(tuple(order), tuple(tier))
     group = found.judged.level[:, _length_column(found)] * len(VERDICTS) + found.level
-    kept = [i for i in range(len(names)) if found.level[i] < REJECT]
+    kept = [i for i in with_toe_room(found) if found.level[i] < REJECT]
     kept.sort(key=lambda i: (group[i], round(float(found.distance[i]), 6), names[i]))
     tier_of = tiers(kept, found.distance, group, found.spread, profile.tie_sds)
     return Placing(tuple(kept), tuple(tier_of))
+
+
+def with_toe_room(found: Field) -> list[int]:
+    """The rows whose toe room is known: the length is the gate, so no other last is judged."""
+    return np.flatnonzero(found.judged.level[:, _length_column(found)] != NOT_JUDGED).tolist()
 
 
 def _length_column(found: Field) -> int:
@@ -228,13 +234,18 @@ def _length_column(found: Field) -> int:
 def nearest(found: Field, count: int) -> list[int]:
     """The rows that come nearest to fitting, by distance then name."""
     names = [last.labels.name for last in found.lasts]
-    order = sorted(range(len(names)), key=lambda i: (round(float(found.distance[i]), 6), names[i]))
-    return order[:count]
+    rows = with_toe_room(found)
+    rows.sort(key=lambda i: (round(float(found.distance[i]), 6), names[i]))
+    return rows[:count]
 
 
 def refusals(found: Field) -> Counter[str]:
-    """How many lasts are rejects, by the first zone that rejects each."""
-    return Counter(refusal(found, i) for i in range(len(found.lasts)) if found.level[i] == REJECT)
+    """How many lasts are left out: by the first zone that rejects each, and those without a known
+    toe room.
+    """
+    known = with_toe_room(found)
+    counts = Counter(refusal(found, i) for i in known if found.level[i] == REJECT)
+    return counts + Counter({"length_unknown": len(found.lasts) - len(known)})
 
 
 def refusal(found: Field, row: int) -> str:

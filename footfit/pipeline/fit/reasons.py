@@ -147,12 +147,14 @@ ONE_CUSTOMER_MM = 20.0
 
 
 def pair_notice(feet: Sequence[Profiled], system_name: str | None) -> Notice | None:
-    """How a pair differs, with advice where it is by a size or more; None for one foot."""
-    if len(feet) != 2:
+    """How a pair differs, with advice where it is by a size or more; None for one foot, or where
+    a length is not known.
+    """
+    known = [(foot.length_mm, foot) for foot in feet if foot.length_mm is not None]
+    if len(known) != 2:
         return None
     system = system_named(system_name) or SYSTEMS[DEFAULT_SYSTEM]
-    longer, shorter = sorted(feet, key=lambda f: -f.length_mm)
-    long_mm, short_mm = (f.length_mm for f in (longer, shorter))
+    (long_mm, longer), (short_mm, shorter) = sorted(known, key=lambda pair: -pair[0])
     side, other = (f.aligned.alignment.side.side for f in (longer, shorter))
     which = f"{side} foot" if side and side != other else "longer foot"
     difference = f"the {which} is {long_mm - short_mm:.1f} mm longer and governs the length"

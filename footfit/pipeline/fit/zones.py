@@ -106,7 +106,7 @@ def clearances(
 ) -> Clearances:
     """The clearance of a foot in each of n lasts, in the zones of the rules."""
     measures = _by_name(foot.measures)
-    one = ZoneShape(foot.aligned.alignment.length_mm, foot.flare, measures, _heel_mm(measures))
+    one = ZoneShape(foot.aligned.alignment.extent_mm, foot.flare, measures, _heel_mm(measures))
     shapes = [zone_shape(last) for last in lasts]
     asked_mm = next((rule.target for rule in rules if rule.zone == "length"), 0.0)
     table = [[_taken(one, shape, rule, asked_mm) for rule in rules] for shape in shapes]
@@ -118,12 +118,16 @@ def clearances(
 
 @dataclass(frozen=True, slots=True)
 class ZoneShape:
-    """What zones read of a foot or a last."""
+    """What zones read of a foot or a last; shares of the length are of ``extent_mm``."""
 
-    length_mm: float
+    extent_mm: float
     flare: FlareProfile
     measures: Mapping[str, tuple[Measured, str]]
     heel_height_mm: float | None
+
+    def measured_mm(self, name: str) -> float | None:
+        """The value of a measure, by whichever definition; None where there is none."""
+        return self.measures[name][0].value if name in self.measures else None
 
 
 def zone_shape(last: LastRecord) -> ZoneShape:
@@ -131,7 +135,7 @@ def zone_shape(last: LastRecord) -> ZoneShape:
     measures = _by_name(last.measures)
     heel = _heel_mm(measures)
     heel = last.labels.heel_height_mm if heel is None else heel
-    return ZoneShape(last.length_mm, last.flare, measures, heel)
+    return ZoneShape(last.extent_mm, last.flare, measures, heel)
 
 
 def _heel_mm(measures: Mapping[str, tuple[Measured, str]]) -> float | None:
@@ -175,12 +179,15 @@ def _difference(foot: ZoneShape, last: ZoneShape, name: str) -> Taken:
 
 
 def _length(foot: ZoneShape, last: ZoneShape) -> Taken:
-    """The toe room: functional lengths where both are measured, along the bottom of the last. A
-    last in the foot's place, as in a search by shape, is measured along its bottom too.
+    """The toe room: functional lengths where both are measured, else lengths, along the bottom of
+    the last. A last in the foot's place, as in a search by shape, is measured along its bottom too.
     """
     taken = _difference(foot, last, "functional_length")
-    if taken.reason is not None:
-        taken = Taken(last.length_mm - foot.length_mm, LENGTH_SD_MM, LENGTH_SD_MM)
+    if taken.reason is not None:  # lengths of other versions differ by tenths of a mm
+        foot_mm, last_mm = foot.measured_mm("length"), last.measured_mm("length")
+        if foot_mm is None or last_mm is None:
+            return _difference(foot, last, "length")
+        taken = Taken(last_mm - foot_mm, LENGTH_SD_MM, LENGTH_SD_MM)
     gain = pitch_gain_mm(last) - pitch_gain_mm(foot)
     return Taken(taken.value + gain, taken.foot_sd, taken.last_sd)
 
@@ -195,10 +202,10 @@ def pitch_gain_mm(last: ZoneShape) -> float:
     heel = last.heel_height_mm
     if heel is None or heel < HEEL_FROM_MM:
         return 0.0
-    ball = last.measures.get("ball_length", (Measured(None), ""))[0].value
-    chord = BALL_SHARE * last.length_mm if ball is None else ball
+    ball = last.measured_mm("ball_length")
+    chord = BALL_SHARE * last.extent_mm if ball is None else ball
     sine = min(heel / chord, STEEPEST)
-    return (last.length_mm - chord) * (1.0 / math.sqrt(1.0 - sine * sine) - 1.0)
+    return (last.extent_mm - chord) * (1.0 / math.sqrt(1.0 - sine * sine) - 1.0)
 
 
 BALL_SHARE = 0.72
@@ -214,12 +221,12 @@ def ball_line(foot: ZoneShape, last: ZoneShape, asked_mm: float) -> Taken:
     A last that is longer than the toe room asked for carries its ball forward in proportion; that
     is judged as length and not once more here. A long toe with the ball in place is in place.
     """
-    taken = _difference(foot, last, "ball_length")
-    if taken.reason is not None:
-        return taken
-    carried = BALL_SHARE * (_length(foot, last).value - asked_mm)
+    taken, room = _difference(foot, last, "ball_length"), _length(foot, last)
+    if taken.reason is not None or room.reason is not None:
+        return taken if taken.reason is not None else room
+    carried = BALL_SHARE * (room.value - asked_mm)
     explained = min(max(taken.value, min(carried, 0.0)), max(carried, 0.0))
-    scale = 100.0 / foot.length_mm
+    scale = 100.0 / foot.extent_mm
     return Taken((taken.value - explained) * scale, taken.foot_sd * scale, taken.last_sd * scale)
 
 

@@ -172,7 +172,7 @@ def last_record(shape: Profiled, labels: LastLabels) -> LastRecord:
         printed_frame=alignment.printed_frame,
         canonical_transform=alignment.canonical_transform,
         paper_transform=None,
-        length_mm=alignment.length_mm,
+        extent_mm=alignment.extent_mm,
         flare=shape.flare,
         measures=shape.measures,
         warnings=notices,
@@ -331,7 +331,8 @@ def decision(
 def _reads_alike(old: LastRecord, reading: ReadingOptions) -> bool:
     """Would the options given read the stored scan as it was read?"""
     known = reading.known_length_mm
-    length = known is None or abs(known - old.length_mm) < SAME_LENGTH_MM
+    scaled_mm = (old.length_mm, old.extent_mm)  # older versions scaled the extent
+    length = known is None or any(abs(known - mm) < SAME_LENGTH_MM for mm in scaled_mm if mm)
     units = reading.units in ("auto", old.info.units)
     return length and units and reading.side in ("auto", old.side.side)
 

@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from typing import Literal
 
 import numpy as np
 
 from footfit.errors import HalfScan, NoReference
+from footfit.geometry.measures.landmarks import Shape
+from footfit.geometry.measures.measure_table import measure_named
 from footfit.geometry.mesh.holes import Filled, filled
 from footfit.geometry.mesh.moments import (
     moments_along,
@@ -34,6 +37,7 @@ from footfit.results import (
     Alignment,
     Confidence,
     Eigenframe,
+    Measured,
     Method,
     Notice,
     PoseQuality,
@@ -86,7 +90,7 @@ def aligned(
     reference : Reference, optional
         Whose OM_E the paper's methods use.
     known_length_mm : float, optional
-        The length along X that the shape is scaled to.
+        The measured length that the shape is scaled to: a stick measures the foot, not its mesh.
 
     Returns
     -------
@@ -108,10 +112,13 @@ def aligned(
     frame = _Framed.of(shape, whole)
     _refuse_half(whole, frame)
     verdict = _verdict(frame, side)
-    info = info_with_unit(scan.info, frame.length, known_length_mm)
+    known = known_length_mm
+    info = info_with_unit(scan.info, frame.extent if known is None else frame.length, known)
     info = replace(info, vertices=len(shape.vertices), faces=len(shape.faces))
     factor = info.unit_scale / scan.info.unit_scale
-    points_mm, length_mm = factor * frame.points, factor * frame.length
+    points_mm = factor * frame.points
+    open_ends = _end_notices(whole, frame)
+    length = _length(factor * frame.length, open_ends)
     canonical = transform(frame.rotation, factor * frame.shift, info.unit_scale)
     own, printed = _eigenframes(factor * shape.vertices, shape.faces, frame.rotation, method)
     left = verdict.side == "left"
@@ -125,14 +132,15 @@ def aligned(
         printed_frame=printed,
         pose=frame.quality,
         reference=reference,
-        length_mm=length_mm,
+        length=length,
+        extent_mm=factor * frame.extent,
         warnings=(
-            *read_notices(scan, info, length_mm),
+            *read_notices(scan, info, length.value),
             *shape.notices,
             *_hole_notices(whole, factor),
-            *_end_notices(whole, frame),
-            *_notices(frame, float(points_mm[:, 2].max()), length_mm, verdict),
-            *length_notices(info, length_mm),
+            *open_ends,
+            *_notices(frame, float(points_mm[:, 2].max()), factor * frame.extent, verdict),
+            *length_notices(info, factor * frame.length),
         ),
     )
     return AlignedScan(alignment, points_mm, shape.faces)
@@ -145,13 +153,15 @@ def aligned(
 class _Framed:
     """The canonical frame in provisional mm: points = rotation @ vertices + shift.
 
-    ``surface`` is the whole surface as points with areas.
+    ``surface`` is the whole surface as points with areas, ``extent`` how far the mesh reaches along
+    X below the leg, ``length`` the measured length, whether or not its ends were scanned.
     """
 
     points: Floats
     surface: SurfaceSample
     rotation: Floats
     shift: Floats
+    extent: float
     length: float
     quality: PoseQuality
 
@@ -179,30 +189,38 @@ class _Framed:
         rotation = nearest_rotation(rotation @ rough.rotation)
         points = applied(transform(rotation, shift), whole.vertices)
         quality = PoseQuality(rough.cost, rough.margin, fine.support, fine.sole, rough.kind)
-        length = length_of(points, 0.0, fine.length)
+        extent = length_of(points, 0.0, fine.length)
+        length = Shape(points, whole.faces, rough.kind).length_mm
         points = points[: len(shape.vertices)]
-        return cls(points, surface, rotation, shift, length, quality)
+        return cls(points, surface, rotation, shift, extent, length, quality)
 
 
 def _refuse_half(whole: Filled, frame: _Framed) -> None:
     """Raise HalfScan where a part was cut off, since length and flare would be another's."""
     rims = [frame.points[rim] for rim in whole.rims]
-    missing = missing_part(frame.surface, rims, frame.length)
+    missing = missing_part(frame.surface, rims, frame.extent)
     if missing is not None:
         raise HalfScan(_MISSING[missing])
 
 
 def _end_notices(whole: Filled, frame: _Framed) -> list[Notice]:
     """The end, if any, that may be longer than it was scanned."""
-    end = doubtful_end(frame.surface, [frame.points[rim] for rim in whole.rims], frame.length)
+    end = doubtful_end(frame.surface, [frame.points[rim] for rim in whole.rims], frame.extent)
     if end is None:
         return []
     return [Notice("open_end", f"the surface is open at the {end}: its length may be short")]
 
 
+def _length(length_mm: float, open_ends: Sequence[Notice]) -> Measured:
+    """The measured length; no value, with the reason, where an end was not scanned."""
+    if open_ends:
+        return Measured(None, reason=open_ends[0].message)
+    return Measured(length_mm, measure_named("length").sd)
+
+
 def _verdict(frame: _Framed, side: str) -> SideVerdict:
     """The side detected, or the one given with what the shape says of it."""
-    score = side_score(frame.surface.points, frame.length).score
+    score = side_score(frame.surface.points, frame.extent).score
     word: Confidence = confidence(score)
     detected: SideName = "right" if score >= 0 else "left"
     if side == "auto":
@@ -221,12 +239,12 @@ def _hole_notices(whole: Filled, factor: float) -> list[Notice]:
     return [Notice("holes_filled", f"{holes} of up to {widest_mm:.0f} mm bridged")]
 
 
-def _notices(frame: _Framed, top_mm: float, length_mm: float, verdict: SideVerdict) -> list[Notice]:
+def _notices(frame: _Framed, top_mm: float, extent_mm: float, verdict: SideVerdict) -> list[Notice]:
     """What the alignment found that a person should know."""
     found = []
     if not frame.quality.sole:
         found.append(Notice("no_sole", "there is no sole: the frame rests on the lowest rim"))
-    if top_mm < ALIGN.low_leg * length_mm:
+    if top_mm < ALIGN.low_leg * extent_mm:
         found.append(Notice("leg_cut_low", f"the scan ends {top_mm:.0f} mm above the floor"))
     if verdict.source == "detected" and verdict.confidence != "sure":
         found.append(

@@ -41,6 +41,8 @@ def length_windows(info: MeshInfo, known_length_mm: float | None) -> Windows:
 def info_with_unit(info: MeshInfo, length: float, known_length_mm: float | None) -> MeshInfo:
     """The info with the unit that the aligned length (provisional mm) confirms.
 
+    ``length`` is the extent along X, or the measured length where it is known.
+
     Raises
     ------
     UnknownUnits, ImplausibleSize
@@ -67,7 +69,7 @@ def info_with_unit(info: MeshInfo, length: float, known_length_mm: float | None)
     return info
 
 
-def read_notices(scan: Scan, info: MeshInfo, length_mm: float) -> list[Notice]:
+def read_notices(scan: Scan, info: MeshInfo, length_mm: float | None) -> list[Notice]:
     """What the reader said; the unit as the aligned length settled it, in place of its guess."""
     kept = [notice for notice in scan.warnings if notice.code != "units_detected"]
     if info.units_source != "detected" or info.units == "mm":

@@ -50,7 +50,7 @@ QUANTILES = (0.05, 0.5, 0.95)
 
 
 def align_document(alignment: Alignment) -> Json:
-    """``footfit.align/1``."""
+    """``footfit.align/2``."""
     return document(
         "align",
         {
@@ -62,8 +62,10 @@ def align_document(alignment: Alignment) -> Json:
             "reference": reference_part(alignment.reference),
             "pose": pose_part(alignment.pose),
             "length_mm": millimetres(alignment.length_mm),
+            "extent_mm": millimetres(alignment.extent_mm),
             "warnings": warnings_part(alignment.warnings),
         },
+        version=2,
     )
 
 
@@ -77,6 +79,8 @@ def flare_document(profiled: Profiled) -> Json:
             "kind": alignment.pose.kind,
             **side_part(alignment.side),
             **flare_part(profiled.flare),
+            "length_mm": millimetres(alignment.length_mm),
+            "extent_mm": millimetres(alignment.extent_mm),
             "warnings": warnings_part((*alignment.warnings, *profiled.suspects)),
         },
     )

@@ -31,14 +31,14 @@ if TYPE_CHECKING:
 
 
 def list_lasts_document(records: Iterable[LastRecord], reference: str | None) -> Json:
-    """``footfit.list-lasts/1``: the library, one entry per last, by name."""
+    """``footfit.list-lasts/2``: the library, one entry per last, by name."""
     ordered = sorted(records, key=lambda record: record.labels.name)
     lasts = [last_part(record, reference=reference) for record in ordered]
-    return document("list-lasts", {"reference": reference, "lasts": lasts})
+    return document("list-lasts", {"reference": reference, "lasts": lasts}, version=2)
 
 
 def show_last_document(record: LastRecord, reference: str | None) -> Json:
-    """``footfit.show-last/1``: everything that is stored of one last but its mesh.
+    """``footfit.show-last/2``: everything that is stored of one last but its mesh.
 
     `record_text` writes this document for ``export-last -o x.json``.
     """
@@ -61,6 +61,7 @@ def show_last_document(record: LastRecord, reference: str | None) -> Json:
             "pose": pose_part(record.pose),
             "warnings": warnings_part(record.warnings),
         },
+        version=2,
     )
 
 

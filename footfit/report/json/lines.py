@@ -18,9 +18,9 @@ Json = dict[str, object]
 _UNSAFE = re.compile("[\x7f-\x9f\u2028\u2029\ud800-\udfff]")
 
 
-def document(command: str, keys: Json) -> Json:
-    """``keys`` under the command's schema and this version."""
-    return {"schema": f"footfit.{command}/1", "footfit_version": __version__, **keys}
+def document(command: str, keys: Json, *, version: int = 1) -> Json:
+    """``keys`` under the command's schema, in the schema's ``version``, and this footfit's."""
+    return {"schema": f"footfit.{command}/{version}", "footfit_version": __version__, **keys}
 
 
 def json_line(document: Json) -> str:

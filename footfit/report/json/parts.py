@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from footfit.geometry.fit.sizes import foot_sizes, label_check, label_words
+from footfit.geometry.fit.sizes import SYSTEMS, foot_sizes, label_check, label_words
 from footfit.geometry.flare.flare_profile import CHANNELS
 from footfit.geometry.pose import paper_frame
 from footfit.report.json.lines import Json
@@ -124,8 +124,10 @@ def measured_parts(taken: dict[str, Measured]) -> Json:
     return {name: measured_value(measured) for name, measured in complete.items()}
 
 
-def sizes_part(foot_length_mm: float) -> Json:
-    """A foot's size in every system."""
+def sizes_part(foot_length_mm: float | None) -> Json:
+    """A foot's size in every system, null where its length is not known."""
+    if foot_length_mm is None:
+        return dict.fromkeys(SYSTEMS)
     return {
         size.system: {
             "exact": ratio(size.exact),
@@ -232,6 +234,7 @@ def last_part(record: LastRecord, *, reference: str | None) -> Json:
         "parent": labels.parent,
         "side": record.side.side,
         "length_mm": millimetres(record.length_mm),
+        "extent_mm": millimetres(record.extent_mm),
         "label_check": label_part(record),
         "flare_angle_deg": degrees(record.flare.angle_deg),
         "class": record.flare.flare_class,

@@ -75,7 +75,7 @@ def wide_scene(comparisons: Sequence[Comparison]) -> str:
     """The one 3D view of a page: of the longer foot."""
     if not comparisons:
         return ""
-    return scene_block(max(comparisons, key=lambda one: one.foot.length_mm))
+    return scene_block(max(comparisons, key=lambda one: one.foot.length_or_extent_mm))
 
 
 def heat_picture(comparison: Comparison) -> str:

@@ -155,7 +155,8 @@ def _foot(match: Match, foot: Profiled) -> str:
     is_last = is_scanned_last(foot, match)
     kind = "last" if is_last else "foot"
     title = f"<h3>{word.capitalize()} {kind}: {text(file_name(alignment.info.path))}</h3>"
-    sizes = "" if is_last else _sizes(foot.length_mm, match.size_system)
+    known = foot.length_mm
+    sizes = "" if is_last or known is None else _sizes(known, match.size_system)
     return f'<section class="foot">{title}{sizes}{facts(rows)}{_unmeasured(foot)}{notes}</section>'
 
 
@@ -175,9 +176,7 @@ def _sizes(length_mm: float, asked: str | None) -> str:
 
 
 def _measures(foot: Profiled) -> Iterable[tuple[str, str]]:
-    """The foot's measures, its length first even where none was taken."""
-    if not any(measure.name == "length" for measure in foot.measures):
-        yield "Length", f"{plain(foot.length_mm)} mm"
+    """The foot's measures that have a value."""
     for measure in foot.measures:
         if measure.measured.value is not None:
             yield _title(measure.name), measured_text(measure.measured, "mm")
@@ -199,7 +198,7 @@ def _title(name: str) -> str:
 
 def _pair(match: Match) -> str:
     """How two feet differ, where no notice says it."""
-    lengths = [foot.length_mm for foot in match.feet]
+    lengths = [foot.length_mm for foot in match.feet if foot.length_mm is not None]
     told = {notice.code for notice in match.warnings} & PAIR_NOTICES
     if told or len(lengths) != ONLY_FEW_FEET:
         return ""
@@ -308,7 +307,7 @@ def _surface(comparisons: Sequence[Comparison], scene: str) -> list[str]:
         return []
     several = len(comparisons) > 1
     rooms = [room_part(one, named=several) for one in comparisons]
-    longer = max(comparisons, key=lambda one: one.foot.length_mm)
+    longer = max(comparisons, key=lambda one: one.foot.length_or_extent_mm)
     strips = [
         (section_picture(one, strip=True), "" if one is longer else ' class="screen"')
         for one in comparisons

@@ -22,7 +22,7 @@ from footfit.report.pictures.figures import (
     house_style,
     scale_bar,
 )
-from footfit.report.wording.text import file_name, plain, signed
+from footfit.report.wording.text import file_name, length_text, plain, signed
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -89,7 +89,7 @@ def _colour_bar(figure: Figure, axes: Axes, colours: Any) -> None:
 
 def _title(profiled: Profiled) -> str:
     alignment = profiled.aligned.alignment
-    length = f"{plain(alignment.length_mm)} mm"
+    length = length_text(alignment.length)
     return f"{shape_words(alignment)}, {length}, flare {angle_words(profiled.flare)}"
 
 
@@ -111,7 +111,7 @@ def centre_line_mm(profiled: Profiled) -> Floats:
     """The centre line (n, 2), x and y in the canonical frame of the shape's own side."""
     alignment = profiled.aligned.alignment
     mirror = -1.0 if alignment.side.side == "left" else 1.0
-    line: Floats = profiled.flare.centre_line * alignment.length_mm * np.array([1.0, mirror])
+    line: Floats = profiled.flare.centre_line * alignment.extent_mm * np.array([1.0, mirror])
     return line
 
 
@@ -165,7 +165,7 @@ def _coloured_line(axes: Axes, line_mm: Floats, flare: FlareProfile) -> Any:
 
 def _angle_mark(axes: Axes, profiled: Profiled, line_mm: Floats) -> None:
     """The two mean headings as straight lines through their windows, and the angle between."""
-    flare, length = profiled.flare, profiled.aligned.alignment.length_mm
+    flare, length = profiled.flare, profiled.aligned.alignment.extent_mm
     mirror = -1.0 if profiled.aligned.alignment.side.side == "left" else 1.0
     tips = []
     for window, back in zip(windows(flare.definition), (0.12, 0.32), strict=True):
@@ -190,7 +190,7 @@ def _angle_mark(axes: Axes, profiled: Profiled, line_mm: Floats) -> None:
 def _medial_label(axes: Axes, profiled: Profiled, sole: Outline) -> None:
     left = profiled.aligned.alignment.side.side == "left"
     widest = float(np.nanmax(np.abs(np.concatenate([sole.first_mm, sole.second_mm]))))
-    height = 0.42 * profiled.aligned.alignment.length_mm
+    height = 0.42 * profiled.aligned.alignment.extent_mm
     for word, side in (("medial", 1 if left else -1), ("lateral", -1 if left else 1)):
         axes.text(
             side * 1.12 * widest,

@@ -11,7 +11,7 @@ from footfit.geometry.numeric.rotations import applied
 from footfit.report.pictures.figures import INK, SERIES, SKIN, bare, house_style, scale_bar
 from footfit.report.pictures.flare_figure import shape_words
 from footfit.report.pictures.shading import VIEWS, axonometric_view, frame_around, shaded_image
-from footfit.report.wording.text import plain
+from footfit.report.wording.text import length_text, plain
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -70,8 +70,8 @@ def _title(mesh: AlignedScan) -> str:
     alignment = mesh.alignment
     deviations = np.sqrt(alignment.eigenframe.eigenvalues_mm2)
     spread = ", ".join(plain(float(value)) for value in deviations)
-    length = plain(alignment.length_mm)
-    return f"{shape_words(alignment)}, {length} mm; spread along e1, e2, e3: {spread} mm"
+    length = length_text(alignment.length)
+    return f"{shape_words(alignment)}, {length}; spread along e1, e2, e3: {spread} mm"
 
 
 def _panel(

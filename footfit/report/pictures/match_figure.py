@@ -110,13 +110,13 @@ def _plan(axes: Axes, profiled: Profiled, lasts: tuple[Candidate, ...], shapes: 
     mirror = -1.0 if foot.alignment.side.side == "left" else 1.0
     sole = sole_outline(foot.vertices_mm, foot.faces).closed()
     axes.fill(-sole[:, 1], sole[:, 0], facecolor=FILL, edgecolor=FOOT, linewidth=1.6)
-    _centre(axes, profiled.flare.centre_line * foot.alignment.length_mm, mirror, color=FOOT)
+    _centre(axes, profiled.flare.centre_line * foot.alignment.extent_mm, mirror, color=FOOT)
     for index, (vertices, faces) in _meshes(profiled, lasts, shapes):
         outline = sole_outline(vertices, faces).closed()
         outline = np.concatenate([outline, outline[:1]])
         axes.plot(-outline[:, 1], outline[:, 0], **_style(index))
     for index, last in enumerate(lasts):
-        line = last.record.flare.centre_line * last.record.length_mm
+        line = last.record.flare.centre_line * last.record.extent_mm
         _centre(axes, line, mirror, **_style(index))
     axes.set_title(
         "Sole and centre line from above" if shapes else "The foot's sole, and centre lines"

@@ -48,7 +48,7 @@ CSV_COLUMNS = (
 
 
 def compare_document(comparison: Comparison) -> Json:
-    """``footfit.compare/1``: one foot in one last."""
+    """``footfit.compare/2``: one foot in one last."""
     alignment, way = comparison.foot.aligned.alignment, comparison.docking
     shift = [millimetres(value) for value in way.shift_mm]
     return document(
@@ -59,11 +59,8 @@ def compare_document(comparison: Comparison) -> Json:
             "last": comparison.last.labels.name,
             "last_side": comparison.last.side.side,
             "mirrored": comparison.mirrored,
-            "length_mm": {
-                "foot": millimetres(alignment.length_mm),
-                "last": millimetres(comparison.last.length_mm),
-                "difference": millimetres(comparison.last.length_mm - alignment.length_mm),
-            },
+            "length_mm": lengths_part(alignment.length_mm, comparison.last.length_mm),
+            "extent_mm": lengths_part(alignment.extent_mm, comparison.last.extent_mm),
             "flare_delta_deg": degrees(flare_delta_deg(comparison)),
             "docking": {
                 "swing_mm": millimetres(way.swing_mm),
@@ -76,7 +73,15 @@ def compare_document(comparison: Comparison) -> Json:
             "sections": [section_part(section) for section in comparison.sections],
             "warnings": warnings_part(comparison.warnings),
         },
+        version=2,
     )
+
+
+def lengths_part(foot_mm: float | None, last_mm: float | None) -> Json:
+    """The lengths of foot and last, and last minus foot; null where one is not known."""
+    longer_mm = None if foot_mm is None or last_mm is None else last_mm - foot_mm
+    lengths = {"foot": foot_mm, "last": last_mm, "difference": longer_mm}
+    return {name: millimetres(value) for name, value in lengths.items()}
 
 
 def section_part(section: SectionComparison) -> Json:

@@ -16,7 +16,14 @@ from footfit.report.terminal.scan_tables import (
     lined_table,
     side_words,
 )
-from footfit.report.wording.text import measured_text, plain, signed, size_text, visible
+from footfit.report.wording.text import (
+    length_text,
+    measured_text,
+    plain,
+    signed,
+    size_text,
+    visible,
+)
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
@@ -52,7 +59,7 @@ def list_lasts_table(records: Iterable[LastRecord], reference: str | None) -> Re
             cell(labels.style),
             cell(size).append(" !", "bold yellow") if off else cell(size),
             record.side.side or "undecided",
-            plain(record.length_mm),
+            "-" if record.length_mm is None else plain(record.length_mm),
             signed(record.flare.angle_deg),
             record.flare.flare_class,
             "-" if heel is None else plain(heel, 0),
@@ -87,7 +94,7 @@ def show_last_table(record: LastRecord, reference: str | None) -> RenderableType
         ("family, parent", cell(", ".join(p for p in (labels.family, labels.parent) if p))),
         ("heel", "-" if labels.heel_height_mm is None else f"{plain(labels.heel_height_mm)} mm"),
         ("side", side_words(record.side)),
-        ("length", f"{plain(record.length_mm)} mm"),
+        ("length", length_text(record.length)),
         ("flare", f"{turned}, definition {visible(flare.definition.version)}{upgraded}"),
         *_measures(record),
         ("reference", "this is the reference last" if labels.name == reference else "no"),

@@ -54,8 +54,8 @@ def match_table(match: Match) -> RenderableType:
     parts: list[RenderableType] = []
     for foot in match.feet:
         parts.append(_foot_line(foot, match))
-        if not is_scanned_last(foot, match):  # a last has no foot's size
-            parts.append(_size_line(foot, match.size_system))
+        if foot.length_mm is not None and not is_scanned_last(foot, match):
+            parts.append(_size_line(foot.length_mm, match.size_system))
     parts.append(Text())
     if match.candidates:
         parts += [*_candidates(match.candidates), Text(), *_zones(match)]
@@ -71,14 +71,15 @@ def _foot_line(foot: Profiled, match: Match) -> Text:
     alignment = foot.aligned.alignment
     side = alignment.side.side or "undecided"
     line = cell(file_name(alignment.info.path), "bold")
-    length = plain(foot.length_mm)
+    mm = foot.length_mm
+    length = "length not measured" if mm is None else f"{plain(mm)} mm long"
     kind = "last" if is_scanned_last(foot, match) else "foot"
-    return line.append(f"  {side} {kind}, {length} mm long, flare {flare_words(foot)}", "not bold")
+    return line.append(f"  {side} {kind}, {length}, flare {flare_words(foot)}", "not bold")
 
 
-def _size_line(foot: Profiled, asked: str | None) -> RenderableType:
+def _size_line(length_mm: float, asked: str | None) -> RenderableType:
     """The foot's sizes: the one asked for with the two beside it, or the usual systems."""
-    length_mm, system = foot.length_mm, system_named(asked)
+    system = system_named(asked)
     if system is not None:
         size = foot_size(length_mm, system)
         words = f"size {size.words}; beside it {size.beside[0]} and {size.beside[1]}"

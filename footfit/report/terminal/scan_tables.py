@@ -15,7 +15,7 @@ from rich.console import Console, Group
 from rich.table import Table
 from rich.text import Text
 
-from footfit.report.wording.text import plain, signed, visible
+from footfit.report.wording.text import length_text, plain, signed, visible
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Sequence
@@ -102,7 +102,7 @@ def align_table(alignment: Alignment) -> RenderableType:
         ("units", f"{info.units} ({info.units_source})"),
         ("side", side_words(alignment.side)),
         ("method", alignment.method),
-        ("length", f"{plain(alignment.length_mm)} mm"),
+        ("length", length_text(alignment.length)),
         ("eigenvalues", eigenvalue_words(frame)),
         ("centroid", f"{centroid} mm (the file's axes)"),
         ("pose", f"cost {plain(pose.cost, 2)}, margin {plain(pose.margin, 2)}, {_sole(pose.sole)}"),
@@ -136,7 +136,7 @@ def flare_table(profiled: Profiled) -> RenderableType:
     rows: list[tuple[str, str | Text]] = [
         ("side", side_words(alignment.side)),
         ("flare", Text(flare_words(profiled), "bold")),
-        ("length", f"{plain(alignment.length_mm)} mm"),
+        ("length", length_text(alignment.length)),
         ("definition", flare.definition.version),
     ]
     for channel, values in flare.curvature.items():

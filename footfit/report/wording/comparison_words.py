@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from footfit.geometry.fit.clearance import CLEARANCE
-from footfit.report.wording.text import plain, signed, visible
+from footfit.report.wording.text import length_text, plain, signed, visible
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Sequence
@@ -32,10 +32,11 @@ def flare_delta_deg(comparison: Comparison) -> float:
 
 def lengths_words(comparison: Comparison) -> str:
     """The two lengths, and the differences in length and in flare."""
-    foot, last = comparison.foot.aligned.alignment.length_mm, comparison.last.length_mm
+    foot, last = comparison.foot.aligned.alignment.length, comparison.last.length
+    longer = "" if comparison.longer_mm is None else f": {signed(comparison.longer_mm)} mm"
     return (
-        f"foot {plain(foot)} mm, last {plain(last)} mm: {signed(last - foot)} mm; flare "
-        f"{signed(flare_delta_deg(comparison))} deg"
+        f"foot {length_text(foot)}, last {length_text(last)}{longer}; "
+        f"flare {signed(flare_delta_deg(comparison))} deg"
     )
 
 

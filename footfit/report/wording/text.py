@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
@@ -96,6 +97,18 @@ def measured_text(measured: Measured, unit: str, *, sign: bool = False) -> str:
     number = signed(measured.value) if sign else plain(measured.value)
     spread = f" ± {plain(measured.sd)}" if measured.sd is not None else ""
     return f"{number}{spread} {unit}"
+
+
+def length_text(length: Measured) -> str:
+    """A length without its spread, or the reason why it is not known.
+
+    Examples
+    --------
+    >>> from footfit.results import Measured
+    >>> length_text(Measured(262.31, 0.25)), length_text(Measured(None, reason="open"))
+    ('262.3 mm', 'not measured (open)')
+    """
+    return measured_text(replace(length, sd=None), "mm")
 
 
 def difference_text(measured: Measured) -> str:
