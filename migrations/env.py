@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from alembic import context
 
-from footfit.catalogue.rows.schema import Base
+from footfit.catalogue.rows.schema import METADATA
 
 connection = context.config.attributes.get("connection")
 if connection is None:
@@ -16,7 +16,7 @@ if connection is None:
 
 context.configure(
     connection=connection,
-    target_metadata=Base.metadata,
+    target_metadata=METADATA,
     render_as_batch=True,
     transactional_ddl=True,
 )

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import shutil
 import sqlite3
+from contextlib import closing
 from pathlib import Path
 
 import pytest
@@ -11,7 +12,8 @@ import pytest
 from footfit.catalogue.file.engine import connected, engine_on
 from footfit.catalogue.file.file_signature import MARKS
 from footfit.catalogue.file.migrate import Revisions, Schema, copy_path, create, migrations_folder
-from footfit.catalogue.rows import schema as models
+from footfit.catalogue.rows.columns import TABLES, Column, Table
+from footfit.catalogue.rows.schema import METADATA
 from footfit.catalogue.store import open_catalogue
 from footfit.errors import CatalogueDamaged, CatalogueUnusable, NewerCatalogue
 from tests import records
@@ -56,7 +58,7 @@ def test_the_migrations_make_what_the_models_say(path: Path) -> None:
     engine = engine_on(connected(path, "ro"))
     with engine.connect() as connection:
         context = MigrationContext.configure(connection, opts={"compare_type": True})
-        assert compare_metadata(context, models.Base.metadata) == []
+        assert compare_metadata(context, METADATA) == []
 
 
 def test_names_of_keys_and_rules_agree_between_models_and_migrations(
@@ -66,14 +68,45 @@ def test_names_of_keys_and_rules_agree_between_models_and_migrations(
     direct = sqlite3.connect(tmp_path / "direct.db")
     direct.isolation_level = None
     with engine_on(direct).connect() as connection, connection.begin():
-        models.Base.metadata.create_all(connection)
+        METADATA.create_all(connection)
     migrated = sqlite3.connect(path)
-    for table in models.Base.metadata.tables:
+    for table in METADATA.tables:
         for pragma in ("table_info", "foreign_key_list", "index_list"):
             select = f"PRAGMA {pragma}({table})"
             assert migrated.execute(select).fetchall() == direct.execute(select).fetchall()
     with pytest.raises(sqlite3.IntegrityError, match="CHECK"):
         migrated.execute("INSERT INTO reference VALUES (2, 1, x'', x'', '')")
+
+
+COLUMNS = [(table, column) for table in TABLES for column in table.columns]
+
+
+def test_the_migrated_tables_have_the_columns_of_the_table_of_columns(path: Path) -> None:
+    """Also their order, which SQLAlchemy's tables take from there."""
+    with closing(sqlite3.connect(path)) as connection:
+        migrated = [
+            (table.name, name, bool(required), bool(key))
+            for table in TABLES
+            for _, name, _, required, _, key in connection.execute(
+                f"PRAGMA table_info({table.name})"
+            )
+        ]
+    assert migrated == [(t.name, c.name, not c.nullable, c.key) for t, c in COLUMNS]
+
+
+def test_the_writer_adds_keys_hashes_and_the_version_alone() -> None:
+    """Every other value comes from a record, and says where in it."""
+    added = {column.name for _, column in COLUMNS if not column.path}
+    assert added == {
+        *("id", "last_id", "parent_id", "position"),
+        *("footfit_version", "record_sha256", "sha256"),
+    }
+
+
+@pytest.mark.parametrize(("table", "column"), COLUMNS, ids=lambda item: item.name)
+def test_every_column_has_a_rule_that_can_be_broken(table: Table, column: Column) -> None:
+    assert column.implausible(object()), "a value of no type that SQLite has"
+    assert (column.implausible(None) is None) is column.nullable
 
 
 def test_the_known_revisions_are_the_scripts() -> None:
@@ -94,7 +127,7 @@ def test_the_marks_are_in_the_file(path: Path) -> None:
 
 
 def test_the_settings_are_on(path: Path) -> None:
-    with open_catalogue(path, write=True) as catalogue, catalogue.file.atomic() as session:
+    with open_catalogue(path, write=True) as catalogue, catalogue.file.atomic() as connection:
         for pragma, value in (
             ("foreign_keys", 1),
             ("synchronous", 3),
@@ -102,7 +135,7 @@ def test_the_settings_are_on(path: Path) -> None:
             ("busy_timeout", 30_000),
             ("trusted_schema", 0),
         ):
-            assert session.connection().exec_driver_sql(f"PRAGMA {pragma}").scalar() == value
+            assert connection.exec_driver_sql(f"PRAGMA {pragma}").scalar() == value
         # BEGIN IMMEDIATE: nobody else can begin to write meanwhile.
         other = connected(path, "rw", busy_timeout_s=0)
         with pytest.raises(sqlite3.OperationalError, match="locked"):

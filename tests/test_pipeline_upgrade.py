@@ -9,8 +9,10 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from footfit.catalogue.rows import writing
 from footfit.catalogue.rows.array_blobs import definition_text
+from footfit.catalogue.rows.columns import FLARE
+from footfit.catalogue.rows.verified_rows import last_id
+from footfit.catalogue.rows.writing import driver_of, seal, update_row
 from footfit.catalogue.store import open_catalogue
 from footfit.errors import NoCatalogue
 from footfit.geometry.flare.flare_profile import FlareDefinition
@@ -40,14 +42,16 @@ def test_profiles_of_another_definition_are_recomputed_and_marked(catalogue: Pat
 
 @pytest.mark.parametrize("other", [{"band_height": None}, {"band_width": 0.3}])
 def test_a_parameter_more_or_less_is_another_definition_whatever_its_version(
-    catalogue: Path, monkeypatch: pytest.MonkeyPatch, other: dict[str, float | None]
+    catalogue: Path, other: dict[str, float | None]
 ) -> None:
     stored = {**json.loads(definition_text(FlareDefinition())), **other}
     text = json.dumps({name: value for name, value in stored.items() if value is not None})
-    with open_catalogue(catalogue, write=True) as opened, monkeypatch.context() as patch:
+    with open_catalogue(catalogue, write=True) as opened:
         record = opened.records()[0]
-        patch.setattr(writing, "definition_text", lambda _: text)
-        opened.update_profile(record.labels.name, replace(record.flare, angle_deg=19.0))
+        with opened.file.atomic() as connection:
+            key = last_id(driver_of(connection), record.labels.name)
+            update_row(connection, FLARE, key, {"definition": text, "angle_deg": 19.0})
+            seal(connection, key)
     assert [notice.code for notice in library(catalogue).warnings] == ["outdated_last"]
     with open_catalogue(catalogue) as opened:
         assert opened.record(record.labels.name).flare.definition.version == "flare/1"

@@ -11,18 +11,20 @@ from footfit.catalogue.file.copying import copy_into
 from footfit.catalogue.file.engine import SETTINGS, CatalogueFile, worded
 from footfit.catalogue.file.migrate import Revisions, Schema
 from footfit.catalogue.file.opening import opened_for_reading, opened_for_writing
+from footfit.catalogue.rows import editing
+from footfit.catalogue.rows.columns import MESH_COPY
 from footfit.catalogue.rows.records import mesh_copy_of, record_of
 from footfit.catalogue.rows.reference_last import make_reference, reference_of, stored_reference
-from footfit.catalogue.rows.search import Filters, Range, SearchRows, all_records, search_rows
+from footfit.catalogue.rows.search import Filters, SearchRows, all_records, search_rows
 from footfit.catalogue.rows.summary import facts
 from footfit.catalogue.rows.verified_rows import (
-    hashed_row,
     intact_last,
-    key_where,
     last_id,
     last_names,
+    row_digest,
     rows,
 )
+from footfit.catalogue.rows.writing import driver_of
 from footfit.errors import CatalogueDamaged, UnknownLast
 from footfit.geometry.flare.flare_profile import FlareProfile
 from footfit.results import CatalogueFacts, Finding, LastRecord, Measure, MeshCopy, Reference
@@ -102,22 +104,11 @@ class Catalogue:
             return tuple(all_records(connection))
 
     def rows_for_search(
-        self,
-        style: str | None = None,
-        size_system: str | None = None,
-        sizes: Range | None = None,
-        length_mm: Range | None = None,
+        self, style: str | None = None, size_system: str | None = None
     ) -> SearchRows:
         """The lasts to rank, by :class:`Filters`; no mesh is read."""
-        filters = Filters(style, size_system, sizes, length_mm)
         with self.file.reading() as connection:
-            return search_rows(connection, filters)
-
-    def by_content(self, sha256: str) -> str | None:
-        """The name of the last that was made from a file of that hash."""
-        with self.file.reading() as connection:
-            key = key_where(connection, "content_sha256", sha256)
-            return None if key is None else last_names(connection)[key]
+            return search_rows(connection, Filters(style, size_system))
 
     def reference(self) -> Reference | None:
         """The reference last; None in an empty catalogue.
@@ -128,8 +119,8 @@ class Catalogue:
             Its row is not what was stored.
         """
         with self.file.reading() as connection:
-            found = stored_reference(connection)
-            return None if found is None else found[1]
+            reference = stored_reference(connection)
+            return None if reference is None else reference[1]
 
     def as_reference(self, name: str) -> Reference:
         """What a last would be as the reference; nothing is changed.
@@ -140,7 +131,8 @@ class Catalogue:
             There is none of that name, or its rows are not what was stored.
         """
         with self.file.reading() as connection:
-            return reference_of(intact_last(connection, last_id(connection, name)))
+            stored = intact_last(connection, last_id(connection, name))
+            return reference_of(record_of(stored, last_names(connection)))
 
     def mesh_copy(self, name: str) -> MeshCopy:
         """A last's compact mesh, in its canonical frame.
@@ -151,15 +143,15 @@ class Catalogue:
             There is no such last or it was stored without a mesh; the copy is damaged.
         """
         with self.file.reading() as connection:
-            found = rows(connection, "mesh_copy", last_id(connection, name))
-        if not found:
+            copies = rows(connection, MESH_COPY, last_id(connection, name))
+        if not copies:
             raise UnknownLast(f"{name!r} was stored without its mesh; ingest it with --replace")
-        if found[0].get("sha256") != hashed_row(found[0]):
+        if copies[0].get("sha256") != row_digest(MESH_COPY, copies[0]):
             raise CatalogueDamaged(
                 f"the mesh of {name!r} is damaged in it; ingest it again with --replace",
                 str(self.file.path),
             )
-        return mesh_copy_of(found[0])
+        return mesh_copy_of(copies[0])
 
     def mesh_copy_names(self) -> tuple[str, ...]:
         """The names of the lasts that have a mesh copy, damaged or not, sorted."""
@@ -201,10 +193,8 @@ class Catalogue:
         UnknownLast, BadOption
             Its parent is not there; its name cannot be stored.
         """
-        from footfit.catalogue.rows import editing
-
-        with self.file.atomic() as session:
-            editing.place(session, record, copy, replace=False)
+        with self.file.atomic() as connection:
+            editing.place(connection, record, copy, replace=False)
 
     def replace(self, record: LastRecord, copy: MeshCopy | None = None) -> None:
         """Store a last over the one of its name, or as a new one where there is none.
@@ -214,10 +204,8 @@ class Catalogue:
         NameTaken, UnknownLast, BadOption
             As for :meth:`add`, but for the name.
         """
-        from footfit.catalogue.rows import editing
-
-        with self.file.atomic() as session:
-            editing.place(session, record, copy, replace=True)
+        with self.file.atomic() as connection:
+            editing.place(connection, record, copy, replace=True)
 
     def remove(self, name: str) -> None:
         """Remove a last with all that is kept of it.
@@ -227,10 +215,8 @@ class Catalogue:
         UnknownLast, BadOption
             There is none; it is the reference, or the parent of another last.
         """
-        from footfit.catalogue.rows import editing
-
-        with self.file.atomic() as session:
-            editing.remove(session, name)
+        with self.file.atomic() as connection:
+            editing.remove(connection, name)
 
     def rename(self, name: str, new_name: str) -> None:
         """Give a last another name.
@@ -240,10 +226,8 @@ class Catalogue:
         UnknownLast, NameTaken, BadOption
             There is none; the new name is taken, or cannot be stored.
         """
-        from footfit.catalogue.rows import editing
-
-        with self.file.atomic() as session:
-            editing.rename(session, name, new_name)
+        with self.file.atomic() as connection:
+            editing.rename(connection, name, new_name)
 
     def set_reference(self, name: str) -> Reference:
         """Make a last the reference; every ``paper_transform`` is rewritten with it, or none.
@@ -253,10 +237,8 @@ class Catalogue:
         UnknownLast, CatalogueDamaged
             There is none of that name; a last is damaged.
         """
-        from footfit.catalogue.rows.writing import driver_of
-
-        with self.file.atomic() as session:
-            return make_reference(session, last_id(driver_of(session), name))
+        with self.file.atomic() as connection:
+            return make_reference(connection, last_id(driver_of(connection), name))
 
     def update_profile(
         self,
@@ -272,7 +254,5 @@ class Catalogue:
         UnknownLast, CatalogueDamaged
             There is none of that name, or its rows are not what was stored.
         """
-        from footfit.catalogue.rows import editing
-
-        with self.file.atomic() as session:
-            editing.update_profile(session, name, flare, measures, upgraded_from)
+        with self.file.atomic() as connection:
+            editing.update_profile(connection, name, flare, measures, upgraded_from)

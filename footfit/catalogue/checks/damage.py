@@ -7,20 +7,17 @@ from collections.abc import Callable, Iterator
 
 import numpy as np
 
-from footfit.catalogue.checks.plausible_values import implausible
+from footfit.catalogue.checks.plausible_values import implausible, implausible_values
 from footfit.catalogue.checks.schema_comparison import expected_objects, stored_objects
 from footfit.catalogue.file.migrate import Schema
-from footfit.catalogue.rows.array_blobs import array_of, definition_text
-from footfit.catalogue.rows.reference_last import expressed, stored_reference
-from footfit.catalogue.rows.verified_rows import (
-    StoredLast,
-    hashed_row,
-    last_names,
-    rows,
-    stored_lasts,
-)
+from footfit.catalogue.rows.array_blobs import definition_text
+from footfit.catalogue.rows.columns import MESH_COPY, REFERENCE
+from footfit.catalogue.rows.records import record_of
+from footfit.catalogue.rows.reference_last import stored_reference, transform_by
+from footfit.catalogue.rows.verified_rows import last_names, row_digest, rows, stored_lasts
 from footfit.errors import CatalogueDamaged
 from footfit.geometry.flare.flare_profile import FlareDefinition
+from footfit.geometry.numeric.arrays import Floats
 from footfit.results import Finding
 
 TRANSFORM_TOLERANCE = 1e-9
@@ -100,7 +97,7 @@ def _definitions(connection: sqlite3.Connection) -> Iterator[Finding]:
     """A profile of another definition is whole, and cannot be ranked."""
     current = definition_text(FlareDefinition())
     for stored in stored_lasts(connection):
-        if stored.flare is not None and stored.flare.get("definition") != current:
+        if stored.flare is not None and stored.definition != current:
             version = stored.flare.get("definition_version")
             words = f"its profile follows {version!r}; type: footfit upgrade-catalogue"
             yield Finding("definition", words, stored.name, damage=False)
@@ -108,31 +105,38 @@ def _definitions(connection: sqlite3.Connection) -> Iterator[Finding]:
 
 def _mesh_copies(connection: sqlite3.Connection) -> Iterator[Finding]:
     names = last_names(connection)
-    for row in rows(connection, "mesh_copy"):
-        if row.get("sha256") != hashed_row(row):
-            name = names.get(row["last_id"], "?")
+    for row in rows(connection, MESH_COPY):
+        name = names.get(row["last_id"], "?")
+        if row.get("sha256") != row_digest(MESH_COPY, row):
             yield Finding("mesh_copy", "its mesh copy is not what was stored", name)
+            continue
+        for words in implausible_values(MESH_COPY, row):
+            yield Finding("range", words, name)
 
 
 def _reference(connection: sqlite3.Connection) -> Iterator[Finding]:
-    found = stored_reference(connection)
-    lasts = stored_lasts(connection)
-    if found is None and lasts:
-        yield Finding("reference", "there are lasts and no reference; see footfit set-reference")
-    if found is None:
+    reference, lasts = stored_reference(connection), stored_lasts(connection)
+    if reference is None:
+        if lasts:
+            words = "there are lasts and no reference; see footfit set-reference"
+            yield Finding("reference", words)
         return
+    for row in rows(connection, REFERENCE):
+        for words in implausible_values(REFERENCE, row):
+            yield Finding("range", words)
+    names = last_names(connection)
     for stored in lasts:
-        if stored.intact and not _agrees(stored, expressed(stored, found[1])):
-            yield Finding("paper_transform", "is not expressed by the reference", stored.name)
+        if stored.intact:
+            record = record_of(stored, names)
+            if not _agree(record.paper_transform, transform_by(reference[1], record)):
+                yield Finding("paper_transform", "is not expressed by the reference", stored.name)
 
 
-def _agrees(stored: StoredLast, transform: np.ndarray) -> bool:
-    assert stored.frame is not None
-    data = stored.frame["paper_transform"]
-    scale = np.abs(transform).max()
-    return data is not None and bool(
-        np.abs(array_of(data, 4, 4) - transform).max() <= TRANSFORM_TOLERANCE * scale
-    )
+def _agree(transform: Floats | None, expected: Floats) -> bool:
+    if transform is None:
+        return False
+    scale = np.abs(expected).max()
+    return bool(np.abs(transform - expected).max() <= TRANSFORM_TOLERANCE * scale)
 
 
 CHECKS: tuple[Check, ...] = (

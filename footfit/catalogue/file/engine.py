@@ -23,8 +23,7 @@ from footfit.errors import (
 )
 
 if TYPE_CHECKING:
-    from sqlalchemy import Engine
-    from sqlalchemy.orm import Session
+    from sqlalchemy import Connection, Engine
 
 
 @dataclass(frozen=True, slots=True)
@@ -217,7 +216,7 @@ class CatalogueFile:
                     self.connection.execute("ROLLBACK")
 
     @contextmanager
-    def atomic(self) -> Iterator[Session]:
+    def atomic(self) -> Iterator[Connection]:
         """All of the block or nothing of it, whatever kills it; committed when it ends.
 
         The lock is taken before the first read, so that what the block read is still true
@@ -230,11 +229,8 @@ class CatalogueFile:
         """
         if not self.writable:
             raise CatalogueNotWritable("was opened for reading only", str(self.path))
-        from sqlalchemy.orm import Session
-
-        with worded(self.path), Session(self._engine) as session, session.begin():
-            session.connection()
-            yield session
+        with worded(self.path), self._engine.begin() as connection:
+            yield connection
 
     def close(self) -> None:
         """Give the file back; nothing is pending outside of the two blocks above."""

@@ -9,34 +9,40 @@ from __future__ import annotations
 
 import hashlib
 import json
+from collections.abc import Collection
+from typing import Any
 
-Row = dict[str, int | float | str | bytes | None]
-"""One row by column, as SQLite stores it."""
+Row = dict[str, Any]
+"""One row by column, as the driver gives it: None, int, float, str or bytes."""
 
 
-def digest(content: dict[str, Row | list[Row]]) -> str:
-    """SHA-256 of rows as canonical JSON: sorted keys, a blob as its own SHA-256, no nulls.
+def hash_content(row: Row | None, unhashed: Collection[str]) -> Row:
+    """What is hashed of a row: no column of ``unhashed``, and no null.
 
     A null adds nothing, so that a column which a later schema adds leaves the hashes of older
-    rows as they are; a value that turns null changes the hash all the same. Types count: 1,
-    1.0 and "1" differ.
+    rows as they are. A value that turns null changes the hash all the same.
 
     Examples
     --------
-    >>> digest({"last": {"name": "a", "size": None}}) == digest({"last": {"name": "a"}})
-    True
+    >>> hash_content({"id": 7, "name": "a", "size": None}, {"id"})
+    {'name': 'a'}
+    """
+    values = (row or {}).items()
+    return {name: value for name, value in values if value is not None and name not in unhashed}
+
+
+def digest(content: dict[str, Row | list[Row]]) -> str:
+    """SHA-256 of rows as canonical JSON: sorted keys, a blob as its own SHA-256.
+
+    The order of the columns does not matter. Types count: 1, 1.0 and "1" differ.
+
+    Examples
+    --------
     >>> digest({"last": {"faces": 1}}) == digest({"last": {"faces": 1.0}})
     False
     """
-    present = {table: _without_nulls(rows) for table, rows in content.items()}
-    text = json.dumps(present, sort_keys=True, separators=(",", ":"), default=_blob)
+    text = json.dumps(content, sort_keys=True, separators=(",", ":"), default=_blob)
     return hashlib.sha256(text.encode("ascii")).hexdigest()
-
-
-def _without_nulls(rows: Row | list[Row]) -> object:
-    if isinstance(rows, dict):
-        return {column: value for column, value in rows.items() if value is not None}
-    return [_without_nulls(row) for row in rows]
 
 
 def _blob(value: bytes) -> dict[str, str]:

@@ -4,14 +4,14 @@ when they write.
 
 from __future__ import annotations
 
+import dataclasses
 import sqlite3
 from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
-from sqlalchemy import delete, update
-
-from footfit.catalogue.rows import schema
-from footfit.catalogue.rows.reference_last import express_new, reference_id
+from footfit.catalogue.rows.columns import FLARE, LAST, MEASURE
+from footfit.catalogue.rows.records import record_of
+from footfit.catalogue.rows.reference_last import express, reference_key
 from footfit.catalogue.rows.verified_rows import (
     intact_last,
     key_where,
@@ -20,21 +20,24 @@ from footfit.catalogue.rows.verified_rows import (
     stored_lasts,
 )
 from footfit.catalogue.rows.writing import (
+    delete_rows,
     driver_of,
-    insert_last,
-    overwrite_flare,
-    overwrite_last,
     seal,
+    update_row,
+    write_last,
+    write_owned,
 )
 from footfit.errors import BadOption, NameTaken
 from footfit.geometry.flare.flare_profile import FlareProfile
 from footfit.results import LastLabels, LastRecord, Measure, MeshCopy
 
 if TYPE_CHECKING:
-    from sqlalchemy.orm import Session
+    import sqlalchemy as sa
 
 
-def place(session: Session, record: LastRecord, copy: MeshCopy | None, *, replace: bool) -> None:
+def place(
+    connection: sa.Connection, record: LastRecord, copy: MeshCopy | None, *, replace: bool
+) -> None:
     """Store a last: as a new one, or over the one of its name where that is allowed.
 
     A damaged last is also written over by the same file under the same name: that is its cure.
@@ -47,21 +50,17 @@ def place(session: Session, record: LastRecord, copy: MeshCopy | None, *, replac
         The parent is not there, or is the last itself or one of its descendants; the name
         cannot be stored.
     """
-    connection, labels = driver_of(session), record.labels
+    driver, labels = driver_of(connection), record.labels
     _require_storable(labels.name)
-    _require_new_content(connection, record)
-    key = key_where(connection, "name", labels.name)
-    parent_id = _parent_id(connection, labels, key)
-    if key is None:
-        key = insert_last(session, record, copy, parent_id)
-    elif replace or _is_damaged_copy(connection, key, record):
-        overwrite_last(session, key, record, copy, parent_id)
-    else:
+    _require_new_content(driver, record)
+    key = key_where(driver, "name", labels.name)
+    parent_id = _parent_id(driver, labels, key)
+    if key is not None and not replace and not _is_damaged_copy(driver, key, record):
         raise NameTaken(f"{labels.name!r} is in the catalogue; add --replace, or another --name")
-    express_new(session, key)
+    express(connection, write_last(connection, record, copy, parent_id, key))
 
 
-def remove(session: Session, name: str) -> None:
+def remove(connection: sa.Connection, name: str) -> None:
     """Remove a last; its rows in other tables go with it.
 
     Raises
@@ -71,22 +70,22 @@ def remove(session: Session, name: str) -> None:
     BadOption
         It is the reference, or the parent of another last.
     """
-    connection = driver_of(session)
-    key = last_id(connection, name)
-    if key == reference_id(connection):
+    driver = driver_of(connection)
+    key = last_id(driver, name)
+    if key == reference_key(driver):
         raise BadOption(
             f"{name!r} is the reference; make another last it first: footfit set-reference LAST"
         )
-    children = connection.execute(
+    children = driver.execute(
         "SELECT name FROM last NOT INDEXED WHERE parent_id = ? ORDER BY name", (key,)
     ).fetchall()
     if children:
         names = ", ".join(repr(child) for (child,) in children)
         raise BadOption(f"{name!r} is the parent of {names}; remove these first")
-    session.execute(delete(schema.Last).where(schema.Last.id == key))
+    delete_rows(connection, LAST, key)
 
 
-def rename(session: Session, name: str, new_name: str) -> None:
+def rename(connection: sa.Connection, name: str, new_name: str) -> None:
     """Give a last another name.
 
     Raises
@@ -96,17 +95,17 @@ def rename(session: Session, name: str, new_name: str) -> None:
     NameTaken, BadOption
         The new name is another last's, or cannot be stored.
     """
-    connection = driver_of(session)
+    driver = driver_of(connection)
     _require_storable(new_name)
-    key = intact_last(connection, last_id(connection, name)).id
-    if key_where(connection, "name", new_name) not in (None, key):
+    key = intact_last(driver, last_id(driver, name)).id
+    if key_where(driver, "name", new_name) not in (None, key):
         raise NameTaken(f"{new_name!r} is in the catalogue; choose another name")
-    session.execute(update(schema.Last).where(schema.Last.id == key).values(name=new_name))
-    seal(session, key)
+    update_row(connection, LAST, key, {"name": new_name})
+    seal(connection, key)
 
 
 def update_profile(
-    session: Session,
+    connection: sa.Connection,
     name: str,
     flare: FlareProfile,
     measures: Sequence[Measure] | None,
@@ -119,10 +118,18 @@ def update_profile(
     UnknownLast, CatalogueDamaged
         There is none of that name, or it is damaged.
     """
-    connection = driver_of(session)
-    key = intact_last(connection, last_id(connection, name)).id
-    overwrite_flare(session, key, flare, measures, upgraded_from)
-    seal(session, key)
+    driver = driver_of(connection)
+    stored = intact_last(driver, last_id(driver, name))
+    record = record_of(stored, last_names(driver))
+    record = dataclasses.replace(
+        record,
+        flare=flare,
+        upgraded_from=upgraded_from,
+        measures=record.measures if measures is None else tuple(measures),
+    )
+    for table in (FLARE, MEASURE):
+        write_owned(connection, stored.id, table, record)
+    seal(connection, stored.id)
 
 
 def _require_storable(name: str) -> None:

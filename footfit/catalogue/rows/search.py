@@ -7,26 +7,18 @@ from collections import Counter
 from dataclasses import dataclass
 
 from footfit.catalogue.rows.array_blobs import definition_text
-from footfit.catalogue.rows.records import definition_of_rows, record_of
+from footfit.catalogue.rows.records import record_of
 from footfit.catalogue.rows.verified_rows import StoredLast, last_names, stored_lasts
 from footfit.geometry.flare.flare_profile import FlareDefinition
 from footfit.results import LastRecord
 
-Range = tuple[float, float]
-
 
 @dataclass(frozen=True, slots=True)
 class Filters:
-    """What is asked of a last's labels and length; None asks nothing.
-
-    Labels compare without regard to case; ``sizes`` and ``length_mm`` are closed ranges, and a
-    size that is no number is in no range.
-    """
+    """Labels that a last must have, whatever their case; None lets every last pass."""
 
     style: str | None = None
     size_system: str | None = None
-    sizes: Range | None = None
-    length_mm: Range | None = None
 
 
 @dataclass(frozen=True, slots=True)
@@ -69,7 +61,7 @@ def search_rows(connection: sqlite3.Connection, filters: Filters) -> SearchRows:
         reason = rejection(record, filters)
         if reason is not None:
             rejected.append(reason)
-        elif definition_of_rows(stored) != current:
+        elif stored.definition != current:
             outdated.append(record.labels.name)
         else:
             records.append(record)
@@ -80,26 +72,8 @@ def search_rows(connection: sqlite3.Connection, filters: Filters) -> SearchRows:
 
 def rejection(record: LastRecord, filters: Filters) -> str | None:
     """The first filter that a last does not pass, or None."""
-    labels = record.labels
-    passes = {
-        "style": _same(labels.style, filters.style),
-        "size_system": _same(labels.size_system, filters.size_system),
-        "sizes": _within(_size(labels.size), filters.sizes),
-        "length_mm": _within(record.length_mm, filters.length_mm),
-    }
-    return next((name for name, passed in passes.items() if not passed), None)
-
-
-def _same(label: str | None, asked: str | None) -> bool:
-    return asked is None or (label is not None and label.casefold() == asked.casefold())
-
-
-def _within(value: float | None, asked: Range | None) -> bool:
-    return asked is None or (value is not None and asked[0] <= value <= asked[1])
-
-
-def _size(label: str | None) -> float | None:
-    try:
-        return None if label is None else float(label.replace(",", "."))
-    except ValueError:
-        return None
+    for name in ("style", "size_system"):
+        wanted, label = getattr(filters, name), getattr(record.labels, name)
+        if wanted is not None and (label is None or label.casefold() != wanted.casefold()):
+            return name
+    return None

@@ -11,14 +11,9 @@ from collections import defaultdict
 from dataclasses import dataclass
 from typing import Any
 
-from footfit.catalogue.rows.digests import digest
+from footfit.catalogue.rows.columns import FLARE, FRAME, LAST, MEASURE, NOTICE, Table
+from footfit.catalogue.rows.digests import Row, digest, hash_content
 from footfit.errors import CatalogueDamaged, UnknownLast
-
-Fields = dict[str, Any]
-"""One row by column, as the driver gives it: None, int, float, str or bytes."""
-
-UNHASHED = frozenset({"id", "last_id", "record_sha256"})
-"""Columns outside of a last's hash: the hash itself, and keys, which foreign keys check."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -26,11 +21,11 @@ class StoredLast:
     """The raw rows of one last, its mesh copy left out; None for a row that is missing."""
 
     id: int
-    last: Fields
-    frame: Fields | None
-    flare: Fields | None
-    measures: tuple[Fields, ...]
-    notices: tuple[Fields, ...]
+    last: Row
+    frame: Row | None
+    flare: Row | None
+    measures: tuple[Row, ...]
+    notices: tuple[Row, ...]
 
     @property
     def name(self) -> str:
@@ -38,15 +33,20 @@ class StoredLast:
         return shown_name(self.last.get("name"))
 
     @property
+    def definition(self) -> str:
+        """The text of the definition that the flare profile follows."""
+        return str((self.flare or {}).get("definition"))
+
+    @property
     def content_digest(self) -> str:
         """The hash of these rows as they are."""
         return digest(
             {
-                "last": _hashed(self.last),
-                "frame": _hashed(self.frame),
-                "flare": _hashed(self.flare),
-                "measures": [_hashed(row) for row in self.measures],
-                "notices": [_hashed(row) for row in self.notices],
+                "last": hash_content(self.last, LAST.unhashed),
+                "frame": hash_content(self.frame, FRAME.unhashed),
+                "flare": hash_content(self.flare, FLARE.unhashed),
+                "measures": [hash_content(row, MEASURE.unhashed) for row in self.measures],
+                "notices": [hash_content(row, NOTICE.unhashed) for row in self.notices],
             }
         )
 
@@ -69,19 +69,15 @@ def shown_name(stored: object) -> str:
     return str(stored).encode("utf-8", "surrogateescape").decode("utf-8", "backslashreplace")
 
 
-def _hashed(row: Fields | None) -> Fields:
-    return {column: value for column, value in (row or {}).items() if column not in UNHASHED}
-
-
-def hashed_row(row: Fields) -> str:
+def row_digest(table: Table, row: Row) -> str:
     """The hash of one row that stands by itself: a mesh copy, the reference.
 
-    Its keys count here, so that it cannot pass for another last's.
+    Its keys are hashed too, so that it cannot pass for another last's.
     """
-    return digest({"row": {column: value for column, value in row.items() if column != "sha256"}})
+    return digest({"row": hash_content(row, table.unhashed)})
 
 
-def rows(connection: sqlite3.Connection, table: str, last_id: int | None = None) -> list[Fields]:
+def rows(connection: sqlite3.Connection, table: Table, last_id: int | None = None) -> list[Row]:
     """The rows of a table in the order of storage; those of one last where ``last_id`` is given.
 
     Raises
@@ -89,12 +85,14 @@ def rows(connection: sqlite3.Connection, table: str, last_id: int | None = None)
     CatalogueDamaged
         The table has lost the column of its key.
     """
-    key = "id" if table == "last" else "last_id"
+    key = table.last_key
     where, values = ("", ()) if last_id is None else (f" WHERE {key} = ?", (last_id,))
-    cursor = connection.execute(f"SELECT * FROM {table}{where} ORDER BY rowid", values)
+    cursor = connection.execute(f"SELECT * FROM {table.name}{where} ORDER BY rowid", values)
     columns = [column[0] for column in cursor.description]
     if key not in columns:
-        raise CatalogueDamaged(f"lacks the column {key!r} of {table!r}; restore it from a backup")
+        raise CatalogueDamaged(
+            f"lacks the column {key!r} of {table.name!r}; restore it from a backup"
+        )
     return [dict(zip(columns, row, strict=True)) for row in cursor]
 
 
@@ -103,10 +101,10 @@ def stored_lasts(connection: sqlite3.Connection, last_id: int | None = None) -> 
 
     Five SELECTs whatever the number of lasts, along the tables and not along an index.
     """
-    frames = {row["last_id"]: row for row in rows(connection, "frame", last_id)}
-    flares = {row["last_id"]: row for row in rows(connection, "flare", last_id)}
-    measures = _grouped(rows(connection, "measure", last_id))
-    notices = _grouped(rows(connection, "notice", last_id))
+    frames = {row["last_id"]: row for row in rows(connection, FRAME, last_id)}
+    flares = {row["last_id"]: row for row in rows(connection, FLARE, last_id)}
+    measures = _grouped(rows(connection, MEASURE, last_id))
+    notices = _grouped(rows(connection, NOTICE, last_id))
     return [
         StoredLast(
             id=row["id"],
@@ -116,13 +114,13 @@ def stored_lasts(connection: sqlite3.Connection, last_id: int | None = None) -> 
             measures=tuple(measures[row["id"]]),
             notices=tuple(notices[row["id"]]),
         )
-        for row in rows(connection, "last", last_id)
+        for row in rows(connection, LAST, last_id)
     ]
 
 
-def _grouped(found: list[Fields]) -> dict[int, list[Fields]]:
+def _grouped(found: list[Row]) -> dict[int, list[Row]]:
     """Rows by their last, in their stated order (a damaged position may be of any type)."""
-    groups: dict[int, list[Fields]] = defaultdict(list)
+    groups: dict[int, list[Row]] = defaultdict(list)
     for row in found:
         groups[row["last_id"]].append(row)
     for group in groups.values():
@@ -130,7 +128,7 @@ def _grouped(found: list[Fields]) -> dict[int, list[Fields]]:
     return groups
 
 
-def _position(row: Fields) -> tuple[str, Any]:
+def _position(row: Row) -> tuple[str, Any]:
     position = row.get("position")
     return type(position).__name__, position
 
