@@ -149,9 +149,19 @@ def _compressed_part(tree: packed.Tree) -> None:
     _part(tree)["extensions"] = {"KHR_draco_mesh_compression": {"bufferView": 0}}
 
 
-def _twice(tree: packed.Tree) -> None:
-    tree["scenes"][0]["nodes"] = [0, 1]
-    tree["nodes"].append({"mesh": 0})
+def _ring(tree: packed.Tree) -> None:
+    tree["nodes"] = [{"mesh": 0, "children": [1]}, {"children": [2]}, {"children": [0]}]
+
+
+def _doubling(tree: packed.Tree) -> None:
+    """Thirty nodes that show the mesh 2 ** 29 times."""
+    tree["nodes"] = [{"children": [k + 1, k + 1]} for k in range(29)] + [{"mesh": 0}]
+
+
+def _many_objects(tree: packed.Tree) -> None:
+    """600 objects of two parts each: more parts than one mesh has."""
+    tree["scenes"][0]["nodes"] = [0] * 600
+    tree["meshes"][0]["primitives"] *= 2
 
 
 def _many_parts(tree: packed.Tree) -> None:
@@ -178,6 +188,13 @@ def loose(xml: str) -> bytes:
     with zipfile.ZipFile(memory, "w") as archive:
         archive.writestr(packed.MODEL, xml)
     return memory.getvalue()
+
+
+def _doubling_model() -> str:
+    """Thirty objects that put the first together 2 ** 29 times."""
+    twice = "<object id='{0}'><components><component objectid='{1}'/><component objectid='{1}'/>"
+    rows = (twice.format(k + 1, k) + "</components></object>" for k in range(1, 30))
+    return packed.model(build='<item objectid="30"/>', more="".join(rows))
 
 
 def _built(items: str) -> bytes:
@@ -286,8 +303,11 @@ BAD = [
     Bad("compressed-part.glb", lambda: packed.glb(_compressed_part), UnknownFormat),
     Bad("posed.glb", lambda: packed.glb_with("nodes", 0, skin=0), UnknownFormat),
     Bad("lines.glb", lambda: packed.glb(lambda t: _part(t).update(mode=1)), UnknownFormat),
-    Bad("fan.glb", lambda: packed.glb(lambda t: _part(t).update(mode=6)), UnknownFormat),
-    Bad("two-objects.glb", lambda: packed.glb(_twice), UnknownFormat),
+    Bad("mode.glb", lambda: packed.glb(lambda t: _part(t).update(mode=7)), UnknownFormat),
+    Bad("empty-scene.glb", lambda: packed.glb_with("scenes", 0, nodes=[]), EmptyMesh),
+    Bad("ring.glb", lambda: packed.glb(_ring), DamagedMesh),
+    Bad("doubling.glb", lambda: packed.glb(_doubling), DamagedMesh),
+    Bad("many-objects.glb", lambda: packed.glb(_many_objects), TooLarge),
     Bad("many-parts.glb", lambda: packed.glb(_many_parts), TooLarge),
     Bad("matrix-short.glb", lambda: packed.glb_with("nodes", 0, matrix=[1] * 15), DamagedMesh),
     Bad("matrix-huge.glb", lambda: packed.glb_with("nodes", 0, scale=[1e300] * 3), DamagedMesh),
@@ -326,7 +346,8 @@ BAD = [
         UnknownFormat,
     ),
     Bad("leagues.3mf", lambda: packed.threemf(packed.model(unit='unit="league"')), DamagedMesh),
-    Bad("two-objects.3mf", lambda: _built('<item objectid="1"/>' * 2), UnknownFormat),
+    Bad("many-objects.3mf", lambda: _built('<item objectid="1"/>' * 1_200), DamagedMesh),
+    Bad("doubling.3mf", lambda: packed.threemf(_doubling_model()), DamagedMesh),
     Bad("no-object.3mf", lambda: _built(""), EmptyMesh),
     Bad("no-such-object.3mf", lambda: _built('<item objectid="7"/>'), DamagedMesh),
     Bad("loop.3mf", lambda: packed.threemf(packed.model(build=_TWO, more=_LOOP)), DamagedMesh),

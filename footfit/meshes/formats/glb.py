@@ -1,23 +1,26 @@
-"""GLB (binary glTF 2.0): the triangles of its one object, in metres as the format says.
+"""GLB (binary glTF 2.0): the triangles of its scene, in metres as the format says.
 
-trimesh reads it, but only a copy that `_bare` makes: the one mesh, its nodes and the numbers that
-they name, every count and offset of which has been held against the bytes that are there. Images,
-materials, animations, extensions and addresses of other files never reach it.
+Every count, offset and stride is compared with the bytes that are there before an array is made.
+Images, materials, animations and addresses of other files are never looked at.
 """
 
 from __future__ import annotations
 
-import io
 import json
 import struct
-from collections.abc import Mapping
+from collections.abc import Iterable
+from dataclasses import dataclass, replace
+from itertools import islice
 from typing import Any, NoReturn
 
 import numpy as np
+from numpy.typing import NDArray
 
 from footfit.errors import DamagedMesh, EmptyMesh, TooLarge, UnknownFormat
 from footfit.geometry.numeric.arrays import Floats, Ints
-from footfit.meshes.formats.raw import RawMesh, check_counts
+from footfit.geometry.numeric.rotations import matrices, transform
+from footfit.meshes.formats.placed_parts import Part, joined, placed_nodes
+from footfit.meshes.formats.raw import RawMesh, check_counts, doubles
 from footfit.meshes.read_limits import Limits
 from footfit.results import Notice
 
@@ -25,11 +28,12 @@ Tree = dict[str, Any]
 _MAGIC, _VERSION = b"glTF", 2
 _JSON, _BIN = b"JSON", b"BIN\0"
 _HEAD, _CHUNK = struct.Struct("<4sII"), struct.Struct("<I4s")
-_TRIANGLES, _STRIP = 4, 5
-_FLOAT = 5126
-_INDEX_BYTES = {5121: 1, 5123: 2, 5125: 4}  # unsigned byte, short, int
+_NO_SURFACE = (0, 1, 2, 3)  # points and lines
+_TRIANGLES, _STRIP, _FAN = 4, 5, 6
+_POSITION_TYPES = {5126: "<f4"}
+_INDEX_TYPES = {5121: "<u1", 5123: "<u2", 5125: "<u4"}
+_WIDTHS = {"SCALAR": 1, "VEC3": 3}
 _MOST_STRIDE = 252
-_PLACING = {"matrix": 16, "translation": 3, "rotation": 4, "scale": 3}
 _ONLY_LOOKS = ("KHR_materials_", "KHR_texture_", "EXT_texture_", "KHR_lights_", "KHR_xmp")
 
 
@@ -39,23 +43,45 @@ def is_glb(data: bytes) -> bool:
 
 
 def read_glb(data: bytes, limits: Limits) -> RawMesh:
-    """The vertices and faces of a GLB's one object, placed as its nodes say.
+    """The vertices and faces of all meshes in a GLB's scene, placed as its nodes say.
 
     Raises
     ------
     UnknownFormat
-        Several objects, other files, or a feature (compression, skinning) that is not read.
+        The mesh is in another file, or needs a feature (compression, skinning) that is not read.
     DamagedMesh
-        Chunks, counts or offsets that the bytes do not bear out.
+        The bytes do not agree with the chunks, counts or offsets that are declared.
     EmptyMesh, TooLarge
-        No object, or more than ``limits`` allow.
+        There is no mesh, or more than ``limits`` allow.
     """
     header, body, trailing = _chunks(data, limits)
-    bare = _bare(header, len(body), limits)
-    vertices, faces = _loaded(bare, body)
-    said = f"{trailing:,} bytes after the GLB were ignored"
-    notices = (Notice("trailing_bytes", said),) if trailing else ()
-    return RawMesh(vertices, faces, notices, "m")
+    _check_extensions(header.get("extensionsRequired", []))
+    meshes = _placed_meshes(header, limits)
+    if not meshes:
+        raise EmptyMesh("the GLB's scene holds no mesh: export a triangle mesh")
+    rows = ((row, placing) for mesh, placing in meshes for row in mesh["primitives"])
+    listed = list(islice(rows, limits.parts + 1))
+    if len(listed) > limits.parts:
+        raise TooLarge(f"the GLB's meshes have over {limits.parts:,} parts: export it as one")
+    listed = [(row, placing) for row, placing in listed if row.get("mode") not in _NO_SURFACE]
+    if not listed:
+        raise UnknownFormat("the GLB has points or lines only: export triangles")
+    primitives = [_primitive(header, row, len(body), limits) for row, _ in listed]
+    check_counts(
+        sum(primitive.positions.count for primitive in primitives),
+        sum(primitive.triangles for primitive in primitives),
+        limits,
+    )
+    placings = [placing for _, placing in listed]
+    parts = [one.part(body, placing) for one, placing in zip(primitives, placings, strict=True)]
+    raw = joined(parts, len(meshes), "m")
+    if not trailing:
+        return raw
+    notice = Notice("trailing_bytes", f"{trailing:,} bytes after the GLB were ignored")
+    return replace(raw, warnings=(notice, *raw.warnings))
+
+
+# ---------------------------------------------------------------- chunks
 
 
 def _chunks(data: bytes, limits: Limits) -> tuple[Tree, bytes, int]:
@@ -64,86 +90,77 @@ def _chunks(data: bytes, limits: Limits) -> tuple[Tree, bytes, int]:
         raise DamagedMesh("the GLB ends within its header: it is cut off, copy it again")
     _, version, length = _HEAD.unpack_from(data)
     if version != _VERSION:
-        raise UnknownFormat(f"the GLB is of version {version}, footfit reads 2: export it again")
+        raise UnknownFormat(
+            f"the GLB is of version {version}, footfit reads version 2: export it again"
+        )
     if length > len(data):
         raise DamagedMesh(
-            f"the GLB promises {length:,} bytes and has {len(data):,}: it is cut off, copy it again"
+            f"the GLB declares {length:,} bytes and has {len(data):,}: it is cut off, copy it again"
         )
-    text, at = _chunk(data, _HEAD.size, length, _JSON)
+    text, at = _chunk(data, _HEAD.size, _JSON)
     if len(text) > limits.document_bytes:
-        raise TooLarge(f"the GLB describes its parts in {len(text):,} bytes: export the foot alone")
-    body = _chunk(data, at, length, _BIN)[0] if at + _CHUNK.size <= length else b""
-    header = json.loads(text.decode("utf-8"), parse_constant=_no_number)
-    if not isinstance(header, dict):
-        raise DamagedMesh("the GLB's description is none: export it again")
-    return header, body, len(data) - length
+        raise TooLarge(f"the GLB's JSON takes {len(text):,} bytes: export the foot alone")
+    body, at = _chunk(data, at, _BIN) if at + _CHUNK.size <= length else (b"", at)
+    return _header(text), body, len(data) - max(at, length)
 
 
-def _chunk(data: bytes, at: int, end: int, kind: bytes) -> tuple[bytes, int]:
-    size, found = _CHUNK.unpack_from(data, at)
+def _chunk(data: bytes, at: int, kind: bytes) -> tuple[bytes, int]:
+    """One chunk's content, and where the next chunk begins.
+
+    A chunk begins at a multiple of 4 bytes. Some programs do not count the bytes that fill up the
+    chunk before it, and some do not write them.
+    """
+    if data[at + 4 : at + _CHUNK.size] != kind:
+        at += -at % 4
     begin = at + _CHUNK.size
-    if found != kind or begin + size > end:
+    size, actual = _CHUNK.unpack(data[at:begin].ljust(_CHUNK.size))
+    if actual != kind or begin + size > len(data):
         raise DamagedMesh("the GLB's chunks do not add up: it is damaged, export it again")
     return data[begin : begin + size], begin + size
 
 
-def _no_number(_word: str) -> NoReturn:
-    raise DamagedMesh("the GLB's description has a number that is none: export it again")
+def _header(text: bytes) -> Tree:
+    """The JSON; a chunk is filled up with spaces, and some programs use NUL for it."""
+    try:
+        header = json.loads(text.rstrip(b"\0 ").decode("utf-8-sig"), parse_constant=_no_number)
+    except (ValueError, RecursionError) as error:
+        raise DamagedMesh("the GLB's JSON is not valid: export it again") from error
+    if not isinstance(header, dict):
+        raise DamagedMesh("the GLB's JSON is not an object: export it again")
+    return header
 
 
-def _bare(header: Tree, body_bytes: int, limits: Limits) -> Tree:
-    """The same document with nothing but the one object, all of it checked."""
-    _no_extensions(dict.fromkeys(header.get("extensionsRequired", [])))
-    placed = _placed(header, limits)
-    if not placed:
-        raise EmptyMesh("the GLB holds no mesh: export a triangle mesh")
-    if len(placed) > 1:
-        raise UnknownFormat(f"the GLB holds {len(placed)} objects: export the foot alone")
-    chain = placed[0]
-    mesh = _row(header, "meshes", chain[-1]["mesh"])
-    nodes: list[Tree] = [_placing(node) for node in chain]
-    for place, node in enumerate(nodes[:-1]):
-        node["children"] = [place + 1]
-    nodes[-1]["mesh"] = 0
-    bare: Tree = {"asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0]}]}
-    bare |= {"nodes": nodes, "meshes": [{"name": "foot", "primitives": []}]}
-    bare |= {"accessors": [], "bufferViews": [], "buffers": [{"byteLength": body_bytes}]}
-    if len(mesh["primitives"]) > limits.parts:
-        raise TooLarge(f"the GLB's mesh has over {limits.parts:,} parts: export it as one")
-    for primitive in mesh["primitives"]:
-        bare["meshes"][0]["primitives"].append(_primitive(header, primitive, bare, limits))
-    counted = [_row(bare, "accessors", p["attributes"]["POSITION"])["count"] for p in _parts(bare)]
-    corners = [
-        _row(bare, "accessors", p["indices"])["count"] for p in _parts(bare) if "indices" in p
-    ]
-    check_counts(sum(counted), sum(corners) // 3, limits)
-    return bare
+def _no_number(word: str) -> NoReturn:
+    raise ValueError(f"{word} is not a number in JSON")
 
 
-def _parts(bare: Tree) -> list[Tree]:
-    primitives: list[Tree] = bare["meshes"][0]["primitives"]
-    return primitives
+# ---------------------------------------------------------------- scene
 
 
-def _placed(header: Tree, limits: Limits) -> list[list[Tree]]:
-    """For each mesh in the scene the nodes that lead to it, from the root."""
-    waiting: list[tuple[Any, list[Tree]]] = [(node, []) for node in _roots(header)]
-    placed: list[list[Tree]] = []
-    seen: set[int] = set()
-    while waiting:
-        number, above = waiting.pop()
-        if number in seen or len(seen) > limits.parts:
-            raise DamagedMesh("the GLB's nodes form a loop, or there are too many: export it again")
-        seen.add(number)
-        node = _row(header, "nodes", number)
-        chain = [*above, node]
-        if "mesh" in node:
-            placed.append(chain)
-        waiting += [(child, chain) for child in node.get("children", [])]
+def _placed_meshes(header: Tree, limits: Limits) -> list[tuple[Tree, Floats]]:
+    """Each mesh that the scene shows, with the (4, 4) transform to the scene's frame."""
+
+    def node(number: int) -> tuple[Floats, list[int]]:
+        row = _row(header, "nodes", number)
+        children: list[int] = row.get("children", [])
+        if "mesh" in row or children:
+            _check_extensions(row.get("extensions", {}))
+        return _transform(row), children
+
+    placed = []
+    for number, placing in placed_nodes(_roots(header), node, limits):
+        row = _row(header, "nodes", number)
+        if "mesh" in row:
+            if "skin" in row or "weights" in row:
+                raise UnknownFormat(
+                    "the GLB is a posed character (skin, weights): export the bare shape"
+                )
+            placed.append((_row(header, "meshes", row["mesh"]), placing))
     return placed
 
 
 def _roots(header: Tree) -> list[int]:
+    """The nodes at the top of the scene; without a scene, those that are no node's child."""
     if "scenes" in header:
         roots: list[int] = _row(header, "scenes", header.get("scene", 0)).get("nodes", [])
         return roots
@@ -152,114 +169,141 @@ def _roots(header: Tree) -> list[int]:
     return [number for number in range(len(nodes)) if number not in children]
 
 
-def _placing(node: Tree) -> Tree:
-    """Where a node puts its mesh."""
-    _no_extensions(node.get("extensions", {}))
-    if "skin" in node or "weights" in node:
-        raise UnknownFormat("the GLB is a posed character (skin, weights): export the bare shape")
-    kept = {}
-    for key, size in _PLACING.items():
-        if key in node:
-            kept[key] = [float(value) for value in node[key]]
-            if len(kept[key]) != size or not np.isfinite(kept[key]).all():
-                raise DamagedMesh(f"a node of the GLB has no valid {key}: export it again")
-    return kept
+def _transform(node: Tree) -> Floats:
+    """Where a node puts its mesh and its children, (4, 4)."""
+    if "matrix" in node:
+        return _numbers(node, "matrix", np.eye(4).ravel()).reshape(4, 4).T  # column by column
+    scale = _numbers(node, "scale", np.ones(3))
+    turn = _numbers(node, "rotation", np.array([0.0, 0.0, 0.0, 1.0]))
+    with np.errstate(all="ignore"):  # `sound` refuses what is not finite
+        length = np.linalg.norm(turn) or 1.0
+        turned = matrices(turn[None] / length)[0] * scale
+    return transform(turned, _numbers(node, "translation", np.zeros(3)))
 
 
-def _primitive(header: Tree, primitive: Tree, bare: Tree, limits: Limits) -> Tree:
-    """One part of the mesh, its accessors copied into ``bare``."""
-    _no_extensions(primitive.get("extensions", {}))
+def _numbers(node: Tree, key: str, usual: Floats) -> Floats:
+    """A node's finite numbers, as many as there usually are."""
+    if key not in node:
+        return usual
+    values = np.array([float(value) for value in node[key]])
+    if values.shape != usual.shape or not np.isfinite(values).all():
+        raise DamagedMesh(f"a node of the GLB has no valid {key}: export it again")
+    return values
+
+
+# ---------------------------------------------------------------- triangles
+
+
+@dataclass(frozen=True, slots=True)
+class _Rows:
+    """Where an accessor's ``count`` rows of ``width`` numbers lie in the binary chunk."""
+
+    offset: int
+    stride: int
+    count: int
+    width: int
+    type: np.dtype[Any]
+
+    def array(self, body: bytes) -> NDArray[Any]:
+        """The rows, (count, width)."""
+        shape, strides = (self.count, self.width), (self.stride, self.type.itemsize)
+        return np.ndarray(shape, self.type, body, self.offset, strides)
+
+
+@dataclass(frozen=True, slots=True)
+class _Primitive:
+    """The triangles of one part of a mesh; without ``corners`` the positions follow in order."""
+
+    mode: int
+    positions: _Rows
+    corners: _Rows | None
+
+    @property
+    def triangles(self) -> int:
+        """How many there are."""
+        count = (self.corners or self.positions).count
+        return count // 3 if self.mode == _TRIANGLES else max(count - 2, 0)
+
+    def part(self, body: bytes, placing: Floats) -> Part:
+        """Its vertices and faces."""
+        if self.corners is None:
+            corners = np.arange(self.positions.count)
+        else:
+            corners = self.corners.array(body)[:, 0].astype(np.int64)
+        return Part(doubles(self.positions.array(body)), self._faces(corners), placing)
+
+    def _faces(self, corners: Ints) -> Ints:
+        if self.mode == _TRIANGLES:
+            return corners.reshape(-1, 3)
+        step = np.arange(self.triangles)
+        if self.mode == _FAN:
+            return corners[np.stack([0 * step, step + 1, step + 2], axis=1)]
+        odd = step % 2  # every other triangle of a strip is wound the other way
+        return corners[np.stack([step, step + 1 + odd, step + 2 - odd], axis=1)]
+
+
+def _primitive(header: Tree, primitive: Tree, body_bytes: int, limits: Limits) -> _Primitive:
+    """One part of a mesh, checked."""
+    _check_extensions(primitive.get("extensions", {}))
     mode = primitive.get("mode", _TRIANGLES)
-    if mode not in (_TRIANGLES, _STRIP) or primitive.get("targets"):
-        raise UnknownFormat("the GLB has points, lines, fans or morphs: export triangles")
-    position = _accessor(header, primitive["attributes"]["POSITION"], bare, {_FLOAT: 12}, limits)
-    kept = {"mode": mode, "attributes": {"POSITION": position}}
+    if mode not in (_TRIANGLES, _STRIP, _FAN) or primitive.get("targets"):
+        raise UnknownFormat("the GLB has morphs or an unknown primitive: export triangles")
+    positions = _rows(header, primitive["attributes"]["POSITION"], body_bytes, limits)
+    corners = None
     if "indices" in primitive:
-        kept["indices"] = _accessor(header, primitive["indices"], bare, _INDEX_BYTES, limits)
-    count = bare["accessors"][kept.get("indices", position)]["count"]
-    if mode == _TRIANGLES and count % 3:
-        raise DamagedMesh("the GLB's corners are not three a triangle: export it again")
-    return kept
+        corners = _rows(header, primitive["indices"], body_bytes, limits, indices=True)
+    if mode == _TRIANGLES and (corners or positions).count % 3:
+        raise DamagedMesh("the GLB's number of corners is not a multiple of 3: export it again")
+    return _Primitive(mode, positions, corners)
 
 
-def _accessor(
-    header: Tree, number: int, bare: Tree, row_bytes: Mapping[int, int], limits: Limits
-) -> int:
-    """Copy one accessor and its view, and return its new number."""
-    found = _row(header, "accessors", number)
-    width = row_bytes.get(found["componentType"])
-    kind = "VEC3" if _FLOAT in row_bytes else "SCALAR"
-    if width is None or found["type"] != kind or "sparse" in found or "bufferView" not in found:
+def _rows(
+    header: Tree, number: int, body_bytes: int, limits: Limits, *, indices: bool = False
+) -> _Rows:
+    """Where an accessor's numbers lie, compared with the bytes that there are."""
+    accessor = _row(header, "accessors", number)
+    kind, types = ("SCALAR", _INDEX_TYPES) if indices else ("VEC3", _POSITION_TYPES)
+    number_type = types.get(accessor["componentType"])
+    readable = accessor["type"] == kind and "sparse" not in accessor and "bufferView" in accessor
+    if number_type is None or not readable:
         raise UnknownFormat("the GLB stores its numbers in a way that is not read: export as STL")
-    view = _row(header, "bufferViews", found["bufferView"])
-    _no_extensions(view.get("extensions", {}))
+    view = _row(header, "bufferViews", accessor["bufferView"])
+    _check_extensions(view.get("extensions", {}))
     if "uri" in _row(header, "buffers", view["buffer"]) or view["buffer"] != 0:
         raise UnknownFormat("the GLB keeps its mesh in another file, and footfit opens none")
-    count, start = _whole(found["count"]), _whole(found.get("byteOffset", 0))
+    row_bytes = _WIDTHS[kind] * np.dtype(number_type).itemsize
+    count, start = _whole(accessor["count"]), _whole(accessor.get("byteOffset", 0))
     offset, size = _whole(view.get("byteOffset", 0)), _whole(view["byteLength"])
-    stride = _whole(view.get("byteStride", width))
-    check_counts(count if kind == "VEC3" else 0, count // 3 if kind == "SCALAR" else 0, limits)
-    used = start + (count - 1) * stride + width
-    held = bare["buffers"][0]["byteLength"]
-    if not (count and width <= stride <= _MOST_STRIDE and used <= size and offset + size <= held):
-        raise DamagedMesh("the GLB promises more numbers than it holds: it is damaged or cut off")
-    bare["bufferViews"].append(
-        {"buffer": 0, "byteOffset": offset + start, "byteLength": used - start}
-    )
-    if stride != width:
-        bare["bufferViews"][-1]["byteStride"] = stride
-    kept = {"bufferView": len(bare["bufferViews"]) - 1, "count": count, "type": kind}
-    bare["accessors"].append(kept | {"componentType": found["componentType"]})
-    return len(bare["accessors"]) - 1
+    stride = _whole(view.get("byteStride", row_bytes))
+    check_counts(0 if indices else count, count // 3 if indices else 0, limits)
+    used = start + (count - 1) * stride + row_bytes
+    inside = used <= size and offset + size <= body_bytes
+    if not (count and row_bytes <= stride <= _MOST_STRIDE and inside):
+        raise DamagedMesh("the GLB declares more numbers than it holds: it is damaged or cut off")
+    return _Rows(offset + start, stride, count, _WIDTHS[kind], np.dtype(number_type))
 
 
 def _row(header: Tree, table: str, number: Any) -> Tree:
+    """One row of one of the JSON's tables."""
     rows = header.get(table, [])
-    if isinstance(number, bool) or not isinstance(number, int) or not 0 <= number < len(rows):
+    if type(number) is not int or not 0 <= number < len(rows):
         raise DamagedMesh(f"the GLB names one of its {table} that is not there: export it again")
     row = rows[number]
     if not isinstance(row, dict):
-        raise DamagedMesh(f"one of the GLB's {table} is none: export it again")
+        raise DamagedMesh(f"one of the GLB's {table} is not an object: export it again")
     return row
 
 
 def _whole(value: Any) -> int:
     if isinstance(value, bool) or not isinstance(value, int) or value < 0:
-        raise DamagedMesh("the GLB has a count or offset that is none: export it again")
+        raise DamagedMesh("a count or offset of the GLB is not a whole number: export it again")
     return value
 
 
-def _no_extensions(named: Mapping[str, Any]) -> None:
+def _check_extensions(names: Iterable[str]) -> None:
     """Refuse extensions that may change the shape; those of its looks are passed over."""
-    for name in named:
+    for name in names:
         if not name.startswith(_ONLY_LOOKS):
             raise UnknownFormat(
                 f"the GLB needs {name[:40]!a}, which is not read: export it without compression"
             )
-
-
-def _loaded(bare: Tree, body: bytes) -> tuple[Floats, Ints]:
-    """Vertices (n, 3) and faces (m, 3) by trimesh, from a document that refers to nothing else."""
-    import trimesh
-
-    text = json.dumps(bare).encode()
-    text += b" " * (-len(text) % 4)
-    length = _HEAD.size + 2 * _CHUNK.size + len(text) + len(body)
-    head = _HEAD.pack(_MAGIC, _VERSION, length) + _CHUNK.pack(len(text), _JSON) + text
-    stream = io.BytesIO(head + _CHUNK.pack(len(body), _BIN) + body)
-    with np.errstate(all="ignore"):  # what is not finite is refused by `sound`
-        scene = trimesh.load(stream, file_type="glb", process=False, skip_materials=True)
-        parts = [_part(scene, name) for name in scene.graph.nodes_geometry]
-    first = np.cumsum([0, *(len(vertices) for vertices, _ in parts)])
-    faces = [faces + known for (_, faces), known in zip(parts, first, strict=False)]
-    return np.concatenate([vertices for vertices, _ in parts]), np.concatenate(faces)
-
-
-def _part(scene: Any, node: str) -> tuple[Floats, Ints]:
-    """One part of the mesh where its node puts it, its indices held against its own vertices."""
-    placing, geometry = scene.graph[node]
-    vertices = np.asarray(scene.geometry[geometry].vertices, dtype=np.float64)
-    faces = np.asarray(scene.geometry[geometry].faces, dtype=np.int64)
-    if faces.size and not 0 <= faces.min() <= faces.max() < len(vertices):
-        raise DamagedMesh("a face of the GLB names a vertex that is not there: export it again")
-    return vertices @ placing[:3, :3].T + placing[:3, 3], faces

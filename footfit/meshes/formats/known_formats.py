@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import PurePath
 
 from footfit.errors import BadOption, DamagedMesh, FootfitError, TooLarge, UnknownFormat
@@ -94,7 +94,7 @@ def raw_mesh(
     if wanted in EXTENSIONS and found.extension != wanted:
         message = f"the file is called .{wanted} and holds {found.extension.upper()}: read as that"
         notice = Notice("extension_mismatch", message)
-        raw = RawMesh(raw.vertices, raw.faces, (notice, *raw.warnings), raw.unit)
+        raw = replace(raw, warnings=(notice, *raw.warnings))
     return found.name, raw
 
 

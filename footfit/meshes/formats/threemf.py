@@ -1,7 +1,7 @@
-"""3MF: the one object of its build, in the unit that the model declares.
+"""3MF: the objects of its build, in the unit that the model declares.
 
-The model is XML in a ZIP archive. It is parsed piece by piece with the standard library's expat;
-a document type (and with it every entity) is refused, and nothing it names is ever opened.
+The model is XML in a ZIP archive. The standard library's expat parses it piece by piece. A document
+type is refused, and with it every entity; no file that the XML names is opened.
 """
 
 from __future__ import annotations
@@ -17,6 +17,7 @@ from numpy.typing import NDArray
 from footfit.errors import DamagedMesh, EmptyMesh, TooLarge, UnknownFormat
 from footfit.geometry.numeric.arrays import Floats
 from footfit.meshes.formats.archive import archive, pieces
+from footfit.meshes.formats.placed_parts import Part, joined, placed_nodes
 from footfit.meshes.formats.raw import RawMesh, check_counts
 from footfit.meshes.formats.tokens import floats, integers
 from footfit.meshes.read_limits import Limits
@@ -51,29 +52,36 @@ def is_3mf(data: bytes) -> bool:
 
 
 def read_3mf(data: bytes, limits: Limits) -> RawMesh:
-    """The vertices and faces of the one object that a 3MF builds.
+    """The vertices and faces of all objects that a 3MF builds, in their places.
 
     Raises
     ------
     UnknownFormat
-        Several objects, or an extension that changes the shape.
+        The archive has several models, or needs an extension that changes the shape.
     DamagedMesh
         The archive or its XML is broken, or has a document type.
     EmptyMesh, TooLarge
-        Nothing to build, or more than ``limits`` allow.
+        There is nothing to build, or more than ``limits`` allow.
     """
     zipped = archive(data, limits)
     model = _parsed(pieces(zipped, _model_part(zipped), limits), limits)
     if model.unit not in _UNITS:
         raise DamagedMesh(f"the 3MF counts in {model.unit[:20]!a}, which is no unit of the format")
     unit, scale = _UNITS[model.unit]
-    shape, transforms = _built(model)
-    vertices = shape.points.rows()
-    with np.errstate(over="ignore", invalid="ignore"):  # what is not finite is refused by `sound`
-        for transform in reversed(transforms):
-            vertices = vertices @ transform[:3] + transform[3]
-        vertices = scale * vertices
-    return RawMesh(vertices, shape.corners.rows(), (), unit)
+    built = list(_built(model, limits))
+    if not built:
+        raise EmptyMesh("the 3MF builds no object: export a triangle mesh")
+    check_counts(
+        sum(shape.points.count for shape, _ in built),
+        sum(shape.corners.count for shape, _ in built),
+        limits,
+    )
+    scaled = np.diag([scale, scale, scale, 1.0])
+    parts = [
+        Part(shape.points.rows(), shape.corners.rows(), scaled @ placing)
+        for shape, placing in built
+    ]
+    return joined(parts, len(parts), unit)
 
 
 def _model_part(zipped: ZipFile) -> ZipInfo:
@@ -89,7 +97,7 @@ def _model_part(zipped: ZipFile) -> ZipInfo:
 
 @dataclass(slots=True)
 class _Triples:
-    """Words that come three by three, turned by ``numbers`` into numbers a block at a time."""
+    """Words that come in threes; ``numbers`` turns them into numbers, a block at a time."""
 
     numbers: Callable[[bytes, int], NDArray[Any]]
     words: list[str] = field(default_factory=list)
@@ -108,9 +116,10 @@ class _Triples:
         self.words = []
 
     def rows(self) -> NDArray[Any]:
-        """All of them, (count, 3)."""
+        """All numbers, (count, 3)."""
         self._close()
-        return np.concatenate(self.blocks).reshape(-1, 3)
+        self.blocks = [np.concatenate(self.blocks)]
+        return self.blocks[0].reshape(-1, 3)
 
 
 @dataclass(slots=True)
@@ -215,21 +224,23 @@ def _no_doctype(*_: object) -> NoReturn:
     raise DamagedMesh("the 3MF's XML declares a document type, which no 3MF has: export it again")
 
 
-def _built(model: _Model) -> tuple[_Shape, list[Floats]]:
-    """The mesh that the build shows, and the transforms (4, 3) from the build inwards."""
-    steps, transforms, seen = model.items, [], set()
-    while True:
-        if not steps:
-            raise EmptyMesh("the 3MF builds no object: export a triangle mesh")
-        if len(steps) > 1:
-            raise UnknownFormat(f"the 3MF builds {len(steps)} objects: export the foot alone")
-        name, transform = steps[0]
-        if name not in model.shapes or name in seen:
+def _built(model: _Model, limits: Limits) -> Iterator[tuple[_Shape, Floats]]:
+    """Each mesh that the build shows, with the (4, 4) transform to the build's frame."""
+
+    def node(step: Step) -> tuple[Floats, list[Step]]:
+        name, transform = step
+        if name not in model.shapes:
             raise DamagedMesh("the 3MF builds an object that is not there: export it again")
-        seen.add(name)
-        if transform is not None:
-            transforms.append(floats(transform.encode(), _TRANSFORM).reshape(4, 3))
-        shape = model.shapes[name]
-        if not shape.components:
-            return shape, transforms
-        steps = shape.components
+        return _transform(transform), model.shapes[name].components
+
+    for (name, _), placing in placed_nodes(model.items, node, limits):
+        if not model.shapes[name].components:
+            yield model.shapes[name], placing
+
+
+def _transform(words: str | None) -> Floats:
+    """The (4, 4) matrix of a transform's 12 numbers: three columns, then the shift."""
+    matrix = np.eye(4)
+    if words is not None:
+        matrix[:3] = floats(words.encode(), _TRANSFORM).reshape(4, 3).T
+    return matrix

@@ -1,0 +1,170 @@
+"""The parts of a scene: where each one stands, and how they become one surface.
+
+A GLB's nodes and a 3MF's components are the same idea: a tree whose nodes carry transforms and
+whose leaves are meshes. A scanner cuts one surface into several of them.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from dataclasses import dataclass
+from typing import TypeVar
+
+import numpy as np
+
+from footfit.errors import DamagedMesh
+from footfit.geometry.mesh.topology import boundary_edges, lowest_connected, welded
+from footfit.geometry.numeric.arrays import Floats, Ints
+from footfit.geometry.numeric.rotations import applied
+from footfit.meshes.formats.raw import RawMesh
+from footfit.meshes.read_limits import Limits
+from footfit.results import Notice
+
+_Key = TypeVar("_Key")
+_NO_FACES = np.empty((0, 3), dtype=np.int64)
+_GRIDS = 4  # one more than there are axes: a close pair shares a cell in at least one of them
+
+
+@dataclass(frozen=True, slots=True)
+class SeamSettings:
+    """How far apart two rim vertices of different parts may lie and still be the same vertex.
+
+    The distance is the larger of ``extent`` times the diagonal of all parts, and ``coordinate``
+    times their largest coordinate (float32 keeps 24 bits of it).
+    """
+
+    extent: float = 1e-5
+    coordinate: float = 5e-7
+
+
+SEAMS = SeamSettings()
+
+
+@dataclass(frozen=True, slots=True)
+class Part:
+    """``vertices`` (n, 3), ``faces`` (m, 3), and the (4, 4) transform that puts them in place."""
+
+    vertices: Floats
+    faces: Ints
+    transform: Floats
+
+
+def placed_nodes(
+    roots: Iterable[_Key],
+    node: Callable[[_Key], tuple[Floats, Sequence[_Key]]],
+    limits: Limits,
+) -> Iterator[tuple[_Key, Floats]]:
+    """Each node of a scene with the (4, 4) transform from its own frame to the scene's.
+
+    A node that is named twice comes twice.
+
+    Parameters
+    ----------
+    roots : iterable of keys
+    node : callable
+        From a key to the node's own (4, 4) transform and the keys of its children.
+    limits : Limits
+
+    Raises
+    ------
+    DamagedMesh
+        There are more than ``limits.parts`` nodes, which is also how a loop ends.
+    """
+    waiting = [(key, np.eye(4)) for key in roots][::-1]
+    visited = 0
+    while waiting:
+        visited += 1
+        if visited + len(waiting) > limits.parts:
+            raise DamagedMesh(
+                f"the file's objects contain each other, or there are over {limits.parts:,}:"
+                " export the foot alone"
+            )
+        key, above = waiting.pop()
+        own, children = node(key)
+        with np.errstate(all="ignore"):  # `sound` refuses what is not finite
+            transform = above @ own
+        yield key, transform
+        waiting += [(child, transform) for child in reversed(children)]
+
+
+def joined(
+    parts: Sequence[Part], objects: int, unit: str, settings: SeamSettings = SEAMS
+) -> RawMesh:
+    """All parts in place, as one mesh whose objects share the vertices of their seams.
+
+    Parameters
+    ----------
+    parts : sequence of Part
+        At least one.
+    objects : int
+        How many objects the parts belong to: an object of several materials has several parts.
+    unit : str
+        The unit that the file declares.
+    settings : SeamSettings
+
+    Returns
+    -------
+    RawMesh
+        With the notice ``objects_joined`` where there are several objects.
+
+    Raises
+    ------
+    DamagedMesh
+        A face names a vertex that its own part does not have.
+    """
+    vertices, faces, count = [], [], 0
+    for part in parts:
+        if part.faces.size and not 0 <= part.faces.min() <= part.faces.max() < len(part.vertices):
+            raise DamagedMesh("a face names a vertex that is not there: export the mesh again")
+        placed, wound = _in_place(part)
+        vertices.append(placed)
+        faces.append(wound + count)
+        count += len(placed)
+    points, triangles = np.concatenate(vertices), np.concatenate(faces)
+    if objects < 2:
+        return RawMesh(points, triangles, (), unit)
+    notice = Notice("objects_joined", f"the file's {objects} objects are read as one surface")
+    return RawMesh(_with_equal_seams(points, triangles, settings), triangles, (notice,), unit)
+
+
+def _in_place(part: Part) -> tuple[Floats, Ints]:
+    """A part's vertices under its transform, and its faces; a mirrored part is wound back."""
+    if np.array_equal(part.transform, np.eye(4)):
+        return part.vertices, part.faces
+    with np.errstate(all="ignore"):  # `sound` refuses what is not finite
+        mirrored = np.linalg.det(part.transform[:3, :3]) < 0.0
+        placed = applied(part.transform, part.vertices)
+    return placed, part.faces[:, ::-1] if mirrored else part.faces
+
+
+def _with_equal_seams(vertices: Floats, faces: Ints, settings: SeamSettings) -> Floats:
+    """The vertices (n, 3), with nearly equal ones on open rims made exactly equal.
+
+    Each part is stored in its own frame, so rounding moves the two sides of a seam apart. Vertices
+    inside a part are not touched.
+    """
+    if not len(faces) or not np.isfinite(vertices).all():
+        return vertices
+    points, corners, source = welded(vertices, faces)
+    rim = np.unique(boundary_edges(corners))
+    diagonal = float(np.linalg.norm(np.ptp(points, axis=0)))
+    near = max(settings.extent * diagonal, settings.coordinate * float(np.abs(points).max()))
+    if not len(rim) or not near > 0.0:
+        return vertices
+    points[rim] = points[rim][_lowest_near(points[rim], near)]
+    return points[source]
+
+
+def _lowest_near(points: Floats, near: float) -> Ints:
+    """For each point (k, 3) the lowest index of its cluster, (k,).
+
+    Points closer than ``near`` along every axis are in one cluster. They share a cell in one of
+    four grids that are shifted against each other by a quarter of a cell: each axis can part them
+    in one grid only.
+    """
+    links = []
+    for shift in np.arange(_GRIDS) / _GRIDS:
+        cell = welded(np.floor(points / (_GRIDS * near) + shift), _NO_FACES)[2]
+        first = np.unique(cell, return_index=True)[1]
+        links.append(np.stack([first[cell], np.arange(len(points))], axis=1))
+    return lowest_connected(np.concatenate(links), len(points))
