@@ -44,6 +44,8 @@ from __future__ import annotations
 from enum import IntEnum
 from typing import ClassVar
 
+from footfit import __version__
+
 
 class ExitCode(IntEnum):
     """What the process answers; ``docs/exit-codes.md`` says it in words."""
@@ -86,6 +88,17 @@ class FootfitError(Exception):
     def at(self, path: str | None) -> FootfitError:
         """The same error, naming ``path`` where it names none yet."""
         return self if self.path is not None else type(self)(self.message, path)
+
+    def to_dict(self) -> dict[str, object]:
+        """``footfit.error/1``: the last line of stderr, and a failed mesh's line on stdout."""
+        return {
+            "schema": "footfit.error/1",
+            "footfit_version": __version__,
+            "code": self.code,
+            "exit": int(self.exit),
+            "message": self.message,
+            "path": self.path,
+        }
 
 
 class UsageError(FootfitError):

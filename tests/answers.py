@@ -244,9 +244,6 @@ def outcome(**more):
         "last": "derby-42",
         "side": "right",
         "flare_angle_deg": 8.02,
-        "error": None,
-        "exit": 0,
-        "code": None,
     } | more
     return IngestOutcome(**values)
 

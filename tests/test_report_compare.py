@@ -12,21 +12,17 @@ import numpy as np
 import pytest
 
 from footfit.meshes.read import scan_from_bytes
-from footfit.report.json.lines import json_line
+from footfit.report.csv import csv_text
+from footfit.report.json import json_line
 from footfit.report.page import compare_page
 from footfit.report.page.compare_page import compare_report
 from footfit.report.pictures.compare_pictures import heat_bytes, sections_plot
 from footfit.report.pictures.heat import heat_colours
 from footfit.report.pictures.heat_figure import heat_image, own_side
 from footfit.report.pictures.shading import VIEWS, Frame
-from footfit.report.terminal.comparison_tables import (
-    CSV_COLUMNS,
-    compare_csv,
-    compare_document,
-    compare_table,
-)
+from footfit.report.terminal.comparison_tables import compare_table
 from footfit.report.terminal.scan_tables import terminal_text
-from footfit.results import Notice
+from footfit.results import Comparison, Notice
 from tests import browsing, shapes
 from tests.comparisons import comparison
 
@@ -46,7 +42,7 @@ needs_browser = pytest.mark.skipif(browsing.BROWSER is None, reason=browsing.MIS
 
 
 def test_the_terminal_says_what_the_json_says_within_80_columns():
-    document, text = compare_document(comparison()), terminal_text(compare_table(comparison()))
+    document, text = comparison().to_dict(), terminal_text(compare_table(comparison()))
     assert max(len(line) for line in text.splitlines()) <= 80
     for name, zone in document["zones"].items():
         line = next(line for line in text.splitlines() if line.strip().startswith(name))
@@ -62,9 +58,9 @@ def test_the_terminal_says_what_the_json_says_within_80_columns():
 
 
 def test_the_csv_has_a_row_for_every_size_and_every_zones_figure():
-    rows = list(csv.DictReader(io.StringIO(compare_csv([comparison()]))))
-    assert tuple(rows[0]) == CSV_COLUMNS
-    document = compare_document(comparison())
+    rows = list(csv.DictReader(io.StringIO(csv_text(Comparison, [comparison()]))))
+    assert tuple(rows[0]) == Comparison.columns
+    document = comparison().to_dict()
     assert len(rows) == sum(len(s["sizes"]) for s in document["sections"]) + 6 * len(
         document["zones"]
     )
@@ -78,7 +74,8 @@ def test_a_hostile_name_stays_a_name():
     last = comparison().last
     hostile = replace(comparison(), last=replace(last, labels=replace(last.labels, name=name)))
     assert "\x1b" not in terminal_text(compare_table(hostile))
-    assert next(iter(csv.DictReader(io.StringIO(compare_csv([hostile])))))["last"].startswith("'=")
+    rows = csv.DictReader(io.StringIO(csv_text(Comparison, [hostile])))
+    assert next(iter(rows))["last"].startswith("'=")
     page = compare_report(hostile)
     assert page.count("<script>") == 1
     assert "&lt;script&gt;" in page

@@ -11,15 +11,8 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from footfit.report.csv.answers_csv import (
-    FLARE_COLUMNS,
-    LAST_COLUMNS,
-    MATCH_COLUMNS,
-    flare_csv,
-    harmless,
-    lasts_csv,
-    match_csv,
-)
+from footfit.report.csv import csv_text, harmless
+from footfit.results import Library, Match, Profiled
 from tests import answers
 
 
@@ -29,9 +22,9 @@ def rows(text: str) -> list[dict[str, str]]:
 
 def test_a_match_has_a_row_per_candidate() -> None:
     match = answers.match()
-    found = rows(match_csv([match]))
+    found = rows(csv_text(Match, [match]))
     assert [row["last"] for row in found] == [c.last for c in match.candidates]
-    assert tuple(found[0]) == MATCH_COLUMNS
+    assert tuple(found[0]) == Match.columns
     assert float(found[0]["clearance_length_mm"]) == pytest.approx(11.5)
     assert found[0]["clearance_ball_girth_mm"] == ""
     assert float(found[0]["flare_delta_deg"]) == pytest.approx(-2.0)
@@ -40,7 +33,7 @@ def test_a_match_has_a_row_per_candidate() -> None:
 
 def test_a_pair_has_rows_for_each_foot_and_a_stream_one_header() -> None:
     pair = answers.match((answers.foot("l.stl", left=True), answers.foot("r.stl")))
-    text = match_csv([pair]) + match_csv([answers.match()], header=False)
+    text = csv_text(Match, [pair, answers.match()])
     found = rows(text)
     assert len(found) == 15
     assert {row["path"] for row in found} == {"l.stl", "r.stl", "feet/anna.stl"}
@@ -48,16 +41,16 @@ def test_a_pair_has_rows_for_each_foot_and_a_stream_one_header() -> None:
 
 def test_a_profile_has_a_row_per_station() -> None:
     foot = replace(answers.foot(), flare=answers.profile(spoilt=("bottom_surface",)))
-    found = rows(flare_csv([foot]))
-    assert tuple(found[0]) == FLARE_COLUMNS
+    found = rows(csv_text(Profiled, [foot]))
+    assert tuple(found[0]) == Profiled.columns
     assert len(found) == len(foot.flare.stations)
     assert float(found[3]["plan"]) == pytest.approx(foot.flare.curvature["plan"][3], abs=1e-6)
     assert {row["bottom_surface"] for row in found} == {""}
 
 
 def test_lasts_come_by_name() -> None:
-    found = rows(lasts_csv([answers.record("b"), answers.record("a")], "a"))
-    assert tuple(found[0]) == LAST_COLUMNS
+    found = rows(csv_text(Library, [Library((answers.record("b"), answers.record("a")), 2, "a")]))
+    assert tuple(found[0]) == Library.columns
     assert [(row["last"], row["reference"]) for row in found] == [("a", "true"), ("b", "false")]
 
 
@@ -66,14 +59,14 @@ def test_lasts_come_by_name() -> None:
 )
 def test_formulas_are_shown_and_not_run(name: str) -> None:
     match = answers.match(names=(name,))
-    cell = rows(match_csv([match]))[0]["last"]
+    cell = rows(csv_text(Match, [match]))[0]["last"]
     assert cell.replace("'", "") == name.replace("'", "")
     assert not re.search("(^|;)[=+@＝-]", cell)
 
 
 @pytest.mark.parametrize("name", ["\t=1", "\r=1", "\n=1", "a\nb"])
 def test_a_row_is_a_line(name: str) -> None:
-    text = match_csv([answers.match(names=(name,))])
+    text = csv_text(Match, [answers.match(names=(name,))])
     assert len(text.splitlines()) == 2
     assert rows(text)[0]["last"] == repr(name)[1:-1]
 
@@ -90,7 +83,7 @@ def test_numbers_stay_numbers() -> None:
 @given(st.text(max_size=30))
 @settings(deadline=None, max_examples=300)
 def test_any_name_stays_in_its_cell(name: str) -> None:
-    text = match_csv([answers.match(names=(name,))])
+    text = csv_text(Match, [answers.match(names=(name,))])
     assert len(text.splitlines()) == 2
     found = rows(text)
     assert None not in found[0]

@@ -18,27 +18,24 @@ from hypothesis import strategies as st
 from footfit import __version__
 from footfit.errors import SeveralFeet
 from footfit.pipeline.fit.match import matched
-from footfit.report.json import (
-    documents,
-    last_documents,
-    measure_documents,
-    upkeep_documents,
-)
-from footfit.report.json.lines import failure_document
-from footfit.report.json.numbers import nested, rounded
-from footfit.report.json.parts import finite, paper_frame_angle_deg
-from footfit.report.terminal.comparison_tables import compare_document
+from footfit.report.json import json_line
 from footfit.results import (
     BackupOutcome,
     CheckOutcome,
+    DemoOutcome,
+    ExportOutcome,
     Finding,
     Library,
     Measured,
-    MeshCopy,
     Notice,
+    ReferenceOutcome,
+    RemoveOutcome,
+    RenameOutcome,
     RestoreOutcome,
+    StoredLast,
     UpgradeOutcome,
 )
+from footfit.results.documents import document, exact, part, rounded
 from tests import answers
 from tests.comparisons import comparison
 
@@ -53,30 +50,29 @@ def every_document():
     record = answers.record()
     upgrade = UpgradeOutcome("a.footfit", "0001", "0002", "flare/1", ("derby-42",), None)
     warned = answers.alignment(warnings=(Notice("open", "open"),), reference=answers.reference())
-    return [
-        documents.align_document(warned),
-        documents.flare_document(answers.foot()),
-        documents.match_document(answers.match()),
-        measure_documents.measure_document(answers.measured_scan()),
-        compare_document(comparison()),
-        documents.ingest_document(answers.outcome()),
-        documents.curvature_document(answers.curvature()),
-        documents.error_document(SeveralFeet("two feet; take them apart", "a.stl")),
-        last_documents.list_lasts_document([record], "derby-42"),
-        last_documents.show_last_document(record, "derby-42"),
-        last_documents.set_reference_document(answers.reference(), 12),
-        last_documents.rename_last_document("a", "b"),
-        last_documents.remove_last_document("a"),
-        last_documents.export_last_document("a", "a.stl", MeshCopy(b"", 10, 0.1)),
-        last_documents.catalogue_info_document(answers.facts()),
-        last_documents.upgrade_catalogue_document(upgrade),
-        upkeep_documents.check_catalogue_document(CheckOutcome("a.footfit", 12, 12, (FINDING,))),
-        upkeep_documents.backup_catalogue_document(BackupOutcome("a.footfit", "b.footfit", 9, 12)),
-        upkeep_documents.restore_catalogue_document(
-            RestoreOutcome("a.footfit", "b.footfit", 12, None)
-        ),
-        last_documents.demo_document("demo", 12, "derby-42", ["report.html"]),
+    results = [
+        warned,
+        answers.foot(),
+        answers.match(),
+        answers.measured_scan(),
+        comparison(),
+        answers.outcome(),
+        answers.curvature(),
+        SeveralFeet("two feet; take them apart", "a.stl"),
+        Library((record,), 1, "derby-42"),
+        StoredLast(record, "derby-42"),
+        ReferenceOutcome(answers.reference(), 12),
+        RenameOutcome("b", "a"),
+        RemoveOutcome("a"),
+        ExportOutcome("a", "a.stl", 10, 0.1),
+        answers.facts(),
+        upgrade,
+        CheckOutcome("a.footfit", 12, 12, (FINDING,)),
+        BackupOutcome("a.footfit", "b.footfit", 9, 12),
+        RestoreOutcome("a.footfit", "b.footfit", 12, None),
+        DemoOutcome("demo", 12, "derby-42", ("report.html",)),
     ]
+    return [result.to_dict() for result in results]
 
 
 def listed_keys():
@@ -97,11 +93,11 @@ COMMON = {"schema", "footfit_version"}
 
 def test_the_page_lists_the_keys_of_every_document() -> None:
     listed = listed_keys()
-    schemas = {document["schema"] for document in every_document()}
+    schemas = {answer["schema"] for answer in every_document()}
     assert schemas == {heading for heading in listed if heading.startswith("footfit.")}
-    for document in every_document():
-        assert set(document) - COMMON == listed[document["schema"]], document["schema"]
-        assert document["footfit_version"] == __version__
+    for answer in every_document():
+        assert set(answer) - COMMON == listed[answer["schema"]], answer["schema"]
+        assert answer["footfit_version"] == __version__
 
 
 def test_the_page_lists_the_keys_of_every_part() -> None:
@@ -115,21 +111,21 @@ def test_the_page_lists_the_keys_of_every_part() -> None:
     assert set(foot["flare"]) == listed["flare profile"] <= set(flare)
     assert set(foot) == listed["foot"]
     assert set(candidate) == listed["candidate"]
-    (room,) = documents.candidate_part(answers.roomy_candidate())["surface_clearance"]
+    (room,) = answers.roomy_candidate().to_dict()["surface_clearance"]
     assert set(room) == listed["surface clearance"]
     assert set(room["zones"]["medial"]) == listed["zone room"]
     assert set(candidate["clearance_mm"]["length"]) == listed["measured value"]
-    lasts = last_documents.list_lasts_document([answers.record()], None)["lasts"]
+    lasts = Library((answers.record(),), 1, None).to_dict()["lasts"]
     assert set(lasts[0]) == listed["last"]
     assert set(lasts[0]["label_check"]) == listed["label_check"]
-    shown = last_documents.show_last_document(answers.record(), None)
+    shown = StoredLast(answers.record(), None).to_dict()
     assert set(shown["printed_frame"]) == listed["printed_frame"] <= set(align)
 
 
 def test_the_page_lists_the_keys_of_a_fit() -> None:
     listed = listed_keys()
     answer = matched([answers.foot()], Library((answers.record(),), 1, None))
-    match = documents.match_document(answer)
+    match = answer.to_dict()
     fit = match["candidates"][0]["fits"][0]
     assert set(fit) == listed["fit"]
     assert {key for zone in fit["zones"].values() for key in zone} == listed["zone"]
@@ -138,13 +134,13 @@ def test_the_page_lists_the_keys_of_a_fit() -> None:
     assert set(match["fit_profile"]) == listed["fit profile"]
     assert {key for rule in rules.values() for key in rule} == listed["rule"]
     assert list(rules) == list(fit["zones"])
-    documents.json_line(match)
-    checked = upkeep_documents.check_catalogue_document(CheckOutcome("a.footfit", 1, 1, (FINDING,)))
+    json_line(match)
+    checked = CheckOutcome("a.footfit", 1, 1, (FINDING,)).to_dict()
     assert set(checked["findings"][0]) == listed["finding"]
 
 
 def test_the_page_lists_the_keys_of_a_comparison() -> None:
-    listed, document = listed_keys(), compare_document(comparison())
+    listed, document = listed_keys(), comparison().to_dict()
     assert {key for zone in document["zones"].values() for key in zone} == listed["zone room"]
     section = document["sections"][0]
     assert set(section) == listed["section"]
@@ -152,16 +148,10 @@ def test_the_page_lists_the_keys_of_a_comparison() -> None:
     assert set(section["sizes"]["width"]["foot"]) == listed["measured value"]
 
 
-def test_an_error_says_the_same_by_its_class_and_by_its_words() -> None:
-    error = SeveralFeet("two feet; take them apart", "a.stl")
-    by_words = failure_document("several_feet", 5, "two feet; take them apart", "a.stl")
-    assert documents.error_document(error) == by_words
-
-
 def test_an_error_is_said_without_the_heavy_libraries() -> None:
     code = (
-        "import sys; from footfit.report.json.lines import json_line, failure_document;"
-        "json_line(failure_document('x', 3, 'x', None));"
+        "import sys; from footfit.errors import SeveralFeet;"
+        "from footfit.report.json import json_line; json_line(SeveralFeet('x', None).to_dict());"
         "print(sorted({'numpy', 'rich', 'matplotlib', 'scipy'} & set(sys.modules)))"
     )
     run = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
@@ -169,11 +159,11 @@ def test_an_error_is_said_without_the_heavy_libraries() -> None:
 
 
 def test_every_document_is_one_line_that_reads_back() -> None:
-    for document in every_document():
-        line = documents.json_line(document)
+    for answer in every_document():
+        line = json_line(answer)
         assert len(line.splitlines()) == 1
-        assert json.loads(line) == document
-        assert list(json.loads(line)) == sorted(document)
+        assert json.loads(line) == answer
+        assert list(json.loads(line)) == sorted(answer)
 
 
 def numbers(value):
@@ -186,11 +176,11 @@ def numbers(value):
 
 
 def test_no_number_has_more_digits_than_it_means() -> None:
-    for document in every_document():
-        document.pop("definition", None)
-        for foot in document.get("feet", []):
+    for answer in every_document():
+        answer.pop("definition", None)
+        for foot in answer.get("feet", []):
             foot["flare"].pop("definition")
-        for number in numbers(document):
+        for number in numbers(answer):
             assert number == round(number, 6)
             assert math.copysign(1.0, number) > 0 or number < 0
     align = every_document()[0]
@@ -199,7 +189,7 @@ def test_no_number_has_more_digits_than_it_means() -> None:
 
 
 def test_what_is_not_measured_is_null_with_a_reason() -> None:
-    match = documents.match_document(answers.match())
+    match = answers.match().to_dict()
     clearance = match["candidates"][0]["clearance_mm"]
     assert clearance["length"]["reason"] is None
     assert clearance["length"]["value"] == pytest.approx(11.5)
@@ -207,7 +197,7 @@ def test_what_is_not_measured_is_null_with_a_reason() -> None:
         assert clearance[name]["value"] is None
         assert clearance[name]["reason"]
     spoilt = replace(answers.foot(), flare=answers.profile(spoilt=("bottom_surface",)))
-    flare = documents.flare_document(spoilt)
+    flare = spoilt.to_dict()
     assert flare["curvature"]["bottom_surface"] is None
     assert len(flare["curvature"]["plan"]) == len(flare["stations"])
 
@@ -216,15 +206,15 @@ def test_a_measured_nan_becomes_a_reason() -> None:
     feet = (answers.foot(),)
     last = answers.record()
     nan = replace(answers.candidate(1, last), clearance_mm=(("length", Measured(float("nan"))),))
-    match = documents.match_document(answers.match(feet, candidates=(nan,)))
+    match = answers.match(feet, candidates=(nan,)).to_dict()
     assert match["candidates"][0]["clearance_mm"]["length"]["value"] is None
     assert match["candidates"][0]["clearance_mm"]["length"]["reason"] == "not measured"
-    documents.json_line(match)
+    json_line(match)
 
 
 def test_the_transform_takes_the_file_to_the_frame() -> None:
     alignment = answers.alignment()
-    document = documents.align_document(alignment)
+    document = alignment.to_dict()
     assert np.allclose(document["transform"], alignment.transform, atol=1e-6)
     assert np.allclose(document["eigenvectors"], alignment.eigenframe.eigenvectors, atol=1e-6)
     paired = document["row_eigenvalues_mm2"]
@@ -233,32 +223,40 @@ def test_the_transform_takes_the_file_to_the_frame() -> None:
 
 
 def test_rejected_lasts_are_counted_by_reason() -> None:
-    match = documents.match_document(answers.match())
+    match = answers.match().to_dict()
     assert match["rejected"] == {"count": 7, "by_reason": {"too_long": 3, "too_short": 4}}
 
 
 def test_a_curvature_counts_only_vertices_that_have_one() -> None:
     curvature = answers.curvature()
-    document = documents.curvature_document(curvature, output="c.ply")
+    document = curvature.to_dict()
     assert document["defined_vertices"] == len(curvature.mean) - 5
     spread = document["mean_per_mm"]
     assert spread["p05"] < spread["p50"] < spread["p95"]
     nothing = replace(curvature, k1=np.full_like(curvature.k1, np.nan))
-    assert documents.curvature_document(nothing)["k1_per_mm"]["p50"] is None
+    assert nothing.to_dict()["k1_per_mm"]["p50"] is None
 
 
 @given(st.text(max_size=40))
 @settings(deadline=None, max_examples=200)
 def test_any_name_gives_one_line_of_utf8_that_reads_back(name: str) -> None:
-    line = documents.json_line(documents.document("x", {"name": name}))
+    line = json_line(document("x", {"name": name}))
     assert len(line.splitlines()) == 1
     assert json.loads(line.encode("utf-8"))["name"] == name
 
 
 def test_a_file_name_that_is_no_text_reads_back() -> None:
     name = b"f\xfc\xdf.stl".decode("utf-8", "surrogateescape")
-    line = documents.json_line({"path": name})
+    line = json_line({"path": name})
     assert json.loads(line.encode("utf-8"))["path"] == name
+
+
+def test_a_number_is_rounded_by_the_unit_that_its_key_names() -> None:
+    value = 1.23456789
+    keys = ("x_mm", "x_deg", "x_mm2", "x_cm2", "x_per_mm", "x_per_mm2", "x", "bottom_20")
+    rounded_by_key = part({key: (np.float64(value), np.array([[value]])) for key in keys})
+    for key, digits in zip(keys, (3, 3, 3, 1, 6, 6, 6, 6), strict=True):
+        assert rounded_by_key[key] == [round(value, digits), [[round(value, digits)]]]
 
 
 @given(st.floats(-1e9, 1e9) | st.sampled_from([math.nan, math.inf, -math.inf]), st.integers(0, 6))
@@ -270,12 +268,11 @@ def test_rounding_keeps_the_number_and_nulls_the_rest(value: float, digits: int)
     else:
         assert abs(result - value) <= 0.5000001 * 10.0**-digits + 1e-15 * abs(value)
         assert str(result) != "-0.0"
-    assert nested([[value]], digits) == [[result]]
 
 
 def test_definitions_lose_nothing_but_what_json_cannot_say() -> None:
     held = {"a": (1, 2.5, float("nan")), "b": np.float64(0.1), "c": np.int64(3), "d": True}
-    assert finite(held) == {"a": [1, 2.5, None], "b": 0.1, "c": 3, "d": True}
+    assert exact(held) == {"a": [1, 2.5, None], "b": 0.1, "c": 3, "d": True}
 
 
 @pytest.mark.parametrize("left", [False, True])
@@ -293,18 +290,12 @@ def test_the_papers_frame_is_turned_by_the_planted_angle(left: bool, planted_deg
     paper = answers.placed(turn @ frame_mirror @ rotation @ file_mirror, [1, 2, 3], scale=1000.0)
     turned = replace(record, paper_transform=paper)
     assert np.linalg.det(paper[:3, :3]) > 0
-    assert paper_frame_angle_deg(turned) == pytest.approx(planted_deg, abs=1e-6)
-    assert paper_frame_angle_deg(replace(record, paper_transform=None)) is None
+    assert turned.paper_frame_angle_deg == pytest.approx(planted_deg, abs=1e-6)
+    assert replace(record, paper_transform=None).paper_frame_angle_deg is None
 
 
 def test_lasts_are_listed_by_name_with_the_reference_marked() -> None:
     records = [answers.record("b"), answers.record("a")]
-    document = last_documents.list_lasts_document(records, "b")
+    document = Library(tuple(records), 2, "b").to_dict()
     assert [last["last"] for last in document["lasts"]] == ["a", "b"]
     assert [last["reference"] for last in document["lasts"]] == [False, True]
-
-
-def test_a_record_is_a_file_of_one_document() -> None:
-    text = last_documents.record_text(answers.record(), None)
-    assert text.endswith("}\n")
-    assert json.loads(text)["paper_frame_angle_deg"] == 0.0

@@ -13,7 +13,6 @@ import numpy as np
 import pytest
 
 from footfit.pipeline.fit.match import matched
-from footfit.report.json import documents
 from footfit.report.page import compare_page, match_page
 from footfit.report.page.match_page import match_report
 from footfit.results import LastRecord, Library, Measured, Notice
@@ -158,7 +157,7 @@ def test_every_outside_string_is_escaped() -> None:
 def test_the_page_says_what_the_json_says() -> None:
     match = judged_match()
     text = Page(drawn()).text()
-    for candidate in documents.match_document(match)["candidates"]:
+    for candidate in match.to_dict()["candidates"]:
         assert candidate["last"] in text
         assert f"{candidate['distance']:.2f}" in text
         assert f"{candidate['flare']['delta_deg']:+.1f}" in text

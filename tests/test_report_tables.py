@@ -9,10 +9,21 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from rich.cells import cell_len
 
+from footfit.errors import BadOption
 from footfit.pipeline.fit.match import matched
 from footfit.report.terminal import last_tables, match_tables, scan_tables
 from footfit.report.terminal.scan_tables import terminal_text
-from footfit.results import DemoOutcome, Library, MeshCopy, SideVerdict, UpgradeOutcome
+from footfit.results import (
+    DemoOutcome,
+    ExportOutcome,
+    Library,
+    ReferenceOutcome,
+    RemoveOutcome,
+    RenameOutcome,
+    SideVerdict,
+    StoredLast,
+    UpgradeOutcome,
+)
 from tests import answers
 
 LONG = "a-very-long-name-of-a-last-made-for-somebody-with-patience-42-eu-wide"
@@ -28,16 +39,18 @@ def every_table(name: str = "derby-42"):
         match_tables.match_table(answers.match((foot,), names=(name, "oxford-42"))),
         scan_tables.ingest_line(answers.outcome(last=name)),
         scan_tables.ingest_line(
-            answers.outcome(status="refused", last=None, error=name, path=name)
+            answers.outcome(status="refused", last=None, failure=BadOption(name, name), path=name)
         ),
         scan_tables.curvature_table(answers.curvature(name)),
-        last_tables.list_lasts_table([record], name),
-        last_tables.show_last_table(record, name),
+        last_tables.list_lasts_table(Library((record,), 1, name)),
+        last_tables.show_last_table(StoredLast(record, name)),
         last_tables.catalogue_info_table(answers.facts(path=name, styles=((name, 1),))),
-        last_tables.set_reference_line(replace(answers.reference(), last=name), 3),
-        last_tables.rename_last_line(name, name),
-        last_tables.remove_last_line(name),
-        last_tables.export_last_line(name, name, MeshCopy(b"", 10, 0.1)),
+        last_tables.set_reference_line(
+            ReferenceOutcome(replace(answers.reference(), last=name), 3)
+        ),
+        last_tables.rename_last_line(RenameOutcome(name, name)),
+        last_tables.remove_last_line(RemoveOutcome(name)),
+        last_tables.export_last_line(ExportOutcome(name, name, 10, 0.1)),
         last_tables.upgrade_catalogue_line(upgrade),
         last_tables.demo_table(DemoOutcome(name, 12, name, (name,))),
     ]
@@ -111,11 +124,11 @@ def test_where_nothing_fits_the_nearest_are_shown() -> None:
 
 def test_a_label_that_is_off_is_flagged() -> None:
     right, wrong = answers.record("right", 8, 280.0), answers.record("wrong", 8, 253.0)
-    text = terminal_text(last_tables.list_lasts_table([right, wrong], None))
+    text = terminal_text(last_tables.list_lasts_table(Library((right, wrong), 2, None)))
     assert "! wrong: labelled 4" in text
     assert "! right" not in text
-    assert "by its length" in terminal_text(last_tables.show_last_table(wrong, None))
-    assert "by its length" not in terminal_text(last_tables.show_last_table(right, None))
+    shown = [last_tables.show_last_table(StoredLast(last, None)) for last in (wrong, right)]
+    assert ["by its length" in terminal_text(table) for table in shown] == [True, False]
 
 
 def test_ties_and_mirroring_are_said() -> None:
@@ -156,10 +169,10 @@ def test_the_side_says_who_said_so() -> None:
 
 
 def test_the_list_marks_the_reference() -> None:
-    text = terminal_text(last_tables.list_lasts_table([answers.record()], "derby-42"))
+    text = terminal_text(last_tables.list_lasts_table(Library((answers.record(),), 1, "derby-42")))
     assert "derby-42 *" in text
     assert "derby-42 is the reference" in text
-    text = terminal_text(last_tables.list_lasts_table([], None))
+    text = terminal_text(last_tables.list_lasts_table(Library((), 0, None)))
     assert "0 lasts; no reference is set" in text
 
 

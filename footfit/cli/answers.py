@@ -14,7 +14,6 @@ from footfit.cli.signals import LISTENER
 from footfit.errors import BadOption, FootfitError
 
 if TYPE_CHECKING:
-    from footfit.cli.answer_forms import Answer
     from footfit.pipeline.batch.runs import Outcome
     from footfit.pipeline.batch.sources import ReadingOptions, Source
 
@@ -82,7 +81,6 @@ def only_one(sources: Sequence[Source], *outputs: Path | None, unless: str = "")
 
 def told(
     outcomes: Iterable[Outcome[Any, T]],
-    answer_of: Answer[T],
     voice: Voice,
     then: Callable[[T], object] | None = None,
 ) -> int:
@@ -103,7 +101,7 @@ def told(
                     answer(line)
                 tell_failure(line)
                 continue
-            tell(outcome.value, answer_of, voice)
+            tell(outcome.value, voice)
             if then is not None:
                 then(outcome.value)
     if errors and voice.total > 1:
@@ -111,18 +109,21 @@ def told(
     return common_code(int(error.exit) for error in errors)
 
 
-def tell(value: T, answer_of: Answer[T], voice: Voice) -> None:
-    """One value: its warnings on stderr, itself on stdout."""
-    path, notices = answer_of.warnings(value)
+def tell(value: Any, voice: Voice) -> None:
+    """One result: its notices on stderr, itself on stdout."""
+    from footfit.cli.answer_forms import FORMS
+
+    form = FORMS[type(value)]
+    path, notices = form.notices(value)
     say_notices(notices, path, quiet=voice.quiet)
     if not voice.answers:
         return
     if voice.as_json:
-        from footfit.report.json.documents import json_line
+        from footfit.report.json import json_line
 
-        answer(json_line(answer_of.document(value)))
+        answer(json_line(value.to_dict()))
     else:
-        show(answer_of.table(value))
+        show(form.table(value))
 
 
 @contextmanager

@@ -10,7 +10,7 @@ from contextlib import suppress
 from typing import TYPE_CHECKING
 
 from footfit.errors import BadOption, FootfitError
-from footfit.report.json.lines import failure_document, json_line
+from footfit.report.json import json_line
 from footfit.report.wording.text import visible
 
 if TYPE_CHECKING:
@@ -72,14 +72,7 @@ def say_notices(notices: Iterable[Notice], path: str | None, *, quiet: bool) -> 
 
 def error_line(error: FootfitError, *, as_json: bool) -> str:
     """The one line that an error is: words, or the ``footfit.error/1`` document."""
-    return failure_line(error.code, int(error.exit), error.message, error.path, as_json=as_json)
-
-
-def failure_line(
-    code: str, exit_code: int, message: str, path: str | None, *, as_json: bool
-) -> str:
-    """The same from its parts."""
     if as_json:
-        return json_line(failure_document(code, exit_code, message, path))
-    where = f"{path}: " if path else ""
-    return visible(f"footfit: {where}{message}")
+        return json_line(error.to_dict())
+    where = f"{error.path}: " if error.path else ""
+    return visible(f"footfit: {where}{error.message}")

@@ -13,7 +13,7 @@ from footfit.pipeline.library.ingest import entries, ingest
 from footfit.pipeline.library.manifest import read_manifest
 from footfit.pipeline.sample_data import sample_folder
 from footfit.pipeline.scan.reading import profiled_source
-from footfit.results import IngestOutcome, LastLabels, Match, Profiled, Reference
+from footfit.results import IngestOutcome, LastLabels, Match, Profiled, ReferenceOutcome
 
 CATALOGUE_NAME = "demo.footfit"
 
@@ -24,7 +24,7 @@ class Demonstration:
 
     catalogue: Path
     ingested: tuple[IngestOutcome, ...]
-    reference: Reference
+    reference: ReferenceOutcome
     foot: Profiled
     match: Match
 
@@ -44,11 +44,11 @@ def demonstrate(folder: Path, *, jobs: int = 1, replace: bool = False) -> Demons
     samples = sample_folder()
     batch = entries([], read_manifest(samples / "lasts.csv"), LastLabels(""), ReadingOptions())
     ingested = tuple(ingest(batch, catalogue, jobs=jobs))
-    refused = [outcome for outcome in ingested if outcome.error is not None]
-    if refused:
-        raise GeometryRefused(f"a sample last was refused: {refused[0].error}", refused[0].path)
+    failures = [outcome.failure for outcome in ingested if outcome.failure is not None]
+    if failures:
+        raise GeometryRefused(f"a sample last was refused: {failures[0]}", failures[0].path)
     middle = sorted(outcome.last or "" for outcome in ingested)[len(ingested) // 2]
-    reference, _ = lasts.set_reference(catalogue, middle)
+    reference = lasts.set_reference(catalogue, middle)
     foot = profiled_source(sample_foot(), ReadingOptions())
     found = matched([foot], lasts.library(catalogue), Question())
     return Demonstration(catalogue, ingested, reference, foot, found)

@@ -19,12 +19,16 @@ from footfit.results.compare import (
     SurfaceRoom,
 )
 from footfit.results.fit import FitProfile, FootFit, ZoneFit, ZoneRule
-from footfit.results.last_record import LastLabels, LastRecord
+from footfit.results.last_record import LastLabels, LastRecord, StoredLast
 from footfit.results.library import (
     CatalogueFacts,
     DemoOutcome,
+    ExportOutcome,
     IngestOutcome,
     Library,
+    ReferenceOutcome,
+    RemoveOutcome,
+    RenameOutcome,
     UpgradeOutcome,
 )
 from footfit.results.match import Candidate, FlareDifference, Match
@@ -53,6 +57,7 @@ __all__ = [
     "Confidence",
     "DemoOutcome",
     "Eigenframe",
+    "ExportOutcome",
     "Finding",
     "FitProfile",
     "FlareDifference",
@@ -72,6 +77,9 @@ __all__ = [
     "PoseQuality",
     "Profiled",
     "Reference",
+    "ReferenceOutcome",
+    "RemoveOutcome",
+    "RenameOutcome",
     "RestoreOutcome",
     "Scan",
     "SearchBy",
@@ -79,6 +87,7 @@ __all__ = [
     "SideName",
     "SideVerdict",
     "SizeDifference",
+    "StoredLast",
     "SurfaceCurvature",
     "SurfaceRoom",
     "UpgradeOutcome",

@@ -5,6 +5,10 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
+import numpy as np
+
+from footfit.results.documents import Json, document, fields, part
+
 if TYPE_CHECKING:
     from footfit.geometry.numeric.arrays import Floats, Ints
     from footfit.results.meshes import MeshInfo
@@ -24,6 +28,11 @@ class SideVerdict:
     score: float
     source: str
 
+    def to_dict(self) -> Json:
+        """Three keys that stand in the document itself."""
+        score = part({"word": self.confidence, "score": self.score})
+        return {"side": self.side, "side_confidence": score, "side_source": self.source}
+
 
 @dataclass(frozen=True, slots=True)
 class PoseQuality:
@@ -40,6 +49,10 @@ class PoseQuality:
     sole: bool
     kind: str
 
+    def to_dict(self) -> Json:
+        """How well the pose is settled."""
+        return part(fields(self, "kind"))
+
 
 @dataclass(frozen=True, slots=True)
 class Eigenframe:
@@ -55,6 +68,12 @@ class Eigenframe:
     eigenvectors: Floats
     eigenvalues_mm2: Floats
 
+    def to_dict(self) -> Json:
+        """The vectors, and their values twice: descending, and paired with the rows."""
+        values = self.eigenvalues_mm2
+        paired = {"eigenvalues_mm2": np.sort(values)[::-1], "row_eigenvalues_mm2": values}
+        return part(fields(self) | paired)
+
 
 @dataclass(frozen=True, slots=True)
 class Reference:
@@ -67,6 +86,10 @@ class Reference:
     last: str
     om_e: Floats
     centroid_mm: Floats
+
+    def to_dict(self) -> Json:
+        """The last and its OM_E (Eq. 6)."""
+        return part(fields(self, "centroid_mm"))
 
 
 @dataclass(frozen=True, slots=True)
@@ -104,6 +127,25 @@ class Alignment:
         """The measured length; None where an end was not scanned."""
         return self.length.value
 
+    def to_dict(self) -> Json:
+        """``footfit.align/2``."""
+        return document(
+            "align",
+            {
+                "mesh": self.info,
+                **self.side.to_dict(),
+                "method": self.method,
+                "transform": self.transform,
+                **self.eigenframe.to_dict(),
+                "reference": self.reference,
+                "pose": self.pose,
+                "length_mm": self.length_mm,
+                "extent_mm": self.extent_mm,
+                "warnings": self.warnings,
+            },
+            version=2,
+        )
+
 
 @dataclass(frozen=True, slots=True)
 class AlignedScan:
@@ -115,3 +157,7 @@ class AlignedScan:
     alignment: Alignment
     vertices_mm: Floats
     faces: Ints
+
+    def to_dict(self) -> Json:
+        """``footfit.align/2``: the alignment; the mesh is in no document."""
+        return self.alignment.to_dict()

@@ -3,15 +3,29 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, ClassVar
+
+from footfit.results.documents import Json, document, fields, part, rounded, rows
 
 if TYPE_CHECKING:
+    from collections.abc import Iterable
+
     from footfit.geometry.fit.clearance import ZoneClearance
     from footfit.geometry.fit.placement import Docking
     from footfit.geometry.numeric.arrays import Floats, Ints
     from footfit.results.last_record import LastRecord
     from footfit.results.profile import Profiled
     from footfit.results.values import Measured, Notice, SideName
+
+
+def zone_part(zone: ZoneClearance) -> Json:
+    """The room in one zone; null where nothing of it is compared."""
+    return part(fields(zone, "zone"))
+
+
+def zones_part(zones: Iterable[ZoneClearance]) -> Json:
+    """The room in each zone, by the zone's name."""
+    return {zone.zone: zone_part(zone) for zone in zones}
 
 
 @dataclass(frozen=True, slots=True)
@@ -22,6 +36,10 @@ class SizeDifference:
     foot: Measured
     last: Measured
     difference: Measured
+
+    def to_dict(self) -> Json:
+        """The three measured values."""
+        return part(fields(self, "name"))
 
 
 @dataclass(frozen=True, slots=True)
@@ -37,6 +55,11 @@ class SectionComparison:
     last_outline: tuple[Floats, ...]
     sizes: tuple[SizeDifference, ...]
 
+    def to_dict(self) -> Json:
+        """Where the section is, and its sizes by name."""
+        sizes = part({size.name: size for size in self.sizes})
+        return part({"station": self.station, "x_mm": self.x_mm, "sizes": sizes})
+
 
 @dataclass(frozen=True, slots=True)
 class SurfaceRoom:
@@ -50,6 +73,10 @@ class SurfaceRoom:
     swing_mm: float | None
     zones: tuple[ZoneClearance, ...]
     reason: str | None = None
+
+    def to_dict(self) -> Json:
+        """The fields, the zones by name."""
+        return part(fields(self) | {"zones": zones_part(self.zones)})
 
 
 @dataclass(frozen=True, slots=True)
@@ -74,8 +101,73 @@ class Comparison:
     sections: tuple[SectionComparison, ...]
     warnings: tuple[Notice, ...]
 
+    columns: ClassVar[tuple[str, ...]] = (
+        "path",
+        "last",
+        "part",
+        "place",
+        "quantity",
+        "unit",
+        "foot",
+        "last_value",
+        "difference",
+        "sd",
+        "reason",
+    )
+
     @property
     def longer_mm(self) -> float | None:
         """How much longer the last is than the foot; None where one length is not known."""
-        foot_mm, last_mm = self.foot.length_mm, self.last.length_mm
-        return None if foot_mm is None or last_mm is None else last_mm - foot_mm
+        return _longer_mm(self.foot.length_mm, self.last.length_mm)
+
+    @property
+    def flare_delta_deg(self) -> float:
+        """The flare angles' difference, last minus foot."""
+        return self.last.flare.angle_deg - self.foot.flare.angle_deg
+
+    def to_dict(self) -> Json:
+        """``footfit.compare/2``."""
+        alignment = self.foot.aligned.alignment
+        return document(
+            "compare",
+            {
+                "mesh": alignment.info,
+                **alignment.side.to_dict(),
+                "last": self.last.labels.name,
+                "last_side": self.last.side.side,
+                "mirrored": self.mirrored,
+                "length_mm": _lengths_part(alignment.length_mm, self.last.length_mm),
+                "extent_mm": _lengths_part(alignment.extent_mm, self.last.extent_mm),
+                "flare_delta_deg": self.flare_delta_deg,
+                "docking": part(fields(self.docking, "hinge_mm", "hinge_length_mm")),
+                "zones": zones_part(self.zones),
+                "sections": self.sections,
+                "warnings": self.warnings,
+            },
+            version=2,
+        )
+
+    def rows(self) -> list[Json]:
+        """A table: a row for each size of each section, and for each figure of each zone."""
+        start = (self.foot.aligned.alignment.info.path, self.last.labels.name)
+        values: list[tuple[object, ...]] = []
+        for section in self.sections:
+            for size in section.sizes:
+                room, both = size.difference, (rounded(size.foot.value), rounded(size.last.value))
+                place = (*start, "section", section.station, size.name, "mm")
+                values.append((*place, *both, rounded(room.value), rounded(room.sd), room.reason))
+        for zone in self.zones:
+            for name, value in zone_part(zone).items():
+                quantity, unit = name.rsplit("_", 1)
+                place = (*start, "zone", zone.zone, quantity, unit)
+                values.append((*place, None, None, value, None, None))
+        return rows(self.columns, values)
+
+
+def _longer_mm(foot_mm: float | None, last_mm: float | None) -> float | None:
+    return None if foot_mm is None or last_mm is None else last_mm - foot_mm
+
+
+def _lengths_part(foot_mm: float | None, last_mm: float | None) -> Json:
+    lengths = {"foot": foot_mm, "last": last_mm, "difference": _longer_mm(foot_mm, last_mm)}
+    return {name: rounded(value) for name, value in lengths.items()}

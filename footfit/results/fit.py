@@ -5,6 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
+from footfit.results.documents import Json, exact, fields, part
+
 if TYPE_CHECKING:
     from footfit.results.values import Measured, SideName, Verdict
 
@@ -28,6 +30,10 @@ class ZoneRule:
     required: bool
     cavity: float
 
+    def to_dict(self) -> Json:
+        """The rule without its zone's name, which is its key."""
+        return exact(fields(self, "zone"))
+
 
 @dataclass(frozen=True, slots=True)
 class FitProfile:
@@ -43,6 +49,11 @@ class FitProfile:
     tie_sds: float
     zones: tuple[ZoneRule, ...]
     sha256: str
+
+    def to_dict(self) -> Json:
+        """The whole profile, its rules by zone."""
+        rules = {rule.zone: rule.to_dict() for rule in self.zones}
+        return exact(fields(self, "zones")) | {"zones": rules}
 
 
 @dataclass(frozen=True, slots=True)
@@ -63,6 +74,10 @@ class ZoneFit:
     verdict: Verdict | None
     counts: bool
 
+    def to_dict(self) -> Json:
+        """The fields but the zone's name, which is its key."""
+        return part(fields(self, "zone"))
+
 
 @dataclass(frozen=True, slots=True)
 class FootFit:
@@ -71,3 +86,7 @@ class FootFit:
     side: SideName | None
     verdict: Verdict
     zones: tuple[ZoneFit, ...]
+
+    def to_dict(self) -> Json:
+        """The side, the verdict, and the zones by name."""
+        return part(fields(self) | {"zones": part({zone.zone: zone for zone in self.zones})})

@@ -5,7 +5,11 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from footfit.results.values import Measured
+from footfit.geometry.fit import sizes
+from footfit.geometry.pose import paper_frame
+from footfit.results.documents import Json, document, fields, part
+from footfit.results.profile import flare_part
+from footfit.results.values import Measured, measures_part
 
 if TYPE_CHECKING:
     from footfit.geometry.flare.flare_profile import FlareProfile
@@ -65,3 +69,79 @@ class LastRecord:
     def length_mm(self) -> float | None:
         """The value of ``length``."""
         return self.length.value
+
+    @property
+    def label_check(self) -> sizes.LabelCheck | None:
+        """The label held against the length; None where the label says no number."""
+        return sizes.label_check(self.labels.size, self.labels.size_system, self.length_mm)
+
+    @property
+    def paper_frame_angle_deg(self) -> float | None:
+        """How far the paper's frame is turned from footfit's; None without a reference."""
+        if self.paper_transform is None:
+            return None
+        return paper_frame.paper_frame_angle_deg(
+            self.paper_transform, self.canonical_transform, mirrored=self.side.side == "left"
+        )
+
+    def entry(self, reference: str | None) -> Json:
+        """One line of the library: the labels as given, the geometry as measured."""
+        labels = fields(self.labels)
+        return part(
+            {
+                "last": labels.pop("name"),
+                **labels,
+                "side": self.side.side,
+                "length_mm": self.length_mm,
+                "extent_mm": self.extent_mm,
+                "label_check": _label_part(self.label_check),
+                "flare_angle_deg": self.flare.angle_deg,
+                "class": self.flare.flare_class,
+                "reference": self.labels.name == reference,
+            }
+        )
+
+
+def _label_part(check: sizes.LabelCheck | None) -> Json | None:
+    if check is None:
+        return None
+    return part(
+        {
+            "size_by_length": check.by_length,
+            "off_sizes": check.off,
+            "flagged": check.flagged,
+            "words": sizes.label_words(check) if check.flagged else None,
+        }
+    )
+
+
+@dataclass(frozen=True, slots=True)
+class StoredLast:
+    """One last of a catalogue, and which last is the catalogue's reference, if any."""
+
+    record: LastRecord
+    reference: str | None
+
+    def to_dict(self) -> Json:
+        """``footfit.show-last/2``: everything that is stored of one last but its mesh."""
+        record = self.record
+        return document(
+            "show-last",
+            {
+                **record.entry(self.reference),
+                "mesh": record.info,
+                **record.side.to_dict(),
+                **flare_part(record.flare),
+                "centre_line": record.flare.centre_line,
+                "upgraded_from": record.upgraded_from,
+                "measures": measures_part(record.measures),
+                "transform": record.canonical_transform,
+                "paper_transform": record.paper_transform,
+                "paper_frame_angle_deg": record.paper_frame_angle_deg,
+                **record.eigenframe.to_dict(),
+                "printed_frame": record.printed_frame,
+                "pose": record.pose,
+                "warnings": record.warnings,
+            },
+            version=2,
+        )

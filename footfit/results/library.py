@@ -3,33 +3,48 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, ClassVar
+
+from footfit.results.documents import Json, document, fields, part
 
 if TYPE_CHECKING:
+    from footfit.errors import FootfitError
+    from footfit.results.alignment import Reference
     from footfit.results.last_record import LastRecord
     from footfit.results.values import Notice, SideName
+
+NO_FEET = 0
+"""How many feet a catalogue keeps: it has no table for any."""
 
 
 @dataclass(frozen=True, slots=True)
 class IngestOutcome:
     """What became of one file: ``status`` is added, unchanged, replaced or refused.
 
-    ``path`` is None for standard input. ``notes`` are told to people, and warn of nothing.
-    ``dry_run``: it is what would become of it, nothing was stored.
+    ``path`` is None for standard input. ``failure`` says why a file was refused. ``notes`` are
+    for people, and warn of nothing. ``dry_run``: it is what would become of it, nothing was stored.
     """
 
     path: str | None
     status: str
-    last: str | None
-    side: SideName | None
-    flare_angle_deg: float | None
-    error: str | None
-    exit: int
-    code: str | None
+    last: str | None = None
+    side: SideName | None = None
+    flare_angle_deg: float | None = None
+    failure: FootfitError | None = None
     warnings: tuple[Notice, ...] = ()
     reference: bool = False
     notes: tuple[Notice, ...] = ()
     dry_run: bool = False
+
+    def to_dict(self) -> Json:
+        """``footfit.ingest-last/1``: what became of one file."""
+        failure = self.failure
+        failed = {
+            "error": None if failure is None else failure.message,
+            "code": None if failure is None else failure.code,
+            "exit": 0 if failure is None else int(failure.exit),
+        }
+        return document("ingest-last", fields(self, "failure", "notes") | failed)
 
 
 @dataclass(frozen=True, slots=True)
@@ -53,6 +68,24 @@ class CatalogueFacts:
     worst_copy_error_mm: float | None
     kept: tuple[tuple[str, int], ...] = ()
 
+    def to_dict(self) -> Json:
+        """``footfit.catalogue-info/1``: where the catalogue is, and what it keeps."""
+        counts = ("definitions", "styles", "size_systems", "sides", "kept")
+        copies = {
+            "count": self.mesh_copies,
+            "bytes": self.mesh_copy_bytes,
+            "worst_error_mm": self.worst_copy_error_mm,
+        }
+        return document(
+            "catalogue-info",
+            {
+                **fields(self, "mesh_copies", "mesh_copy_bytes", "worst_copy_error_mm"),
+                **{name: dict(getattr(self, name)) for name in counts},
+                "mesh_copies": part(copies),
+                "feet_kept": NO_FEET,
+            },
+        )
+
 
 @dataclass(frozen=True, slots=True)
 class UpgradeOutcome:
@@ -65,6 +98,10 @@ class UpgradeOutcome:
     recomputed: tuple[str, ...]
     backup: str | None
 
+    def to_dict(self) -> Json:
+        """``footfit.upgrade-catalogue/1``: what changed, and where the file as it was lies."""
+        return document("upgrade-catalogue", fields(self))
+
 
 @dataclass(frozen=True, slots=True)
 class DemoOutcome:
@@ -74,6 +111,59 @@ class DemoOutcome:
     lasts: int
     best: str | None
     outputs: tuple[str, ...]
+
+    def to_dict(self) -> Json:
+        """``footfit.demo/1``."""
+        return document("demo", fields(self, "best") | {"best_last": self.best})
+
+
+@dataclass(frozen=True, slots=True)
+class ReferenceOutcome:
+    """The new reference last, and how many stored frames were rewritten for it."""
+
+    reference: Reference
+    rewritten: int
+
+    def to_dict(self) -> Json:
+        """``footfit.set-reference/1``."""
+        return document("set-reference", fields(self.reference) | {"rewritten": self.rewritten})
+
+
+@dataclass(frozen=True, slots=True)
+class RenameOutcome:
+    """A last under its new name."""
+
+    last: str
+    renamed_from: str
+
+    def to_dict(self) -> Json:
+        """``footfit.rename-last/1``."""
+        return document("rename-last", fields(self))
+
+
+@dataclass(frozen=True, slots=True)
+class RemoveOutcome:
+    """A last that is no longer in the catalogue."""
+
+    last: str
+
+    def to_dict(self) -> Json:
+        """``footfit.remove-last/1``."""
+        return document("remove-last", {"last": self.last, "status": "removed"})
+
+
+@dataclass(frozen=True, slots=True)
+class ExportOutcome:
+    """A file that was written of a last; ``faces`` and ``error_mm`` None for a record in JSON."""
+
+    last: str
+    output: str
+    faces: int | None = None
+    error_mm: float | None = None
+
+    def to_dict(self) -> Json:
+        """``footfit.export-last/1``."""
+        return document("export-last", fields(self))
 
 
 @dataclass(frozen=True, slots=True)
@@ -85,3 +175,39 @@ class Library:
     reference: str | None
     rejected: tuple[tuple[str, int], ...] = ()
     warnings: tuple[Notice, ...] = ()
+
+    columns: ClassVar[tuple[str, ...]] = (
+        "last",
+        "style",
+        "size",
+        "size_system",
+        "width_label",
+        "heel_height_mm",
+        "family",
+        "parent",
+        "side",
+        "length_mm",
+        "flare_angle_deg",
+        "class",
+        "reference",
+        "size_by_length",
+        "label_flagged",
+    )
+
+    def by_name(self) -> list[LastRecord]:
+        """The lasts in the order of their names."""
+        return sorted(self.lasts, key=lambda record: record.labels.name)
+
+    def to_dict(self) -> Json:
+        """``footfit.list-lasts/2``: an entry for each last, by name."""
+        entries = [record.entry(self.reference) for record in self.by_name()]
+        return document("list-lasts", {"reference": self.reference, "lasts": entries}, version=2)
+
+    def rows(self) -> list[Json]:
+        """A table: a row for each last, by name, with its label's check."""
+        entries = [record.entry(self.reference) for record in self.by_name()]
+        for entry in entries:
+            check = entry["label_check"] or {}
+            entry["size_by_length"] = check.get("size_by_length")
+            entry["label_flagged"] = check.get("flagged")
+        return [{column: entry[column] for column in self.columns} for entry in entries]

@@ -3,7 +3,12 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, ClassVar
+
+from footfit.geometry.fit.sizes import SYSTEMS, foot_sizes
+from footfit.results.documents import Json, document, fields, part, rows
+from footfit.results.profile import flare_part
+from footfit.results.values import FIT_NAMES, NOT_YET, measured_part, measures_part
 
 if TYPE_CHECKING:
     from footfit.results.compare import SurfaceRoom
@@ -20,6 +25,10 @@ class FlareDifference:
     distance: float
     delta_deg: float
     parts: tuple[tuple[str, float], ...]
+
+    def to_dict(self) -> Json:
+        """The fields, the parts of the distance by channel."""
+        return part(fields(self) | {"parts": part(dict(self.parts))})
 
 
 @dataclass(frozen=True, slots=True)
@@ -46,6 +55,12 @@ class Candidate:
     not_judged: tuple[str, ...] = ()
     surfaces: tuple[SurfaceRoom, ...] = ()
 
+    def to_dict(self) -> Json:
+        """The fields but the record; null where nobody asked for the room between surfaces."""
+        keys = fields(self, "record", "surfaces")
+        clearance, room = measured_part(self.clearance_mm), self.surfaces or None
+        return part(keys | {"clearance_mm": clearance, "surface_clearance": room})
+
 
 @dataclass(frozen=True, slots=True)
 class Match:
@@ -68,3 +83,103 @@ class Match:
     nearest: tuple[Candidate, ...] = ()
     size_system: str | None = None
     best_verdict: Verdict | None = None
+
+    columns: ClassVar[tuple[str, ...]] = (
+        "path",
+        "foot_side",
+        "by",
+        "rank",
+        "last",
+        "style",
+        "size",
+        "size_system",
+        "width_label",
+        "side",
+        "mirrored",
+        "distance",
+        "distance_sd",
+        "flare_distance",
+        "flare_delta_deg",
+        *(f"clearance_{name}_{end}" for name in FIT_NAMES for end in ("mm", "sd_mm")),
+        "foot_verdict",
+        "verdict",
+        "why",
+        "tied_with",
+        "not_judged",
+        "profile",
+        "profile_sha256",
+    )
+
+    def to_dict(self) -> Json:
+        """``footfit.match/1``: one customer, one foot or two."""
+        count = sum(count for _, count in self.rejected)
+        return document(
+            "match",
+            {
+                **fields(self, "catalogue_lasts", "reference"),
+                "feet": [foot_part(foot) for foot in self.feet],
+                "catalogue": {"lasts": self.catalogue_lasts, "reference": self.reference},
+                "rejected": {"count": count, "by_reason": dict(self.rejected)},
+            },
+        )
+
+    def rows(self) -> list[Json]:
+        """A table: a row for each candidate and foot."""
+        values = [self._row(i, one) for i in range(len(self.feet)) for one in self.candidates]
+        return rows(self.columns, values)
+
+    def _row(self, foot: int, candidate: Candidate) -> tuple[object, ...]:
+        alignment = self.feet[foot].aligned.alignment
+        fit = candidate.fits[foot] if candidate.fits else None
+        clearance = dict(candidate.clearance_mm)
+        if fit is not None:
+            clearance = {zone.zone: zone.clearance for zone in fit.zones if zone.unit == "mm"}
+        room = [clearance.get(name, NOT_YET) for name in FIT_NAMES]
+        return (
+            alignment.info.path,
+            alignment.side.side,
+            self.by,
+            candidate.rank,
+            candidate.last,
+            candidate.style,
+            candidate.size,
+            candidate.size_system,
+            candidate.width_label,
+            candidate.side,
+            candidate.mirrored,
+            candidate.distance,
+            candidate.distance_sd,
+            candidate.flare.distance,
+            candidate.flare.delta_deg,
+            *(end for measured in room for end in (measured.value, measured.sd)),
+            None if fit is None else fit.verdict,
+            candidate.verdict,
+            candidate.why,
+            " ".join(candidate.tied_with),
+            " ".join(candidate.not_judged),
+            self.profile,
+            None if self.fit_profile is None else self.fit_profile.sha256,
+        )
+
+
+def foot_part(foot: Profiled) -> Json:
+    """One foot of a match."""
+    alignment = foot.aligned.alignment
+    return part(
+        {
+            "mesh": alignment.info,
+            "kind": alignment.pose.kind,
+            **alignment.side.to_dict(),
+            "measures": measures_part(foot.measures),
+            "sizes": _sizes_part(foot.length_mm),
+            "flare": flare_part(foot.flare),
+            "warnings": alignment.warnings,
+        }
+    )
+
+
+def _sizes_part(length_mm: float | None) -> Json:
+    """A foot's size in every system, null where its length is not known."""
+    if length_mm is None:
+        return dict.fromkeys(SYSTEMS)
+    return {size.system: part(fields(size, "system")) for size in foot_sizes(length_mm)}

@@ -5,6 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
+from footfit.results.documents import Json, fields, part
+
 if TYPE_CHECKING:
     from footfit.geometry.numeric.arrays import Floats, Ints
     from footfit.results.values import Notice
@@ -29,6 +31,10 @@ class MeshInfo:
     units: str
     units_source: str
     unit_scale: float
+
+    def to_dict(self) -> Json:
+        """What the file was: a part of every document about a mesh."""
+        return part(fields(self, "format", "unit_scale"))
 
 
 @dataclass(frozen=True, slots=True)

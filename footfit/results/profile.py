@@ -3,7 +3,13 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, ClassVar
+
+import numpy as np
+
+from footfit.geometry.flare.definition import CHANNELS
+from footfit.results.documents import Json, document, exact, fields, part, rows
+from footfit.results.values import measures_part
 
 if TYPE_CHECKING:
     from footfit.geometry.flare.flare_profile import FlareProfile
@@ -11,6 +17,23 @@ if TYPE_CHECKING:
     from footfit.results.alignment import AlignedScan, Alignment
     from footfit.results.meshes import MeshInfo
     from footfit.results.values import Measure, Notice
+
+QUANTILES = (0.05, 0.5, 0.95)
+
+
+def flare_part(flare: FlareProfile) -> Json:
+    """The flare profile with its whole definition."""
+    return part(
+        {
+            "flare_angle_deg": flare.angle_deg,
+            "flare_angle_sd_deg": flare.angle_sd_deg,
+            "class": flare.flare_class,
+            "definition": exact(fields(flare.definition)),
+            "stations": flare.stations,
+            "heading_deg": flare.heading_deg,
+            "curvature": part({name: flare.curvature.get(name) for name in CHANNELS}),
+        }
+    )
 
 
 @dataclass(frozen=True, slots=True)
@@ -24,6 +47,51 @@ class Profiled:
     flare: FlareProfile
     measures: tuple[Measure, ...]
     suspects: tuple[Notice, ...] = ()
+
+    columns: ClassVar[tuple[str, ...]] = (
+        "path",
+        "side",
+        "flare_angle_deg",
+        "flare_angle_sd_deg",
+        "class",
+        "definition",
+        "station",
+        "heading_deg",
+        *CHANNELS,
+    )
+
+    def to_dict(self) -> Json:
+        """``footfit.flare/1``."""
+        alignment = self.aligned.alignment
+        return document(
+            "flare",
+            {
+                "mesh": alignment.info,
+                "kind": alignment.pose.kind,
+                **alignment.side.to_dict(),
+                **flare_part(self.flare),
+                "length_mm": alignment.length_mm,
+                "extent_mm": alignment.extent_mm,
+                "warnings": (*alignment.warnings, *self.suspects),
+            },
+        )
+
+    def rows(self) -> list[Json]:
+        """The profile as a table: a row for each station."""
+        alignment, flare = self.aligned.alignment, self.flare
+        start = (
+            alignment.info.path,
+            alignment.side.side,
+            flare.angle_deg,
+            flare.angle_sd_deg,
+            flare.flare_class,
+            flare.definition.version,
+        )
+        nothing = (None,) * len(flare.stations)
+        curves = [flare.curvature.get(name) for name in CHANNELS]
+        known = (nothing if curve is None else curve for curve in curves)
+        stations = zip(flare.stations, flare.heading_deg, *known, strict=True)
+        return rows(self.columns, [(*start, *values) for values in stations])
 
     @property
     def length_mm(self) -> float | None:
@@ -44,12 +112,50 @@ class MeasuredScan:
     measures: tuple[Measure, ...]
     suspects: tuple[Notice, ...]
 
+    columns: ClassVar[tuple[str, ...]] = (
+        "path",
+        "side",
+        "kind",
+        "measure",
+        "value_mm",
+        "sd_mm",
+        "reason",
+        "definition",
+    )
+
+    def to_dict(self) -> Json:
+        """``footfit.measure/1``."""
+        alignment = self.alignment
+        return document(
+            "measure",
+            {
+                "mesh": alignment.info,
+                **alignment.side.to_dict(),
+                "kind": alignment.pose.kind,
+                "measures": measures_part(self.measures),
+                "definitions": {row.name: row.definition for row in self.measures},
+                "warnings": (*alignment.warnings, *self.suspects),
+            },
+        )
+
+    def rows(self) -> list[Json]:
+        """The measures as a table: a row for each; one without a value has a reason."""
+        alignment = self.alignment
+        start = (alignment.info.path, alignment.side.side, alignment.pose.kind)
+        values = [
+            (*start, row.name, taken.value, taken.sd, taken.reason, row.definition)
+            for row in self.measures
+            for taken in (row.measured,)
+        ]
+        return rows(self.columns, values)
+
 
 @dataclass(frozen=True, slots=True)
 class SurfaceCurvature:
     """Per-vertex curvature of a surface in 1/mm, (n,) each; NaN where it is undefined.
 
-    ``k1`` <= ``k2``; convex is positive; ``radius_mm`` 0 is the paper's one ring.
+    ``k1`` <= ``k2``; convex is positive; ``radius_mm`` 0 is the paper's one ring. ``output``
+    names the file that holds the values of every vertex, if one was written.
     """
 
     info: MeshInfo
@@ -62,3 +168,29 @@ class SurfaceCurvature:
     gaussian: Floats
     source_to_vertex: Ints
     warnings: tuple[Notice, ...]
+    output: str | None = None
+
+    def to_dict(self) -> Json:
+        """``footfit.curvature/1``: the spread of each curvature; the file holds every vertex."""
+        return document(
+            "curvature",
+            {
+                "mesh": self.info,
+                "radius_mm": self.radius_mm,
+                "defined_vertices": int(np.count_nonzero(np.isfinite(self.mean))),
+                "k1_per_mm": spread_part(self.k1),
+                "k2_per_mm": spread_part(self.k2),
+                "mean_per_mm": spread_part(self.mean),
+                "gaussian_per_mm2": spread_part(self.gaussian),
+                "output": self.output,
+                "warnings": self.warnings,
+            },
+        )
+
+
+def spread_part(values: Floats) -> Json:
+    """The 5 %, 50 % and 95 % quantiles over the defined vertices; null where there is none."""
+    defined = values[np.isfinite(values)]
+    quantiles = np.quantile(defined, QUANTILES) if len(defined) else [None] * len(QUANTILES)
+    names = (f"p{round(100 * level):02d}" for level in QUANTILES)
+    return part(dict(zip(names, quantiles, strict=True)))

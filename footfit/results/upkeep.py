@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+from footfit.results.documents import Json, document, fields, part
+
 
 @dataclass(frozen=True, slots=True)
 class Finding:
@@ -18,6 +20,10 @@ class Finding:
     last: str | None = None
     damage: bool = True
 
+    def to_dict(self) -> Json:
+        """Its fields."""
+        return part(fields(self))
+
 
 @dataclass(frozen=True, slots=True)
 class CheckOutcome:
@@ -27,6 +33,10 @@ class CheckOutcome:
     lasts: int
     mesh_copies: int
     findings: tuple[Finding, ...]
+
+    def to_dict(self) -> Json:
+        """``footfit.check-catalogue/1``: everything that is not as it must be."""
+        return document("check-catalogue", fields(self))
 
 
 @dataclass(frozen=True, slots=True)
@@ -38,6 +48,10 @@ class BackupOutcome:
     bytes: int
     lasts: int
 
+    def to_dict(self) -> Json:
+        """``footfit.backup-catalogue/1``."""
+        return document("backup-catalogue", fields(self))
+
 
 @dataclass(frozen=True, slots=True)
 class RestoreOutcome:
@@ -47,3 +61,7 @@ class RestoreOutcome:
     backup: str
     lasts: int
     kept: str | None
+
+    def to_dict(self) -> Json:
+        """``footfit.restore-catalogue/1``."""
+        return document("restore-catalogue", fields(self))

@@ -3,7 +3,12 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Literal
+from typing import TYPE_CHECKING, Literal
+
+from footfit.results.documents import Json, fields, part, rounded
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable
 
 SideName = Literal["left", "right"]
 Confidence = Literal["sure", "low", "undecided"]
@@ -19,6 +24,24 @@ class Measured:
     value: float | None
     sd: float | None = None
     reason: str | None = None
+
+    def to_dict(self) -> Json:
+        """``value`` and ``sd`` in mm, and a ``reason`` only where the value is null.
+
+        Examples
+        --------
+        >>> Measured(262.31049, 0.4).to_dict()
+        {'value': 262.31, 'sd': 0.4, 'reason': None}
+        """
+        value = rounded(self.value)
+        reason = None if value is not None else self.reason or "not measured"
+        return {"value": value, "sd": rounded(self.sd), "reason": reason}
+
+
+FIT_NAMES = ("length", "ball_width", "ball_girth", "heel_width", "instep_girth")
+"""The measures and clearances that every document names, measured or not."""
+
+NOT_YET = Measured(None, reason="this version does not measure it")
 
 
 @dataclass(frozen=True, slots=True)
@@ -36,3 +59,17 @@ class Notice:
 
     code: str
     message: str
+
+    def to_dict(self) -> Json:
+        """Both, by name."""
+        return part(fields(self))
+
+
+def measures_part(measures: Iterable[Measure]) -> Json:
+    """Every measure by its name; the ones every document names are never missing."""
+    return measured_part((measure.name, measure.measured) for measure in measures)
+
+
+def measured_part(values: Iterable[tuple[str, Measured]]) -> Json:
+    """Measured values by name, completed with the names that every document has."""
+    return part(dict.fromkeys(FIT_NAMES, NOT_YET) | dict(values))

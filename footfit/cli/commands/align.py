@@ -69,7 +69,6 @@ def align(
     """
     from functools import partial
 
-    from footfit.cli.answer_forms import ALIGN
     from footfit.cli.answers import Voice, only_one, sources_of, split_where_asked, told
     from footfit.cli.outputs import refuse_existing
     from footfit.cli.settings import catalogue_path
@@ -88,7 +87,6 @@ def align(
     work = partial(aligned_source, reading=reading, method=method.value, reference=reference)
     code = told(
         outcomes(work, sources, jobs),
-        ALIGN,
         Voice(json, quiet, len(sources)),
         then=lambda scan: write_alignment(scan, output, plot, force=force),
     )

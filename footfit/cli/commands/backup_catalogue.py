@@ -24,10 +24,9 @@ def backup_catalogue(
 
     Example: footfit backup-catalogue lasts-2026-05-01.footfit
     """
-    from footfit.cli.answer_forms import BACKUP_CATALOGUE
     from footfit.cli.answers import Voice, tell
     from footfit.cli.settings import catalogue_path
     from footfit.pipeline.library.backup import backed_up
 
     outcome = backed_up(catalogue_path(catalogue), file, replace=force)
-    tell(outcome, BACKUP_CATALOGUE, Voice(json, quiet))
+    tell(outcome, Voice(json, quiet))

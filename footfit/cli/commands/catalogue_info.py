@@ -15,9 +15,8 @@ def catalogue_info(
 
     Example: footfit catalogue-info
     """
-    from footfit.cli.answer_forms import CATALOGUE_INFO
     from footfit.cli.answers import Voice, tell
     from footfit.cli.settings import catalogue_path
     from footfit.pipeline.library import lasts
 
-    tell(lasts.facts(catalogue_path(catalogue)), CATALOGUE_INFO, Voice(json, quiet))
+    tell(lasts.facts(catalogue_path(catalogue)), Voice(json, quiet))

@@ -15,13 +15,12 @@ def check_catalogue(
 
     Example: footfit check-catalogue
     """
-    from footfit.cli.answer_forms import CHECK_CATALOGUE
     from footfit.cli.answers import Voice, tell
     from footfit.cli.settings import catalogue_path
     from footfit.errors import CheckFailed
     from footfit.pipeline.library.check import checked, failure_words
 
     outcome = checked(catalogue_path(catalogue))
-    tell(outcome, CHECK_CATALOGUE, Voice(json, quiet))
+    tell(outcome, Voice(json, quiet))
     if outcome.findings:
         raise CheckFailed(failure_words(outcome.findings), outcome.path)

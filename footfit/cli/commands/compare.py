@@ -66,7 +66,6 @@ def compare(
 
     Example: footfit compare foot.stl derby-42 --html report.html
     """
-    from footfit.cli.answer_forms import COMPARE
     from footfit.cli.answers import Voice, only_one, sources_of, tell
     from footfit.cli.outputs import refuse_existing
     from footfit.pipeline.batch.sources import ReadingOptions
@@ -80,7 +79,7 @@ def compare(
     around = last_named(last, catalogue)
     comparison = compared(profiled_source(sources[0], reading), around)
     write_comparison(comparison, output, plot, html, force=force)
-    tell(comparison, COMPARE, Voice(json, quiet, answers=csv != options.STDOUT))
+    tell(comparison, Voice(json, quiet, answers=csv != options.STDOUT))
     write_csv(comparison, csv, force=force)
 
 
@@ -122,7 +121,8 @@ def write_comparison(
 def write_csv(comparison: Comparison, csv: Path | None, *, force: bool) -> None:
     """Write the tables, to a file or to stdout."""
     from footfit.cli.outputs import write_or_answer
-    from footfit.report.terminal.comparison_tables import compare_csv
+    from footfit.report.csv import csv_text
+    from footfit.results import Comparison
 
     if csv is not None:
-        write_or_answer(csv, compare_csv([comparison]), force=force)
+        write_or_answer(csv, csv_text(Comparison, [comparison]), force=force)

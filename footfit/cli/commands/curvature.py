@@ -52,7 +52,6 @@ def curvature(
     """
     from functools import partial
 
-    from footfit.cli.answer_forms import curvature_answer
     from footfit.cli.answers import Voice, only_one, sources_of, told
     from footfit.cli.outputs import refuse_existing
     from footfit.pipeline.batch.runs import outcomes
@@ -65,10 +64,10 @@ def curvature(
     refuse_existing(output, force=force, kinds=CURVATURE_KINDS)
     refuse_existing(plot, force=force, kinds=PICTURE_KINDS)
     reading = ReadingOptions(units.value, known_length)
-    work = partial(curvature_source, reading=reading, radius_mm=radius)
+    named = None if output is None else str(output)
+    work = partial(curvature_source, reading=reading, radius_mm=radius, output=named)
     code = told(
         outcomes(work, sources, jobs),
-        curvature_answer(None if output is None else str(output)),
         Voice(json, quiet, len(sources)),
         then=lambda values: write_curvature(values, output, plot, force=force),
     )

@@ -26,7 +26,6 @@ def demo(
 
     Example: footfit demo
     """
-    from footfit.cli.answer_forms import ALIGN, DEMO, FLARE, INGEST_LAST, MATCH, SET_REFERENCE
     from footfit.cli.answers import Voice, tell
     from footfit.cli.outputs import write_output
     from footfit.pipeline.demo import demonstrate
@@ -35,18 +34,18 @@ def demo(
     shown = demonstrate(folder, replace=force)
     steps = Voice(as_json=False, quiet=quiet, answers=not json)
     for outcome in shown.ingested:
-        tell(outcome, INGEST_LAST, steps)
-    tell((shown.reference, len(shown.ingested)), SET_REFERENCE, steps)
-    tell(shown.foot.aligned, ALIGN, steps)
-    tell(shown.foot, FLARE, steps)
-    tell(shown.match, MATCH, steps)
+        tell(outcome, steps)
+    tell(shown.reference, steps)
+    tell(shown.foot.aligned, steps)
+    tell(shown.foot, steps)
+    tell(shown.match, steps)
     files = demo_files(shown)
     for name, data in files.items():
         write_output(folder / name, data, force=force)
     outputs = (str(shown.catalogue), *(str(folder / name) for name in files))
     best = shown.match.candidates[0].last if shown.match.candidates else None
     said = DemoOutcome(str(folder), len(shown.ingested), best, outputs)
-    tell(said, DEMO, Voice(json, quiet))
+    tell(said, Voice(json, quiet))
 
 
 def demo_files(shown: Demonstration) -> dict[str, bytes | str]:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
 from typing import Annotated
 
@@ -28,20 +29,21 @@ def export_last(
 
     Example: footfit export-last derby-42 -o derby-42.stl
     """
-    from footfit.cli.answer_forms import EXPORT_LAST
     from footfit.cli.answers import Voice, tell
     from footfit.cli.outputs import refuse_existing, write_output
     from footfit.cli.settings import catalogue_path
     from footfit.pipeline.export import MESH_KINDS, copy_bytes
     from footfit.pipeline.library import lasts
-    from footfit.report.json.last_documents import record_text
+    from footfit.report.json import json_line
+    from footfit.results import ExportOutcome
 
     refuse_existing(output, force=force, kinds=(*MESH_KINDS, "json"))
-    path, copy = catalogue_path(catalogue), None
+    path, outcome = catalogue_path(catalogue), ExportOutcome(last, str(output))
     if output.suffix.lower() == ".json":
-        data: bytes | str = record_text(*lasts.last(path, last))
+        data: bytes | str = json_line(lasts.last(path, last).to_dict()) + "\n"
     else:
         copy = lasts.mesh_copy(path, last)
+        outcome = replace(outcome, faces=copy.faces, error_mm=copy.error_mm)
         data = copy_bytes(copy, output)
     write_output(output, data, force=force)
-    tell((last, str(output), copy), EXPORT_LAST, Voice(json, quiet))
+    tell(outcome, Voice(json, quiet))

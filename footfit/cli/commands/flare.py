@@ -39,15 +39,15 @@ def flare(
     """
     from functools import partial
 
-    from footfit.cli.answer_forms import FLARE
     from footfit.cli.answers import Voice, only_one, sources_of, split_where_asked, told
     from footfit.cli.outputs import one_answer, refuse_existing, write_or_answer, write_output
     from footfit.pipeline.batch.runs import outcomes
     from footfit.pipeline.batch.sources import ReadingOptions
     from footfit.pipeline.export import PICTURE_KINDS, file_kind
     from footfit.pipeline.scan.reading import profiled_source
-    from footfit.report.csv.answers_csv import flare_csv
+    from footfit.report.csv import csv_text
     from footfit.report.pictures.plots import flare_plot
+    from footfit.results import Profiled
 
     refuse_existing(plot, force=force, kinds=PICTURE_KINDS)
     refuse_existing(csv, force=force)
@@ -58,9 +58,9 @@ def flare(
     work = partial(profiled_source, reading=reading)
     voice = Voice(json, quiet, len(sources), answers=csv != options.STDOUT)
     shapes: list[Profiled] = []
-    code = told(outcomes(work, sources, jobs), FLARE, voice, then=shapes.append)
+    code = told(outcomes(work, sources, jobs), voice, then=shapes.append)
     if csv is not None:
-        write_or_answer(csv, flare_csv(shapes), force=force)
+        write_or_answer(csv, csv_text(Profiled, shapes), force=force)
     if plot is not None and shapes:
         write_output(plot, flare_plot(shapes[0], file_kind(plot, PICTURE_KINDS)), force=force)
     raise typer.Exit(code)

@@ -5,15 +5,11 @@ from __future__ import annotations
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import Annotated, Any
 
 import typer
 
 from footfit.cli import options
-
-if TYPE_CHECKING:
-    from footfit.cli.answers import Voice
-    from footfit.results import IngestOutcome
 
 LABELS = "What people say of the last"
 
@@ -72,9 +68,8 @@ def ingest_last(
 
     Example: footfit ingest-last lasts/ --manifest lasts.csv --jobs 2
     """
-    from footfit.cli.answer_forms import INGEST_LAST
     from footfit.cli.answers import Voice, counted, failures_last, sources_of, tell
-    from footfit.cli.console import say, say_notices
+    from footfit.cli.console import error_line, say, say_notices
     from footfit.cli.settings import catalogue_path
     from footfit.cli.signals import LISTENER
     from footfit.pipeline.batch.runs import common_code
@@ -101,10 +96,10 @@ def ingest_last(
     )
     with heard(), failures_last(voice) as tell_failure:
         for outcome in counted(ingesting, voice):
-            tell(outcome, INGEST_LAST, voice)
-            if outcome.exit:
-                refused.append(outcome.exit)
-                tell_failure(refusal_line(outcome, voice))
+            tell(outcome, voice)
+            if outcome.failure is not None:
+                refused.append(int(outcome.failure.exit))
+                tell_failure(error_line(outcome.failure, as_json=json))
     if dry_run:
         say("a dry run: nothing was stored", quiet=quiet)
     raise typer.Exit(common_code(refused))
@@ -127,11 +122,3 @@ def heard() -> Iterator[None]:
     except ReaderGone as error:
         words = "nobody reads the answers any more; what was stored is whole, run it again"
         raise BadOption(words) from error
-
-
-def refusal_line(outcome: IngestOutcome, voice: Voice) -> str:
-    """The refusal as an error line for stderr; the answer has its own line already."""
-    from footfit.cli.console import failure_line
-
-    code, message = outcome.code or "refused", outcome.error or ""
-    return failure_line(code, outcome.exit, message, outcome.path, as_json=voice.as_json)

@@ -17,16 +17,16 @@ def list_lasts(
 
     Example: footfit list-lasts
     """
-    from footfit.cli.answer_forms import LIST_LASTS
     from footfit.cli.answers import Voice, tell
     from footfit.cli.outputs import one_answer, refuse_existing, write_or_answer
     from footfit.cli.settings import catalogue_path
     from footfit.pipeline.library import lasts
-    from footfit.report.csv.answers_csv import lasts_csv
+    from footfit.report.csv import csv_text
+    from footfit.results import Library
 
     refuse_existing(csv, force=force)
     one_answer(csv, as_json=json)
     found = lasts.listed(catalogue_path(catalogue))
     if csv is not None:
-        write_or_answer(csv, lasts_csv(found.lasts, found.reference), force=force)
-    tell(found, LIST_LASTS, Voice(json, quiet, answers=csv != options.STDOUT))
+        write_or_answer(csv, csv_text(Library, [found]), force=force)
+    tell(found, Voice(json, quiet, answers=csv != options.STDOUT))

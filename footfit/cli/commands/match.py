@@ -103,7 +103,6 @@ def match(
 
     Example: footfit match left.stl right.stl --pair --html report.html
     """
-    from footfit.cli.answer_forms import MATCH
     from footfit.cli.answers import Voice, only_one, sources_of, split_where_asked, told
     from footfit.cli.outputs import one_answer, refuse_existing, write_or_answer
     from footfit.cli.settings import catalogue_path
@@ -111,7 +110,8 @@ def match(
     from footfit.pipeline.fit.candidates import choice
     from footfit.pipeline.fit.fit_profile import fit_profile
     from footfit.pipeline.fit.match import Question, customers
-    from footfit.report.csv.answers_csv import match_csv
+    from footfit.report.csv import csv_text
+    from footfit.results import Match
 
     refuse_check(by, fail_under)
     refuse_existing(html, force=force, kinds=("html", "htm"))
@@ -128,9 +128,9 @@ def match(
     answers = customers(sources, reading, found, question, pair=pair, jobs=jobs)
     voice = Voice(json, quiet, 1 if pair else len(sources), answers=csv != options.STDOUT)
     matches: list[Match] = []
-    code = told(answers, MATCH, voice, then=matches.append)
+    code = told(answers, voice, then=matches.append)
     if csv is not None:
-        write_or_answer(csv, match_csv(matches), force=force)
+        write_or_answer(csv, csv_text(Match, matches), force=force)
     if html is not None and matches:
         write_report(html, matches[0], path, force=force)
     if fail_under is not None:

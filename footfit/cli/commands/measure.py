@@ -32,13 +32,13 @@ def measure(
     """
     from functools import partial
 
-    from footfit.cli.answer_forms import MEASURE
     from footfit.cli.answers import Voice, sources_of, split_where_asked, told
     from footfit.cli.outputs import refuse_existing, write_or_answer
     from footfit.pipeline.batch.runs import outcomes
     from footfit.pipeline.batch.sources import ReadingOptions
     from footfit.pipeline.scan.measure import measured_source
-    from footfit.report.csv.measure_csv import measures_csv
+    from footfit.report.csv import csv_text
+    from footfit.results import MeasuredScan
 
     refuse_existing(csv, force=force)
     reading = ReadingOptions(units.value, known_length, side.value)
@@ -46,7 +46,7 @@ def measure(
     work = partial(measured_source, reading=reading)
     voice = Voice(json, quiet, len(sources), answers=csv != options.STDOUT)
     shapes: list[MeasuredScan] = []
-    code = told(outcomes(work, sources, jobs), MEASURE, voice, then=shapes.append)
+    code = told(outcomes(work, sources, jobs), voice, then=shapes.append)
     if csv is not None:
-        write_or_answer(csv, measures_csv(shapes), force=force)
+        write_or_answer(csv, csv_text(MeasuredScan, shapes), force=force)
     raise typer.Exit(code)

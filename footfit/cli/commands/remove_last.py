@@ -16,10 +16,8 @@ def remove_last(
 
     Example: footfit remove-last derby-42
     """
-    from footfit.cli.answer_forms import REMOVE_LAST
     from footfit.cli.answers import Voice, tell
     from footfit.cli.settings import catalogue_path
     from footfit.pipeline.library import lasts
 
-    lasts.remove(catalogue_path(catalogue), last)
-    tell(last, REMOVE_LAST, Voice(json, quiet))
+    tell(lasts.remove(catalogue_path(catalogue), last), Voice(json, quiet))

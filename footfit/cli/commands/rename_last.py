@@ -21,10 +21,8 @@ def rename_last(
 
     Example: footfit rename-last scan-0042 derby-42
     """
-    from footfit.cli.answer_forms import RENAME_LAST
     from footfit.cli.answers import Voice, tell
     from footfit.cli.settings import catalogue_path
     from footfit.pipeline.library import lasts
 
-    lasts.rename(catalogue_path(catalogue), last, new_name)
-    tell((last, new_name), RENAME_LAST, Voice(json, quiet))
+    tell(lasts.rename(catalogue_path(catalogue), last, new_name), Voice(json, quiet))

@@ -23,9 +23,8 @@ def restore_catalogue(
 
     Example: footfit restore-catalogue lasts-2026-05-01.footfit
     """
-    from footfit.cli.answer_forms import RESTORE_CATALOGUE
     from footfit.cli.answers import Voice, tell
     from footfit.cli.settings import catalogue_path
     from footfit.pipeline.library.backup import restored
 
-    tell(restored(catalogue_path(catalogue), file), RESTORE_CATALOGUE, Voice(json, quiet))
+    tell(restored(catalogue_path(catalogue), file), Voice(json, quiet))

@@ -18,10 +18,9 @@ def set_reference(
 
     Example: footfit set-reference derby-42
     """
-    from footfit.cli.answer_forms import SET_REFERENCE
     from footfit.cli.answers import Voice, tell
     from footfit.cli.settings import catalogue_path
     from footfit.pipeline.library import lasts
 
     changed = lasts.set_reference(catalogue_path(catalogue), last)
-    tell(changed, SET_REFERENCE, Voice(json, quiet))
+    tell(changed, Voice(json, quiet))

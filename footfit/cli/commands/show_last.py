@@ -16,9 +16,8 @@ def show_last(
 
     Example: footfit show-last derby-42
     """
-    from footfit.cli.answer_forms import SHOW_LAST
     from footfit.cli.answers import Voice, tell
     from footfit.cli.settings import catalogue_path
     from footfit.pipeline.library import lasts
 
-    tell(lasts.last(catalogue_path(catalogue), last), SHOW_LAST, Voice(json, quiet))
+    tell(lasts.last(catalogue_path(catalogue), last), Voice(json, quiet))

@@ -15,9 +15,8 @@ def upgrade_catalogue(
 
     Example: footfit upgrade-catalogue
     """
-    from footfit.cli.answer_forms import UPGRADE_CATALOGUE
     from footfit.cli.answers import Voice, tell
     from footfit.cli.settings import catalogue_path
     from footfit.pipeline.library.upgrade import upgrade
 
-    tell(upgrade(catalogue_path(catalogue)), UPGRADE_CATALOGUE, Voice(json, quiet))
+    tell(upgrade(catalogue_path(catalogue)), Voice(json, quiet))

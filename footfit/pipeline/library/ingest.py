@@ -259,7 +259,7 @@ def _stored(
     entry, path = outcome.item, outcome.item.path
     if outcome.value is None:
         assert outcome.error is not None
-        return _refused(path, outcome.error)
+        return IngestOutcome(path, "refused", failure=outcome.error)
     try:
         status = _decided(outcome.value, entry, index, replace)
         if status == "unchanged":
@@ -277,7 +277,7 @@ def _stored(
     except FootfitError as error:
         if error.exit == ExitCode.CATALOGUE_UNUSABLE:
             raise
-        return _refused(path, error.at(path))
+        return IngestOutcome(path, "refused", failure=error.at(path))
     return _accepted(path, status, record, first=first)
 
 
@@ -344,23 +344,7 @@ def _accepted(path: str | None, status: str, record: LastRecord, *, first: bool)
         last=record.labels.name,
         side=record.side.side,
         flare_angle_deg=record.flare.angle_deg,
-        error=None,
-        exit=0,
-        code=None,
         warnings=record.warnings if status != "unchanged" else (),
         reference=first,
         notes=unit_notes(record.info, record.length_mm) if status != "unchanged" else (),
-    )
-
-
-def _refused(path: str | None, error: FootfitError) -> IngestOutcome:
-    return IngestOutcome(
-        path=path,
-        status="refused",
-        last=None,
-        side=None,
-        flare_angle_deg=None,
-        error=error.message,
-        exit=int(error.exit),
-        code=error.code,
     )

@@ -16,6 +16,10 @@ from footfit.results import (
     Method,
     Notice,
     Reference,
+    ReferenceOutcome,
+    RemoveOutcome,
+    RenameOutcome,
+    StoredLast,
 )
 
 FIRST_STEPS = "type: footfit ingest-last FOLDER, or try: footfit demo"
@@ -40,7 +44,7 @@ def listed(path: Path) -> Library:
     )
 
 
-def last(path: Path, name: str) -> tuple[LastRecord, str | None]:
+def last(path: Path, name: str) -> StoredLast:
     """One last, and the reference's name.
 
     Raises
@@ -50,12 +54,12 @@ def last(path: Path, name: str) -> tuple[LastRecord, str | None]:
     """
     with open_catalogue(path) as catalogue:
         reference = catalogue.reference()
-        return catalogue.record(name), reference.last if reference else None
+        return StoredLast(catalogue.record(name), reference.last if reference else None)
 
 
-def set_reference(path: Path, name: str) -> tuple[Reference, int]:
+def set_reference(path: Path, name: str) -> ReferenceOutcome:
     """Make a last the paper's "first model": every stored ``paper_transform`` is rewritten, in
-    one transaction and without the mesh files. Returns the reference and the number of lasts.
+    one transaction and without the mesh files.
 
     Raises
     ------
@@ -63,10 +67,10 @@ def set_reference(path: Path, name: str) -> tuple[Reference, int]:
         There is no such last, or the catalogue cannot be written; nothing is changed.
     """
     with open_catalogue(path, write=True, create=False) as catalogue:
-        return catalogue.set_reference(name), len(catalogue.names())
+        return ReferenceOutcome(catalogue.set_reference(name), len(catalogue.names()))
 
 
-def rename(path: Path, name: str, new_name: str) -> None:
+def rename(path: Path, name: str, new_name: str) -> RenameOutcome:
     """Give a last another name.
 
     Raises
@@ -76,9 +80,10 @@ def rename(path: Path, name: str, new_name: str) -> None:
     """
     with open_catalogue(path, write=True, create=False) as catalogue:
         catalogue.rename(name, new_name)
+    return RenameOutcome(new_name, name)
 
 
-def remove(path: Path, name: str) -> None:
+def remove(path: Path, name: str) -> RemoveOutcome:
     """Remove a last; the reference is refused.
 
     Raises
@@ -88,6 +93,7 @@ def remove(path: Path, name: str) -> None:
     """
     with open_catalogue(path, write=True, create=False) as catalogue:
         catalogue.remove(name)
+    return RemoveOutcome(name)
 
 
 def mesh_copy(path: Path, name: str) -> MeshCopy:

@@ -72,7 +72,10 @@ def profiled_source(source: Source, reading: ReadingOptions) -> Profiled:
 
 
 def curvature_source(
-    source: Source, reading: ReadingOptions, radius_mm: float | None
+    source: Source, reading: ReadingOptions, radius_mm: float | None, output: str | None = None
 ) -> SurfaceCurvature:
-    """Read one mesh and estimate its curvature at a scale; None is the default scale."""
-    return surface_curvature(read(source, reading), radius_mm)
+    """Read one mesh and estimate its curvature at a scale; None is the default scale.
+
+    ``output`` is the name of the file that will hold the values, for the document.
+    """
+    return replace(surface_curvature(read(source, reading), radius_mm), output=output)

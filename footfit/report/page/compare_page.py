@@ -10,7 +10,6 @@ from footfit.report.page.page import Cell, page, picture, table, text, together,
 from footfit.report.page.scene import scene_block
 from footfit.report.wording.comparison_words import (
     SIZE_HEADS,
-    flare_delta_deg,
     lengths_words,
     swing_words,
 )
@@ -142,7 +141,7 @@ def _as_match(comparison: Comparison) -> Match:
         side=last.side.side,
         mirrored=comparison.mirrored,
         distance=0.0,
-        flare=FlareDifference(0.0, flare_delta_deg(comparison), ()),
+        flare=FlareDifference(0.0, comparison.flare_delta_deg, ()),
         clearance_mm=(),
         verdict=None,
         why="",

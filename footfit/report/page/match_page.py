@@ -11,7 +11,6 @@ from typing import TYPE_CHECKING
 
 from footfit import __version__
 from footfit.geometry.fit.sizes import foot_sizes, system_named
-from footfit.report.json.parts import NOT_YET
 from footfit.report.page.compare_page import (
     heat_picture,
     room_part,
@@ -42,6 +41,7 @@ from footfit.report.wording.text import (
     tie_words,
     visible,
 )
+from footfit.results.values import NOT_YET
 
 if TYPE_CHECKING:
     from footfit.report.pictures.match_figure import Shapes

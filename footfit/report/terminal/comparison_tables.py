@@ -1,4 +1,4 @@
-"""A foot in a last: as a JSON document, as tables for a terminal, as CSV."""
+"""A foot in a last as tables for a terminal."""
 
 from __future__ import annotations
 
@@ -7,97 +7,14 @@ from typing import TYPE_CHECKING
 from rich.console import Group
 from rich.text import Text
 
-from footfit.report.csv.answers_csv import csv_text
-from footfit.report.json.lines import Json, document
-from footfit.report.json.numbers import degrees, measured_value, millimetres
-from footfit.report.json.parts import mesh_part, side_part, warnings_part
-from footfit.report.json.surface_parts import zone_clearance_part
 from footfit.report.terminal.scan_tables import lined_table
-from footfit.report.wording.comparison_words import (
-    SIZE_HEADS,
-    flare_delta_deg,
-    lengths_words,
-    swing_words,
-)
+from footfit.report.wording.comparison_words import SIZE_HEADS, lengths_words, swing_words
 from footfit.report.wording.text import difference_text, file_name, plain, signed, visible
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable
-
     from rich.console import RenderableType
 
-    from footfit.report.csv.answers_csv import Cell
-    from footfit.results import Comparison, SectionComparison
-
-CSV_COLUMNS = (
-    "path",
-    "last",
-    "part",
-    "place",
-    "quantity",
-    "unit",
-    "foot",
-    "last_value",
-    "difference",
-    "sd",
-    "reason",
-)
-
-
-# ---------------------------------------------------------------- JSON
-
-
-def compare_document(comparison: Comparison) -> Json:
-    """``footfit.compare/2``: one foot in one last."""
-    alignment, way = comparison.foot.aligned.alignment, comparison.docking
-    shift = [millimetres(value) for value in way.shift_mm]
-    return document(
-        "compare",
-        {
-            "mesh": mesh_part(alignment.info),
-            **side_part(alignment.side),
-            "last": comparison.last.labels.name,
-            "last_side": comparison.last.side.side,
-            "mirrored": comparison.mirrored,
-            "length_mm": lengths_part(alignment.length_mm, comparison.last.length_mm),
-            "extent_mm": lengths_part(alignment.extent_mm, comparison.last.extent_mm),
-            "flare_delta_deg": degrees(flare_delta_deg(comparison)),
-            "docking": {
-                "swing_mm": millimetres(way.swing_mm),
-                "pitch_deg": degrees(way.pitch_deg),
-                "yaw_deg": degrees(way.yaw_deg),
-                "bend_deg": degrees(way.bend_deg),
-                "shift_mm": shift,
-            },
-            "zones": {zone.zone: zone_clearance_part(zone) for zone in comparison.zones},
-            "sections": [section_part(section) for section in comparison.sections],
-            "warnings": warnings_part(comparison.warnings),
-        },
-        version=2,
-    )
-
-
-def lengths_part(foot_mm: float | None, last_mm: float | None) -> Json:
-    """The lengths of foot and last, and last minus foot; null where one is not known."""
-    longer_mm = None if foot_mm is None or last_mm is None else last_mm - foot_mm
-    lengths = {"foot": foot_mm, "last": last_mm, "difference": longer_mm}
-    return {name: millimetres(value) for name, value in lengths.items()}
-
-
-def section_part(section: SectionComparison) -> Json:
-    """One section's sizes, of foot and last, and their difference."""
-    sizes: Json = {
-        size.name: {
-            "foot": measured_value(size.foot),
-            "last": measured_value(size.last),
-            "difference": measured_value(size.difference),
-        }
-        for size in section.sizes
-    }
-    return {"station": section.station, "x_mm": millimetres(section.x_mm), "sizes": sizes}
-
-
-# ---------------------------------------------------------------- the terminal
+    from footfit.results import Comparison
 
 
 def compare_table(comparison: Comparison) -> RenderableType:
@@ -151,37 +68,3 @@ def _sections_table(comparison: Comparison) -> RenderableType:
             section.station, plain(section.x_mm, 0), *(cells[name] for name in SIZE_HEADS)
         )
     return table
-
-
-# ---------------------------------------------------------------- CSV
-
-
-def compare_csv(comparisons: Iterable[Comparison]) -> str:
-    """One row per section and size, and one per zone and figure."""
-    rows = (row for comparison in comparisons for row in _rows(comparison))
-    return csv_text(CSV_COLUMNS, rows, header=True)
-
-
-def _rows(comparison: Comparison) -> Iterable[list[Cell]]:
-    path, last = comparison.foot.aligned.alignment.info.path, comparison.last.labels.name
-    for section in comparison.sections:
-        for size in section.sizes:
-            room = size.difference
-            yield [
-                *(path, last, "section", section.station, size.name, "mm"),
-                *(millimetres(one.value) for one in (size.foot, size.last, room)),
-                millimetres(room.sd),
-                room.reason,
-            ]
-    for zone in comparison.zones:
-        for name, value in zone_clearance_part(zone).items():
-            quantity, unit = str(name).rsplit("_", 1)
-            room_value = value if isinstance(value, float) else None
-            yield [
-                *(path, last, "zone", zone.zone, quantity, unit),
-                None,
-                None,
-                room_value,
-                None,
-                None,
-            ]

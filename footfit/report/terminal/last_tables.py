@@ -7,8 +7,7 @@ from typing import TYPE_CHECKING
 from rich.console import Group
 from rich.text import Text
 
-from footfit.geometry.fit.sizes import LabelCheck, label_check, label_words
-from footfit.report.json.parts import paper_frame_angle_deg
+from footfit.geometry.fit.sizes import LabelCheck, label_words
 from footfit.report.terminal.scan_tables import (
     cell,
     eigenvalue_words,
@@ -33,18 +32,22 @@ if TYPE_CHECKING:
     from footfit.results import (
         CatalogueFacts,
         DemoOutcome,
+        ExportOutcome,
         LastRecord,
-        MeshCopy,
-        Reference,
+        Library,
+        ReferenceOutcome,
+        RemoveOutcome,
+        RenameOutcome,
+        StoredLast,
         UpgradeOutcome,
     )
 
 MEGABYTE = 1_000_000
 
 
-def list_lasts_table(records: Iterable[LastRecord], reference: str | None) -> RenderableType:
+def list_lasts_table(library: Library) -> RenderableType:
     """The library, one line per last, by name: a star marks the reference, "!" a label off."""
-    ordered = sorted(records, key=lambda record: record.labels.name)
+    ordered, reference = library.by_name(), library.reference
     heads = ("last", "style", "size", "side", "length\nmm", "flare\ndeg", "class", "heel\nmm")
     table = lined_table(*heads, right=frozenset({"length\nmm", "flare\ndeg", "heel\nmm"}))
     notes: list[Text] = []
@@ -72,7 +75,7 @@ def list_lasts_table(records: Iterable[LastRecord], reference: str | None) -> Re
 
 def flagged(record: LastRecord) -> LabelCheck | None:
     """The check of a label that is more than a size from its last's length, else None."""
-    check = label_check(record.labels.size, record.labels.size_system, record.length_mm)
+    check = record.label_check
     return check if check is not None and check.flagged else None
 
 
@@ -83,8 +86,9 @@ def _size_row(record: LastRecord) -> Text:
     return size.append(f" ! {label_words(off)}", "yellow") if off else size
 
 
-def show_last_table(record: LastRecord, reference: str | None) -> RenderableType:
+def show_last_table(last: StoredLast) -> RenderableType:
     """Everything of one last that a person reads."""
+    record, reference = last.record, last.reference
     labels, flare, info = record.labels, record.flare, record.info
     upgraded = f", upgraded from {record.upgraded_from}" if record.upgraded_from else ""
     turned = f"{signed(flare.angle_deg)} ± {plain(flare.angle_sd_deg)} deg ({flare.flare_class})"
@@ -117,7 +121,7 @@ def _measures(record: LastRecord) -> list[tuple[str, str | Text]]:
 
 
 def _paper_words(record: LastRecord) -> str:
-    angle = paper_frame_angle_deg(record)
+    angle = record.paper_frame_angle_deg
     if angle is None:
         return "none: no reference is set"
     return f"turned by {plain(angle)} deg from footfit's"
@@ -153,30 +157,32 @@ def _counted(total: int, sides: Iterable[tuple[str, int]]) -> Text:
     return cell(f"{total} ({split})" if split else str(total))
 
 
-def set_reference_line(reference: Reference, lasts: int) -> Text:
+def set_reference_line(outcome: ReferenceOutcome) -> Text:
     """Which last the paper's frame now comes from, and how many frames were rewritten."""
-    noun = "frame" if lasts == 1 else "frames"
-    line = Text("reference  ").append(visible(reference.last), "bold")
-    return line.append(f"  {lasts} stored {noun} rewritten", "not bold")
+    noun = "frame" if outcome.rewritten == 1 else "frames"
+    line = Text("reference  ").append(visible(outcome.reference.last), "bold")
+    return line.append(f"  {outcome.rewritten} stored {noun} rewritten", "not bold")
 
 
-def rename_last_line(old: str, new: str) -> Text:
+def rename_last_line(outcome: RenameOutcome) -> Text:
     """A last under its new name."""
-    return Text("renamed  ").append(f"{visible(old)} to {visible(new)}", "bold")
+    names = f"{visible(outcome.renamed_from)} to {visible(outcome.last)}"
+    return Text("renamed  ").append(names, "bold")
 
 
-def remove_last_line(last: str) -> Text:
+def remove_last_line(outcome: RemoveOutcome) -> Text:
     """A last that is no longer there."""
-    return Text("removed  ").append(visible(last), "bold")
+    return Text("removed  ").append(visible(outcome.last), "bold")
 
 
-def export_last_line(last: str, output: str, copy: MeshCopy | None) -> Text:
+def export_last_line(outcome: ExportOutcome) -> Text:
     """What was written where, and how true the mesh is."""
-    line = Text("exported  ").append(visible(last), "bold").append(f" to {visible(output)}")
-    if copy is None:
+    line = Text("exported  ").append(visible(outcome.last), "bold")
+    line.append(f" to {visible(outcome.output)}")
+    if outcome.faces is None or outcome.error_mm is None:
         return line
-    error = plain(copy.error_mm, 2)
-    return line.append(f"  {copy.faces:,} faces, at most {error} mm from the file's mesh")
+    error = plain(outcome.error_mm, 2)
+    return line.append(f"  {outcome.faces:,} faces, at most {error} mm from the file's mesh")
 
 
 def upgrade_catalogue_line(outcome: UpgradeOutcome) -> RenderableType:

@@ -14,7 +14,6 @@ from rich.table import Table
 from rich.text import Text
 
 from footfit.geometry.fit.sizes import foot_size, foot_sizes, system_named
-from footfit.report.json.parts import NOT_YET
 from footfit.report.terminal.scan_tables import cell, flare_words, lined_table
 from footfit.report.wording.comparison_words import surfaces_words
 from footfit.report.wording.text import (
@@ -27,6 +26,7 @@ from footfit.report.wording.text import (
     tie_words,
     visible,
 )
+from footfit.results.values import NOT_YET
 
 if TYPE_CHECKING:
     from collections.abc import Sequence

@@ -16,6 +16,7 @@ from rich.table import Table
 from rich.text import Text
 
 from footfit.report.wording.text import length_text, plain, signed, visible
+from footfit.results.profile import spread_part
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Sequence
@@ -164,8 +165,8 @@ def _range_words(values: Sequence[float] | object) -> str:
 def ingest_line(outcome: IngestOutcome) -> Text:
     """One file on one line: what became of it."""
     line = Text(f"{outcome.status:<10}", STATUS_STYLES.get(outcome.status, ""))
-    if outcome.error is not None:
-        return line.append(visible(f"{outcome.path}: {outcome.error}"), "default")
+    if outcome.failure is not None:
+        return line.append(visible(f"{outcome.path}: {outcome.failure.message}"), "default")
     line.append(visible(outcome.last or "-"), "bold default")
     if outcome.side is not None:
         line.append(f"  {outcome.side}", "not bold")
@@ -176,8 +177,6 @@ def ingest_line(outcome: IngestOutcome) -> Text:
 
 def curvature_table(curvature: SurfaceCurvature) -> RenderableType:
     """The spread of a surface's curvature."""
-    from footfit.report.json.documents import spread_part
-
     scale = f"radius {plain(curvature.radius_mm)} mm" if curvature.radius_mm else "one ring"
     rows: list[tuple[str, str | Text]] = [("scale", scale)]
     named = (("k1", curvature.k1, "1/mm"), ("k2", curvature.k2, "1/mm"))

@@ -25,18 +25,13 @@ WORTH_SAYING = 0.10
 MOST_ZONES = 2
 
 
-def flare_delta_deg(comparison: Comparison) -> float:
-    """The last's flare angle minus the foot's."""
-    return comparison.last.flare.angle_deg - comparison.foot.flare.angle_deg
-
-
 def lengths_words(comparison: Comparison) -> str:
     """The two lengths, and the differences in length and in flare."""
     foot, last = comparison.foot.aligned.alignment.length, comparison.last.length
     longer = "" if comparison.longer_mm is None else f": {signed(comparison.longer_mm)} mm"
     return (
         f"foot {length_text(foot)}, last {length_text(last)}{longer}; "
-        f"flare {signed(flare_delta_deg(comparison))} deg"
+        f"flare {signed(comparison.flare_delta_deg)} deg"
     )
 
 

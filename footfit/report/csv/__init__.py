@@ -1,1 +1,0 @@
-"""Results as CSV text for spreadsheets."""

@@ -1,1 +1,0 @@
-"""Results as JSON documents; docs/json.md lists every key."""
