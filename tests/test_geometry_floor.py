@@ -9,8 +9,9 @@ from hypothesis import strategies as st
 
 from footfit.geometry.mesh.samples import quadrature
 from footfit.geometry.mesh.topology import welded
+from footfit.geometry.numeric.planes import LEVEL, Plane, fitted_plane
 from footfit.geometry.pose.floor_plate import is_flat, without_plate
-from footfit.geometry.pose.sole_plane import LEVEL, Plane, fitted_plane, sole_plane, support
+from footfit.geometry.pose.sole_plane import sole_plane, support
 from tests import distortions, shapes
 from tools.lasts import LastSpec, last_mesh
 

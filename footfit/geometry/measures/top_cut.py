@@ -12,7 +12,7 @@ import numpy as np
 from footfit.geometry.mesh.samples import calmed
 from footfit.geometry.mesh.surface import area_vectors
 from footfit.geometry.numeric.arrays import Bools, Floats, Ints
-from footfit.geometry.pose.sole_plane import Plane, fitted_plane
+from footfit.geometry.numeric.planes import Plane, robust_plane
 
 
 @dataclass(frozen=True, slots=True)
@@ -84,22 +84,13 @@ def lid_faces(
     total = float(areas[behind].sum())
     if total <= settings.area * length**2:
         return found
-    plane = _steady_plane(middles[behind], vectors[behind], areas[behind], length, settings)
+    points, share = middles[behind], areas[behind]
+    normal = vectors[behind].sum(axis=0)
+    normal /= np.linalg.norm(normal)
+    start = Plane(normal, float(normal @ (share @ points) / share.sum()))
+    plane = robust_plane(points, share, settings.scale * length, settings.rounds, start)
     level = np.abs(plane.heights(middles)) < settings.thickness * length
     level &= vectors @ plane.normal > settings.flatness * areas
     flat = float(areas[behind & level].sum()) > settings.flat_share * total
     found[candidates[level if flat else behind]] = True
     return found
-
-
-def _steady_plane(
-    points: Floats, vectors: Floats, areas: Floats, length: float, settings: LidSettings
-) -> Plane:
-    """The plane that most of an area lies in: from its mean normal, by Cauchy weights."""
-    normal = vectors.sum(axis=0)
-    normal /= np.linalg.norm(normal)
-    plane = Plane(normal, float(normal @ (areas @ points) / areas.sum()))
-    for _ in range(settings.rounds):
-        away = plane.heights(points) / (settings.scale * length)
-        plane = fitted_plane(points, areas / (1.0 + np.square(away)), normal)
-    return plane

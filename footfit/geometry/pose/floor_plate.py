@@ -9,7 +9,7 @@ import numpy as np
 from footfit.geometry.mesh.surface import area_vectors
 from footfit.geometry.mesh.topology import boundary_edges
 from footfit.geometry.numeric.arrays import Bools, Floats, Ints
-from footfit.geometry.pose.sole_plane import Plane, fitted_plane
+from footfit.geometry.numeric.planes import robust_plane
 
 
 @dataclass(frozen=True, slots=True)
@@ -42,8 +42,9 @@ def without_plate(vertices: Floats, faces: Ints, settings: PlateSettings = PLATE
     if len(rim) < 3:
         return every
     size = float(np.ptp(vertices, axis=0).max())
-    plane = _boundary_plane(vertices[rim], size, settings)
-    on_plane = np.abs(plane.heights(vertices[rim])) < settings.near * size
+    points = vertices[rim]
+    plane = robust_plane(points, np.ones(len(rim)), settings.scale * size, settings.rounds)
+    on_plane = np.abs(plane.heights(points)) < settings.near * size
     if on_plane.mean() < settings.boundary_share:
         return every
     vectors = area_vectors(vertices, faces)
@@ -77,14 +78,3 @@ def _beyond(middles: Floats, left: Bools, normal: Floats) -> Bools:
     low, high = plan[left].min(axis=0), plan[left].max(axis=0)
     outside = ((plan < low) | (plan > high)).any(axis=1)
     return np.asarray(outside & ~left)
-
-
-def _boundary_plane(points: Floats, size: float, settings: PlateSettings) -> Plane:
-    """The plane through most of the boundary, by Cauchy weights."""
-    up = np.array([0.0, 0.0, 1.0])
-    weights = np.ones(len(points))
-    plane = fitted_plane(points, weights, up)
-    for _ in range(settings.rounds):
-        weights = 1 / (1 + (plane.heights(points) / (settings.scale * size)) ** 2)
-        plane = fitted_plane(points, weights, up)
-    return plane

@@ -13,12 +13,11 @@ import numpy as np
 from footfit.geometry.mesh.samples import SurfaceSample
 from footfit.geometry.numeric.angles import angle_between
 from footfit.geometry.numeric.arrays import Floats
+from footfit.geometry.numeric.planes import LEVEL, Plane
 from footfit.geometry.numeric.quantiles import area_quantile
 from footfit.geometry.pose.sole_plane import (
     FLOOR,
-    LEVEL,
     FloorSettings,
-    Plane,
     rim_plane,
     sole_plane,
     support,

@@ -11,6 +11,7 @@ import numpy as np
 
 from footfit.geometry.mesh.samples import SurfaceSample
 from footfit.geometry.numeric.arrays import Bools, Floats
+from footfit.geometry.numeric.planes import LEVEL, Plane, fitted_plane, robust_plane
 
 
 @dataclass(frozen=True, slots=True)
@@ -26,35 +27,11 @@ class FloorSettings:
     support_height: float = 0.06
     rim_stations: int = 14
     rim_share: float = 0.02
-    rim_rounds: int = 10
+    rim_rounds: int = 9
     rim_scale: float = 0.01
 
 
 FLOOR = FloorSettings()
-
-
-@dataclass(frozen=True, slots=True)
-class Plane:
-    """The points with normal . x = offset; ``normal`` (3,) is a unit vector that looks up."""
-
-    normal: Floats
-    offset: float
-
-    def heights(self, points: Floats) -> Floats:
-        """Signed heights (n,) of points (n, 3) over the plane."""
-        return points @ self.normal - self.offset
-
-
-LEVEL = Plane(np.array([0.0, 0.0, 1.0]), 0.0)
-
-
-def fitted_plane(points: Floats, weights: Floats, up: Floats) -> Plane:
-    """The plane with the least weighted square distance from points (n, 3), looking up."""
-    centre = weights @ points / weights.sum()
-    away = points.T - centre[:, None]
-    normal = np.linalg.eigh((weights * away) @ away.T)[1][:, 0]
-    normal = normal * np.where(normal @ up < 0, -1.0, 1.0)
-    return Plane(normal, float(normal @ centre))
 
 
 def sole_plane(
@@ -122,13 +99,8 @@ def rim_plane(sample: SurfaceSample, length: float, settings: FloorSettings = FL
         for half in (False, True)
         if np.any((station == s) & (side == half))
     ]
-    points = np.array(rim)
-    plane = LEVEL
-    weights = np.ones(len(points))
-    for _ in range(settings.rim_rounds):
-        plane = fitted_plane(points, weights, LEVEL.normal)
-        weights = 1 / (1 + (plane.heights(points) / (settings.rim_scale * length)) ** 2)
-    return plane
+    scale = settings.rim_scale * length
+    return robust_plane(np.array(rim), np.ones(len(rim)), scale, settings.rim_rounds)
 
 
 def _lowest_mean(sample: SurfaceSample, chosen: Bools, share: float) -> Floats:
