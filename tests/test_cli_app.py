@@ -14,7 +14,7 @@ from footfit.cli.app import COMMANDS, application
 from footfit.cli.boundary import guarded
 from tests.conftest import Footfit
 
-HEAVY = ("numpy", "scipy", "trimesh", "sqlalchemy", "alembic", "matplotlib")
+HEAVY = ("numpy", "scipy", "trimesh", "sqlalchemy", "alembic", "matplotlib", "jinja2")
 
 
 def modules_after(*arguments: str) -> set[str]:
@@ -33,6 +33,12 @@ def modules_after(*arguments: str) -> set[str]:
 def test_help_opens_none_of_the_heavy_libraries(command: str | None) -> None:
     arguments = ("-h",) if command is None else (command, "-h")
     assert not modules_after(*arguments) & set(HEAVY)
+
+
+def test_a_match_without_a_page_opens_no_templates(foot: Path, catalogue: Path) -> None:
+    opened = modules_after("match", str(foot), "--catalogue", str(catalogue))
+    assert "numpy" in opened
+    assert not opened & {"jinja2", "matplotlib"}
 
 
 @pytest.mark.parametrize("command", [name for name, _, _ in COMMANDS])

@@ -30,6 +30,8 @@ def test_the_wheel_holds_what_the_program_needs_and_no_rubbish(unpacked: Path) -
     names = {str(path.relative_to(unpacked)) for path in unpacked.rglob("*") if path.is_file()}
     assert "footfit/_migrations/env.py" in names
     assert "footfit/_sample_data/lasts.csv" in names
+    assert "footfit/report/page/templates/page.html.jinja" in names
+    assert "footfit/report/page/style.css" in names
     assert not {name for name in names if "__pycache__" in name or name.startswith("tests")}
     for path in ROOT.glob("footfit/**/*"):
         if path.is_file() and "__pycache__" not in path.parts:

@@ -14,8 +14,8 @@ import pytest
 from footfit.meshes.read import scan_from_bytes
 from footfit.report.csv import csv_text
 from footfit.report.json import json_line
-from footfit.report.page import compare_page
 from footfit.report.page.compare_page import compare_report
+from footfit.report.pictures import figures
 from footfit.report.pictures.compare_pictures import heat_bytes, sections_plot
 from footfit.report.pictures.heat import heat_colours
 from footfit.report.pictures.heat_figure import heat_image, own_side
@@ -35,7 +35,7 @@ def page_of() -> str:
 @pytest.fixture
 def unpictured(monkeypatch) -> None:
     """Pages without pictures, for tests of the words alone."""
-    monkeypatch.setattr(compare_page, "picture", lambda *_, **__: "")
+    monkeypatch.setattr(figures, "svg_text", lambda _: "")
 
 
 needs_browser = pytest.mark.skipif(browsing.BROWSER is None, reason=browsing.MISSING)

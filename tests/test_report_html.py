@@ -11,10 +11,13 @@ from html.parser import HTMLParser
 
 import numpy as np
 import pytest
+from jinja2 import UndefinedError
+from markupsafe import Markup
 
 from footfit.pipeline.fit.match import matched
-from footfit.report.page import compare_page, match_page
 from footfit.report.page.match_page import match_report
+from footfit.report.page.rendering import templates
+from footfit.report.pictures import figures
 from footfit.results import LastRecord, Library, Measured, Notice
 from tests import answers, browsing
 from tests.comparisons import comparison
@@ -73,8 +76,7 @@ def drawn(feet: int = 1, roomy: bool = False) -> str:
 @pytest.fixture
 def unpictured(monkeypatch) -> None:
     """Pages without pictures, for tests of the words alone."""
-    monkeypatch.setattr(match_page, "picture", lambda *_, **__: "")
-    monkeypatch.setattr(compare_page, "picture", lambda *_, **__: "")
+    monkeypatch.setattr(figures, "svg_text", lambda _: "")
 
 
 def test_the_page_is_the_same_twice() -> None:
@@ -152,6 +154,24 @@ def test_every_outside_string_is_escaped() -> None:
     assert not [a for _, attributes in page.tags for a in attributes if a.startswith("on")]
     assert page.text().count("<script>alert(1)</script>") >= 6
     assert "\x1b" not in page.text()
+
+
+def test_a_template_shows_what_hides_and_refuses_what_is_not_there() -> None:
+    template = templates().from_string("<b>{{ name }}</b>")
+    assert template.render(name="<i>\u202e\n&") == "<b>&lt;i&gt;\\u202e\\n&amp;</b>"
+    assert template.render(name=Markup("<i>\n</i>")) == "<b><i>\n</i></b>"
+    with pytest.raises(UndefinedError):
+        template.render()
+
+
+def test_every_string_of_a_template_is_escaped() -> None:
+    """No template switches the escaping off; markup comes from the templates alone."""
+    environment = templates()
+    names = environment.list_templates()
+    assert len(names) > 10
+    for name in names:
+        source = environment.loader.get_source(environment, name)[0]
+        assert not re.search(r"\|\s*safe\b|autoescape|Markup", source), name
 
 
 def test_the_page_says_what_the_json_says() -> None:

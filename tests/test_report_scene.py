@@ -12,15 +12,13 @@ import numpy as np
 import pytest
 
 from footfit.pipeline.drawables import drawable
-from footfit.report.page.page import page
-from footfit.report.page.page_style import content_hash
+from footfit.report.page.rendering import content_hash, html_page, page_file, templates
 from footfit.report.page.scene import (
     MOST_VERTICES,
     UNKNOWN,
     packed_mesh,
     packed_room,
-    scene_block,
-    scene_script,
+    scene_of,
 )
 from footfit.report.pictures.heat import (
     BREAKS_MM,
@@ -36,8 +34,17 @@ from tests.comparisons import comparison
 needs_browser = pytest.mark.skipif(browsing.BROWSER is None, reason=browsing.MISSING)
 
 
-def data_of(block: str) -> dict:
-    return json.loads(unescape(re.search('data-scene="([^"]*)"', block)[1]))
+def page_of(comparison) -> str:
+    """A page with nothing but the view."""
+    source = (
+        "{% extends 'page.html.jinja' %}{% block title %}x{% endblock %}"
+        "{% block content %}{% include 'scene.html.jinja' %}{% endblock %}"
+    )
+    return html_page(templates().from_string(source), scene=scene_of(comparison))
+
+
+def data_of(page: str) -> dict:
+    return json.loads(unescape(re.search('data-scene="([^"]*)"', page)[1]))
 
 
 def array(text: str, kind: str) -> np.ndarray:
@@ -59,7 +66,7 @@ def test_the_room_reads_back_and_what_is_not_compared_stays_so():
 
 
 def test_left_feet_are_shown_as_left_feet():
-    right, left = (data_of(scene_block(comparison(side, side))) for side in (False, True))
+    right, left = (data_of(page_of(comparison(side, side))) for side in (False, True))
     assert right["foot"]["vertices"] != left["foot"]["vertices"]
     assert right["view"][0] == -left["view"][0]
     low = right["foot"]["origin"][1]
@@ -68,13 +75,13 @@ def test_left_feet_are_shown_as_left_feet():
 
 
 def test_the_colours_of_the_view_are_the_legends():
-    block = scene_block(comparison())
-    data = data_of(block)
+    page = page_of(comparison())
+    data = data_of(page)
     assert tuple(data["breaks"]) == BREAKS_MM
     assert tuple(data["colours"]) == COLOURS
     for step, colour in enumerate(COLOURS):
-        assert colour in block
-        assert f">{step_words(step)}<" in block
+        assert f'fill="{colour}"' in page
+        assert f">{step_words(step)}<" in page
     assert len(set(COLOURS)) == len(BREAKS_MM) + 1
     middles = np.array([-9.0, -7, -5, -3, -1, 1, 3, 5, 7, 9])
     assert np.array_equal(heat_colours(middles), np.array([rgb(one) for one in COLOURS]))
@@ -98,7 +105,10 @@ def test_the_scale_is_told_apart_without_red_and_green():
 
 def test_a_mesh_too_heavy_for_16_bits_has_no_view():
     heavy = np.zeros((MOST_VERTICES + 1, 3))
-    assert scene_block(replace(comparison(), last_vertices_mm=heavy)) == ""
+    heavy = replace(comparison(), last_vertices_mm=heavy)
+    assert scene_of(heavy) is None
+    assert "<canvas" not in page_of(heavy)
+    assert "<script" not in page_of(heavy)
 
 
 def test_lighter_meshes_keep_the_figures_and_carry_the_colours_over():
@@ -118,9 +128,8 @@ def test_lighter_meshes_keep_the_figures_and_carry_the_colours_over():
 
 
 def shown(more_script: str = "") -> str:
-    """A page with nothing but the view, and a script that uses its switches."""
-    whole = page("x", [scene_block(comparison())], scene=True)
-    script = scene_script()
+    """The view's page with a script that uses its switches."""
+    whole, script = page_of(comparison()), page_file("scene.js")
     used = script + more_script
     return whole.replace(script, used).replace(content_hash(script), content_hash(used))
 

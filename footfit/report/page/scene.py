@@ -8,9 +8,7 @@ from __future__ import annotations
 
 import base64
 import json
-from functools import cache
-from html import escape
-from pathlib import Path
+from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -35,57 +33,33 @@ START = {"right": (58.0, 24.0), "left": (-58.0, 24.0)}
 """Azimuth and elevation at first: from the front of the medial side, where it mostly presses."""
 
 
-@cache
-def scene_script() -> str:
-    """The viewer, as it stands in the page."""
-    return (Path(__file__).parent / "scene.js").read_text(encoding="utf-8")
+@dataclass(frozen=True, slots=True)
+class Scene:
+    """The 3D view of a page.
+
+    ``data`` is what the script draws, as JSON; ``views`` are the buttons, each with azimuth and
+    elevation in degrees; ``steps`` are the legend's colours, each with its range in mm.
+    """
+
+    data: str
+    views: tuple[tuple[str, str], ...]
+    steps: tuple[tuple[str, str], ...]
 
 
-def scene_block(comparison: Comparison) -> str:
-    """The view with its legend and controls; empty where a mesh is too heavy for it.
+def scene_of(comparison: Comparison) -> Scene | None:
+    """The view of a foot in a last; None where a mesh is too heavy for it.
 
     Parameters
     ----------
     comparison : Comparison
-        Its meshes as they are to be shown: see ``pipeline.shapes.drawable``.
+        Its meshes as they are to be shown: see ``pipeline.drawables.drawable``.
     """
     foot, last = own_side(comparison)
     if max(len(foot[0]), len(last[0])) > MOST_VERTICES:
-        return ""
-    data = escape(_scene_data(comparison, foot, last), quote=True)
-    views = "".join(
-        f'<button type="button" data-view="{azimuth:g},{elevation:g}">{name}</button>'
-        for name, (azimuth, elevation) in _views(comparison).items()
-    )
-    return f"""<figure id="scene" class="scene" hidden>
-<canvas id="scene-view" tabindex="0" role="img" data-scene="{data}"
- aria-label="The foot in the last, in three dimensions; the pictures below show the same."></canvas>
-<div class="controls">
-<label><input type="checkbox" data-show="foot" checked> foot</label>
-<label><input type="checkbox" data-show="last" checked> last</label>
-<span class="views">{views}</span>
-</div>
-{legend()}
-<figcaption id="scene-status"></figcaption>
-</figure>"""
-
-
-def legend() -> str:
-    """The scale of colours with its mm, as boxes with words."""
-    width, height = 62, 15
-    boxes = "".join(
-        f'<rect x="{step * width}" y="0" width="{width}" height="{height}" fill="{colour}"/>'
-        f'<text x="{step * width + width / 2:g}" y="{height + 13}">{step_words(step)}</text>'
-        for step, colour in enumerate(COLOURS)
-    )
-    words = (
-        f'<text x="0" y="{height + 29}" class="start">tight: the foot is larger</text>'
-        f'<text x="{len(COLOURS) * width}" y="{height + 29}" class="end">room to spare</text>'
-    )
-    return (
-        f'<svg class="legend" viewBox="0 0 {len(COLOURS) * width} {height + 34}" role="img" '
-        f'aria-label="Colours from tight to room, in mm">{boxes}{words}</svg>'
-    )
+        return None
+    views = tuple((name, f"{a:g},{e:g}") for name, (a, e) in _views(comparison).items())
+    steps = tuple((colour, step_words(step)) for step, colour in enumerate(COLOURS))
+    return Scene(_scene_data(comparison, foot, last), views, steps)
 
 
 def _views(comparison: Comparison) -> dict[str, tuple[float, float]]:

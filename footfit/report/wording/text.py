@@ -29,6 +29,8 @@ def visible(text: str) -> str:
     >>> visible("left\u202efoot")
     'left\\u202efoot'
     """
+    if text.isprintable():
+        return text
     return "".join(sign if sign.isprintable() else repr(sign)[1:-1] for sign in text)
 
 

@@ -1,0 +1,110 @@
+"""Pages from templates: one file, a strict policy, every outside string escaped."""
+
+from __future__ import annotations
+
+import base64
+import hashlib
+from functools import cache
+from importlib import resources
+from typing import TYPE_CHECKING, Any
+
+from footfit import __version__
+from footfit.report.wording import comparison_words, text
+
+if TYPE_CHECKING:
+    from jinja2 import Environment, Template
+
+    from footfit.report.page.scene import Scene
+
+FILTERS = (
+    text.difference_text,
+    text.file_name,
+    text.measured_text,
+    text.plain,
+    text.signed,
+    text.tie_words,
+    comparison_words.lengths_words,
+    comparison_words.surfaces_words,
+    comparison_words.swing_words,
+)
+"""The words and numbers that a template asks for by the function's name."""
+
+
+def html_page(template: str | Template, *, scene: Scene | None = None, **values: object) -> str:
+    """A whole page; with the viewer's script, and the policy that lets it run, for a ``scene``.
+
+    Parameters
+    ----------
+    template : str or Template
+        The name of a template of this package, or one that ``templates`` made.
+    scene : Scene, optional
+        The page's 3D view.
+    **values
+        What the template shows.
+
+    Raises
+    ------
+    jinja2.UndefinedError
+        The template uses a value that is not there.
+    """
+    from markupsafe import Markup
+
+    style, script = page_file("style.css"), page_file("scene.js") if scene else ""
+    own = {
+        "version": __version__,
+        "policy": policy(style, script),
+        "style": Markup(style),
+        "script": Markup(script),
+    }
+    return templates().get_template(template).render(values, scene=scene, **own)
+
+
+@cache
+def templates() -> Environment:
+    """The page's templates: those of this package and no others.
+
+    Every value is escaped, and no character of a string can hide.
+    """
+    from jinja2 import Environment, PackageLoader, StrictUndefined
+
+    environment = Environment(
+        loader=PackageLoader(__package__),
+        autoescape=True,
+        undefined=StrictUndefined,
+        finalize=_shown,
+        trim_blocks=True,
+        lstrip_blocks=True,
+        keep_trailing_newline=True,
+    )
+    environment.filters |= {function.__name__: function for function in FILTERS}
+    return environment
+
+
+def _shown(value: Any) -> Any:
+    """A template's value as it is written: in a string from outside, hidden characters show."""
+    return (
+        text.visible(value) if isinstance(value, str) and not hasattr(value, "__html__") else value
+    )
+
+
+@cache
+def page_file(name: str) -> str:
+    """The style sheet or the viewer's script, as it stands in the page."""
+    return resources.files(__package__).joinpath(name).read_text(encoding="utf-8")
+
+
+def policy(style: str, script: str = "") -> str:
+    """The content-security policy: this style, this script if there is one, pictures inside the
+    page, nothing from outside and nothing to outside.
+    """
+    runs = f"script-src '{content_hash(script)}'; " if script else ""
+    return (
+        f"default-src 'none'; {runs}style-src '{content_hash(style)}'; img-src data:; "
+        "base-uri 'none'; form-action 'none'"
+    )
+
+
+def content_hash(content: str) -> str:
+    """A style's or script's hash as a content-security policy names it."""
+    digest = hashlib.sha256(content.encode("utf-8")).digest()
+    return f"sha256-{base64.b64encode(digest).decode('ascii')}"
