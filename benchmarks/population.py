@@ -30,7 +30,7 @@ from footfit.pipeline.fit.scoring import (
     REJECT,
     Column,
     fit_distance,
-    judged,
+    scores,
     worst_levels,
 )
 from footfit.pipeline.fit.zones import BALL_SHARE
@@ -128,8 +128,8 @@ def best_lasts(people: Feet, profile: FitProfile, widths: tuple[int, ...]) -> tu
         for width in widths:
             room = clearances(people, profile, size + step, np.full(len(size), float(width)))
             spread = np.broadcast_to(sds, room.shape)
-            scored = judged(room, spread, spread, columns)
-            whole = worst_levels(scored, columns)
+            scored = scores(room, spread, spread, columns)
+            whole = worst_levels(scored.level, columns)
             out = whole == REJECT
             key = (scored.level[:, 0] * 10.0 + whole) * 100.0 + fit_distance(scored)
             tried.append((np.where(out, 1e6, key), whole, scored.level))

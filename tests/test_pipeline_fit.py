@@ -17,7 +17,7 @@ from footfit.pipeline.fit.scoring import (
     Column,
     distance_spread,
     fit_distance,
-    judged,
+    scores,
     tiers,
     worst_levels,
 )
@@ -32,7 +32,7 @@ COLUMNS = (Column(0, LENGTH, True), Column(0, GIRTH, True), Column(0, WIDTH, Tru
 def judge(rows, foot_sd=0.0, last_sd=0.0, columns=COLUMNS):
     values = np.array(rows, dtype=float)
     full = np.full(values.shape, 1.0)
-    return judged(values, full * foot_sd, full * last_sd, columns)
+    return scores(values, full * foot_sd, full * last_sd, columns)
 
 
 def test_a_score_is_zero_at_the_target_and_one_at_the_edges_of_good() -> None:
@@ -49,7 +49,7 @@ def test_a_verdict_is_the_range_that_a_clearance_lies_in() -> None:
         [ACCEPTABLE, POOR, POOR],
         [REJECT, REJECT, GOOD],
     ]
-    assert worst_levels(found, COLUMNS).tolist() == [ACCEPTABLE, POOR, REJECT]
+    assert worst_levels(found.level, COLUMNS).tolist() == [ACCEPTABLE, POOR, REJECT]
 
 
 def test_a_reject_is_sure_but_the_length_is_a_gate() -> None:
@@ -60,13 +60,13 @@ def test_a_reject_is_sure_but_the_length_is_a_gate() -> None:
 def test_what_is_not_measured_is_never_passed_silently() -> None:
     nan = float("nan")
     found = judge([[nan, 0, -2], [13, nan, -2]])
-    assert worst_levels(found, COLUMNS).tolist() == [ACCEPTABLE, GOOD]
+    assert worst_levels(found.level, COLUMNS).tolist() == [ACCEPTABLE, GOOD]
 
 
 def test_a_zone_that_does_not_count_judges_nothing() -> None:
     columns = (COLUMNS[0], replace(COLUMNS[1], counts=False), COLUMNS[2])
     found = judge([[13, 40, -2], [13, 0, -2]], columns=columns)
-    assert worst_levels(found, columns).tolist() == [GOOD, GOOD]
+    assert worst_levels(found.level, columns).tolist() == [GOOD, GOOD]
     assert fit_distance(found) == pytest.approx([0.0, 0.0])
 
 
@@ -114,7 +114,7 @@ def test_the_foots_own_error_does_not_make_two_alike_lasts_a_tie_of_chance() -> 
 def test_tiers_begin_with_the_best_and_never_cross_a_verdict() -> None:
     found = judge([[13, 1.0, -2], [13, 1.2, -2], [13, 4.0, -2], [13, 4.1, -2]], 0.3, 0.3)
     distance, spread = fit_distance(found), distance_spread(found)
-    level = worst_levels(found, COLUMNS)
+    level = worst_levels(found.level, COLUMNS)
     assert level.tolist() == [GOOD, GOOD, GOOD, ACCEPTABLE]
     assert tiers([0, 1, 2, 3], distance, level, spread, tie_sds=1.0) == [0, 0, 1, 2]
     assert tiers([0, 1, 2, 3], distance, level, spread, tie_sds=0.0) == [0, 1, 2, 3]

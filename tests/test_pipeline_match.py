@@ -19,7 +19,7 @@ from footfit.pipeline.fit.candidates import choice
 from footfit.pipeline.fit.fit_profile import fit_profile
 from footfit.pipeline.fit.match import Question, matched, meets
 from footfit.pipeline.fit.ranking import TIE_DISTANCE
-from footfit.pipeline.fit.zones import BALL_SHARE, ball_line, pitch_gain_mm, zone_shape
+from footfit.pipeline.fit.zones import BALL_SHARE, ball_line, last_shape, pitch_gain_mm
 from footfit.pipeline.scan.reading import profiled_source
 from footfit.results import Candidate, LastRecord, Library, Match, Measure, Measured, Profiled
 from tests import answers, records
@@ -143,8 +143,8 @@ def test_the_length_comes_first_whatever_the_other_zones_say() -> None:
 @given(st.floats(-10, 10), st.floats(-15, 15))
 @settings(deadline=None, max_examples=50)
 def test_the_ball_line_is_what_the_length_does_not_explain(excess: float, ball: float) -> None:
-    shape = zone_shape(last("a", 273.0 + excess, ball_length=188.0 + ball, heel_height_mm=None))
-    one = zone_shape(last("foot", 260.0, heel_height_mm=None))
+    shape = last_shape(last("a", 273.0 + excess, ball_length=188.0 + ball, heel_height_mm=None))
+    one = last_shape(last("foot", 260.0, heel_height_mm=None))
     found = ball_line(one, shape, 13.0)
     carried = BALL_SHARE * excess
     inside = min(carried, 0.0) <= ball <= max(carried, 0.0)
@@ -366,10 +366,10 @@ def test_a_heel_makes_the_bottom_longer_than_its_chord() -> None:
         pitch = np.arcsin(heel_mm / chord_mm)
         length_mm = chord_mm + forepart_mm * np.cos(pitch)
         pitched = last("a", length_mm, heel_height_mm=heel_mm, ball_length=chord_mm)
-        gain = pitch_gain_mm(zone_shape(replace(pitched, extent_mm=length_mm)))
+        gain = pitch_gain_mm(last_shape(replace(pitched, extent_mm=length_mm)))
         assert length_mm + gain == pytest.approx(chord_mm + forepart_mm)
     flat = last("a", heel_height_mm=None)
-    assert pitch_gain_mm(zone_shape(flat)) == 0.0
+    assert pitch_gain_mm(last_shape(flat)) == 0.0
 
 
 # ---------------------------------------------------------------- the library

@@ -16,16 +16,15 @@ from footfit.pipeline.batch.sources import ReadingOptions, Source
 from footfit.pipeline.fit import reasons
 from footfit.pipeline.fit.fit_profile import fit_profile
 from footfit.pipeline.fit.ranking import (
-    Field,
-    Placing,
-    field,
+    JudgedLasts,
+    Ranking,
     foot_fits,
-    governing,
+    judged_lasts,
     nearest,
-    placed,
+    ranking,
     refusals,
 )
-from footfit.pipeline.fit.scoring import VERDICTS
+from footfit.pipeline.fit.scoring import UNKNOWN_SCORE, VERDICTS
 from footfit.pipeline.scan.measure import suspects
 from footfit.pipeline.scan.reading import profiled_source
 from footfit.results import (
@@ -34,7 +33,6 @@ from footfit.results import (
     FootFit,
     Library,
     Match,
-    Measured,
     Notice,
     Profiled,
     SearchBy,
@@ -43,6 +41,9 @@ from footfit.results import (
 )
 
 NEAREST_NAMED = 3
+"""How many lasts are shown if none fits."""
+WORSE_VERDICT = 1e6
+"""More than any zone can add to a distance."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -58,16 +59,6 @@ class Question:
     surfaces_in: Path | None = None
 
 
-@dataclass(frozen=True, slots=True)
-class _Answer:
-    """What candidates are made from."""
-
-    feet: Sequence[Profiled]
-    found: Field
-    profile: FitProfile
-    by: SearchBy
-
-
 def matched(feet: Sequence[Profiled], library: Library, question: Question = Question()) -> Match:
     """Rank the library for one customer: one foot, or two whose larger governs the length.
 
@@ -76,33 +67,32 @@ def matched(feet: Sequence[Profiled], library: Library, question: Question = Que
     NoCandidate
         No last passes the filters that were given.
     HalfScan
-        By fit: a foot's length is not known, as where its toes were not scanned.
+        By fit: a foot's length is not known, for example if its toes were not scanned.
     """
     if not library.lasts:
         raise NoCandidate(_nothing_left(library))
     if question.by == "fit":
         _refuse_unknown_length(feet)
     profile = question.profile or fit_profile()
-    found = field(feet, library.lasts, profile, question.by)
-    answer = _Answer(feet, found, profile, question.by)
-    placing = placed(found, profile, question.by)
-    shown = range(len(placing.order))[: question.top or None]
-    near = [] if placing.order else nearest(found, NEAREST_NAMED)
-    missed = tuple(_near(answer, rank, row) for rank, row in enumerate(near, start=1))
-    rejected = refusals(found) if question.by == "fit" else {}
+    judged = judged_lasts(feet, library.lasts, profile, question.by)
+    ranked = ranking(judged, profile.tie_sds)
+    shown = range(len(ranked.rows))[: question.top or None]
+    near = [] if ranked.rows else nearest(judged, NEAREST_NAMED)
+    missed = tuple(_missed(judged, rank, row) for rank, row in enumerate(near, start=1))
+    rejected = refusals(judged) if question.by == "fit" else {}
     return Match(
         feet=tuple(feet),
         by=question.by,
         profile=profile.name,
         catalogue_lasts=library.total,
         reference=library.reference,
-        candidates=tuple(_placed_candidate(answer, placing, place) for place in shown),
+        candidates=tuple(_ranked(judged, ranked, place) for place in shown),
         rejected=tuple(sorted((*library.rejected, *rejected.items()))),
-        warnings=library.warnings + _notices(answer, missed, question),
+        warnings=library.warnings + _notices(judged, missed, question.size_system),
         fit_profile=profile,
         nearest=missed,
         size_system=question.size_system,
-        best_verdict=_best_verdict(found, placing, question.by),
+        best_verdict=_best_verdict(judged, ranked),
     )
 
 
@@ -166,17 +156,18 @@ def _refuse_unknown_length(feet: Sequence[Profiled]) -> None:
             raise HalfScan(f"{length.reason}; no last is judged without it: scan again", path)
 
 
-def _best_verdict(found: Field, placing: Placing, by: SearchBy) -> Verdict | None:
+def _best_verdict(judged: JudgedLasts, ranked: Ranking) -> Verdict | None:
     """The best verdict of the ranked lasts, which need not be the first's: length comes first.
 
     A last that a required zone could not be judged in is left out: what is not known is no pass.
     """
-    if by == "shape":
+    if judged.by == "shape":
         return None
-    required = [i for i, one in enumerate(found.columns) if one.counts and one.rule.required]
-    known = np.isfinite(found.judged.score[:, required])
-    sound = set(np.flatnonzero(np.atleast_1d(known.all(axis=1))).tolist())
-    levels = [int(found.level[i]) for i in placing.order if i in sound]
+    required = [
+        i for i, column in enumerate(judged.columns) if column.counts and column.rule.required
+    ]
+    sound: Bools = np.all(judged.known[:, required], axis=1)
+    levels = [int(judged.level[i]) for i in ranked.rows if sound[i]]
     return VERDICTS[min(levels)] if levels else None
 
 
@@ -196,32 +187,31 @@ def _nothing_left(library: Library) -> str:
 # ---------------------------------------------------------------- candidates
 
 
-def _placed_candidate(answer: _Answer, placing: Placing, place: int) -> Candidate:
-    row = placing.order[place]
-    fits = foot_fits(answer.found, row, answer.feet)
-    tied = tuple(answer.found.lasts[i].labels.name for i in placing.tied(place))
-    return _candidate(answer, row, place + 1, fits, tied, _why(answer, placing, place, fits))
+def _ranked(judged: JudgedLasts, ranked: Ranking, place: int) -> Candidate:
+    """The last at a place of the ranking."""
+    row = ranked.rows[place]
+    fits = foot_fits(judged, row)
+    tied = tuple(judged.lasts[i].labels.name for i in ranked.tied(place))
+    return _candidate(judged, row, place + 1, fits, _why(judged, ranked, place, _flat(fits)), tied)
 
 
-def _near(answer: _Answer, rank: int, row: int) -> Candidate:
-    """One of the lasts that come nearest where none fits."""
-    fits = foot_fits(answer.found, row, answer.feet)
-    zones, rules = _flat(fits), [column.rule for column in answer.found.columns]
-    return _candidate(answer, row, rank, fits, (), reasons.missed_sentence(zones, rules))
+def _missed(judged: JudgedLasts, rank: int, row: int) -> Candidate:
+    """One of the lasts that come nearest if none fits."""
+    fits = foot_fits(judged, row)
+    rules = [column.rule for column in judged.columns]
+    return _candidate(judged, row, rank, fits, reasons.missed_sentence(_flat(fits), rules))
 
 
 def _candidate(
-    answer: _Answer,
+    judged: JudgedLasts,
     row: int,
     rank: int,
     fits: tuple[FootFit, ...],
-    tied: tuple[str, ...],
     why: str,
+    tied: tuple[str, ...] = (),
 ) -> Candidate:
-    found, last = answer.found, answer.found.lasts[row]
-    labels = last.labels
-    by_shape, by_fit = answer.by == "shape", answer.by == "fit"
-    known = np.isfinite(found.judged.score[row]).tolist()
+    last, by_shape = judged.lasts[row], judged.by == "shape"
+    labels, governed = last.labels, fits[judged.longer]
     return Candidate(
         rank=rank,
         last=labels.name,
@@ -230,23 +220,18 @@ def _candidate(
         size_system=labels.size_system,
         width_label=labels.width_label,
         side=last.side.side,
-        mirrored=found.mirrored[row],
-        distance=float(found.distance[row]),
-        flare=found.flare[row],
-        clearance_mm=_clearance_mm(fits[governing(answer.feet)]),
-        verdict=None if by_shape else VERDICTS[found.level[row]],
+        mirrored=judged.mirrored(row),
+        distance=float(judged.distance[row]),
+        flare=judged.flare[row],
+        clearance_mm=tuple((z.zone, z.clearance) for z in governed.zones if z.unit == "mm"),
+        verdict=None if by_shape else VERDICTS[judged.level[row]],
         why=why,
         tied_with=tied,
         record=last,
-        distance_sd=float(found.spread.alone()[row]) if by_fit else None,
+        distance_sd=float(judged.spread.alone()[row]) if judged.by == "fit" else None,
         fits=() if by_shape else fits,
-        not_judged=() if by_shape else reasons.not_judged(found.columns, known),
+        not_judged=() if by_shape else reasons.not_judged(_flat(fits)),
     )
-
-
-def _clearance_mm(fit: FootFit) -> tuple[tuple[str, Measured], ...]:
-    """The governing foot's clearances in mm, by zone."""
-    return tuple((zone.zone, zone.clearance) for zone in fit.zones if zone.unit == "mm")
 
 
 def _flat(fits: Sequence[FootFit]) -> list[ZoneFit]:
@@ -254,85 +239,76 @@ def _flat(fits: Sequence[FootFit]) -> list[ZoneFit]:
     return [zone for fit in fits for zone in fit.zones]
 
 
-def _why(answer: _Answer, placing: Placing, place: int, fits: tuple[FootFit, ...]) -> str:
-    found, row = answer.found, placing.order[place]
-    zones = _counting(fits)
-    if answer.by == "flare":
-        flare = next((z for z in zones if z.zone == "flare"), None)
-        sd = 0.0 if flare is None else flare.clearance.sd or 0.0
-        return reasons.flare_words(found.flare[row].delta_deg, sd)
-    if answer.by == "shape":
-        ours, theirs = answer.feet[governing(answer.feet)].length_mm, found.lasts[row].length_mm
-        delta = found.flare[row].delta_deg
+def _why(judged: JudgedLasts, ranked: Ranking, place: int, zones: Sequence[ZoneFit]) -> str:
+    """Why a last stands at its place."""
+    row, first = ranked.rows[place], ranked.rows[0]
+    delta_deg = judged.flare[row].delta_deg
+    if judged.by == "flare":
+        sds = [z.clearance.sd or 0.0 for z in zones if z.zone == "flare" and z.counts]
+        return reasons.flare_words(delta_deg, sds[0] if sds else 0.0)
+    if judged.by == "shape":
+        ours, theirs = judged.feet[judged.longer].length_mm, judged.lasts[row].length_mm
         if ours is None or theirs is None:
-            return f"flare differs by {delta:+.1f} deg; one of the lengths is not known"
-        return f"length differs by {theirs - ours:+.1f} mm, flare by {delta:+.1f} deg"
-    unknown = reasons.unknown_words(found.columns, np.isfinite(found.judged.score[row]).tolist())
-    if placing.tier[place] == placing.tier[0]:
+            return f"flare differs by {delta_deg:+.1f} deg; one of the lengths is not known"
+        return f"length differs by {theirs - ours:+.1f} mm, flare by {delta_deg:+.1f} deg"
+    required = [column.rule.required for column in judged.columns]
+    unknown = reasons.unknown_words(zones, required)
+    if ranked.tier[place] == ranked.tier[0]:
         return reasons.best_sentence(zones) + unknown
-    first = placing.order[0]
-    cost = _cost(found, row, first)
-    return reasons.behind_sentence(zones, cost, found.lasts[first].labels.name) + unknown
+    name = judged.lasts[first].labels.name
+    return reasons.behind_sentence(zones, _costs(judged, row, first), name) + unknown
 
 
-def _counting(fits: Sequence[FootFit]) -> list[ZoneFit]:
-    """The zones that count, of all feet."""
-    return [zone for zone in _flat(fits) if zone.counts]
-
-
-def _cost(found: Field, row: int, first: int) -> list[float]:
-    """How much more each counting zone adds to a last's distance than to the first's; a zone of a
-    worse verdict comes before all others.
+def _costs(judged: JudgedLasts, row: int, first: int) -> list[float]:
+    """How much more each column adds to a last's distance than to the first's; 0 if it does not
+    count. If the last's verdict is worse, the zones of a worse verdict come before all others.
     """
-    counts = [i for i, column in enumerate(found.columns) if column.counts]
-    score = np.nan_to_num(found.judged.score[:, counts], nan=1.0)
-    more = found.judged.weight[counts] * (np.square(score[row]) - np.square(score[first]))
-    worse = np.maximum(found.judged.level[row, counts], 0) > np.maximum(
-        found.judged.level[first, counts], 0
-    )
-    behind = found.level[row] > found.level[first]
-    return [float(m) + (1e6 if behind and w else 0.0) for m, w in zip(more, worse, strict=True)]
+    score = np.square(np.nan_to_num(judged.scores.score[[row, first]], nan=UNKNOWN_SCORE))
+    level = np.maximum(judged.scores.level[[row, first]], 0)
+    worse = (level[0] > level[1]) & (judged.level[row] > judged.level[first])
+    counts = np.array([column.counts for column in judged.columns])
+    cost = judged.scores.weight * (score[0] - score[1]) + np.where(worse, WORSE_VERDICT, 0.0)
+    return np.where(counts, cost, 0.0).tolist()  # type: ignore[no-any-return]
 
 
 # ---------------------------------------------------------------- notices
 
 
 def _notices(
-    answer: _Answer, missed: Sequence[Candidate], question: Question
+    judged: JudgedLasts, missed: Sequence[Candidate], size_system: str | None
 ) -> tuple[Notice, ...]:
     """What the reader must know beside the table."""
-    feet = answer.feet
+    feet = judged.feet
+    kinds = [foot.aligned.alignment.pose.kind for foot in feet]
+    sides = {foot.aligned.alignment.side.side for foot in feet}
     notices = [
         notice
-        for one in feet
-        for notice in (*one.suspects, *suspects(one.measures, one.aligned.alignment.pose.kind))
+        for foot, kind in zip(feet, kinds, strict=True)
+        for notice in (*foot.suspects, *suspects(foot.measures, kind))
     ]
-    if question.by == "flare":
+    if judged.by == "flare":
         notices.append(
             Notice("scale_free", "a search by flare alone cannot tell sizes apart; look at length")
         )
-    if question.by != "shape" and any(one.aligned.alignment.pose.kind == "last" for one in feet):
+    if judged.by != "shape" and "last" in kinds:
         notices.append(
             Notice("looks_like_a_last", "its shape is nearer to a last's; --by shape finds a last")
         )
-    sides = {one.aligned.alignment.side.side for one in feet}
     if len(feet) == 2 and len(sides) == 1:
         notices.append(Notice("same_side", f"both feet of the pair are {sides.pop()} feet"))
-    differ = reasons.pair_notice(feet, question.size_system)
+    differ = reasons.pair_notice(feet, size_system)
     if differ is not None:
         notices.append(differ)
     if missed:
-        named = "; ".join(f"{one.last}: {one.why}" for one in missed)
+        named = "; ".join(f"{candidate.last}: {candidate.why}" for candidate in missed)
         notices.append(Notice("nothing_fits", f"no last fits; the nearest are {named}"))
-    unknown = _unknown_to_all(answer)
-    if unknown and question.by == "fit":
-        zones = reasons.zone_list(unknown)
+    known: Bools = np.any(judged.known, axis=0)
+    unknown = [
+        c.rule.zone
+        for c, any_last in zip(judged.columns, known, strict=True)
+        if c.counts and not any_last
+    ]
+    if unknown and judged.by == "fit":
+        zones = reasons.zone_list(tuple(dict.fromkeys(unknown)))
         notices.append(Notice("not_judged", f"not judged, for lack of a measure: {zones}"))
     return tuple(notices)
-
-
-def _unknown_to_all(answer: _Answer) -> tuple[str, ...]:
-    """The zones that no last could be judged in."""
-    seen: Bools = np.atleast_1d(np.isfinite(answer.found.judged.score).any(axis=0))
-    known = [bool(one) for one in seen]
-    return reasons.not_judged(answer.found.columns, known)

@@ -3,28 +3,28 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
 
 from footfit.geometry.flare.flare_profile import profile_distances
-from footfit.geometry.numeric.arrays import Floats, Ints
+from footfit.geometry.numeric.arrays import Bools, Floats, Ints
 from footfit.pipeline.fit.scoring import (
     NOT_JUDGED,
     REJECT,
     VERDICTS,
     Column,
-    Judged,
+    Scores,
     Spread,
     distance_spread,
     fit_distance,
     fixed_tiers,
-    judged,
+    scores,
     tiers,
     worst_levels,
 )
-from footfit.pipeline.fit.zones import LENGTH_SD_MM, ZONES, Clearances, clearances
+from footfit.pipeline.fit.zones import LENGTH_SD_MM, ZONES, Clearance, clearances
 from footfit.results import (
     FitProfile,
     FlareDifference,
@@ -36,7 +36,7 @@ from footfit.results import (
 )
 
 TIE_DISTANCE = 2.0**0.5
-"""Two distances by flare or shape closer than this are a tie: each carries a rescan's spread."""
+"""Two distances by flare or shape that are closer are a tie: each has the spread of a rescan."""
 TWIN_LENGTH_MM = 2.0
 """Two lasts with the same labels and opposite sides are one pair if their lengths differ less."""
 INDEPENDENT = 6.0
@@ -46,70 +46,80 @@ GOVERNED = frozenset({"length", "ball_line"})
 
 
 @dataclass(frozen=True, slots=True)
-class Field:
-    """n lasts against one customer.
+class JudgedLasts:
+    """n lasts, judged for one customer in z columns: the zones of each foot.
 
-    ``level`` (n,) indexes VERDICTS; ``distance`` (n,) is what the search goes by; ``spread``
-    belongs to the fit distance.
+    ``clearances`` has a row for each last. ``level`` (n,) indexes VERDICTS; ``distance`` (n,) is
+    what the search goes by; ``spread`` belongs to the fit distance.
     """
 
+    feet: tuple[Profiled, ...]
     lasts: tuple[LastRecord, ...]
-    mirrored: tuple[bool, ...]
-    flare: tuple[FlareDifference, ...]
+    by: SearchBy
     columns: tuple[Column, ...]
-    clearances: tuple[Clearances, ...]
-    judged: Judged
+    clearances: tuple[tuple[Clearance, ...], ...]
+    scores: Scores
     level: Ints
+    flare: tuple[FlareDifference, ...]
     distance: Floats
     spread: Spread
 
+    @property
+    def longer(self) -> int:
+        """The place of the foot that governs the length."""
+        return governing(self.feet)
+
+    @property
+    def known(self) -> Bools:
+        """Which columns each last could be judged in, (n, z)."""
+        return np.isfinite(self.scores.score)
+
+    def mirrored(self, row: int) -> bool:
+        """Is the last of the other side than the foot that governs the length?"""
+        return self.lasts[row].side.side != self.feet[self.longer].aligned.alignment.side.side
+
 
 @dataclass(frozen=True, slots=True)
-class Placing:
-    """The order of the lasts that are kept: rows of the field, best first, with their tiers."""
+class Ranking:
+    """The rows of the lasts that are kept, best first, and the tier of each."""
 
-    order: tuple[int, ...]
+    rows: tuple[int, ...]
     tier: tuple[int, ...]
 
     def tied(self, place: int) -> tuple[int, ...]:
-        """The other rows of the tier of the one at ``place``."""
-        return tuple(
-            i
-            for at, (i, tier) in enumerate(zip(self.order, self.tier, strict=True))
-            if tier == self.tier[place] and at != place
-        )
+        """The other rows of the tier of the last at ``place``."""
+        own = self.tier[place]
+        pairs = enumerate(zip(self.rows, self.tier, strict=True))
+        return tuple(row for at, (row, tier) in pairs if tier == own and at != place)
 
 
-def field(
+def judged_lasts(
     feet: Sequence[Profiled], lasts: Sequence[LastRecord], profile: FitProfile, by: SearchBy
-) -> Field:
-    """Judge every last for one customer; of two feet the longer governs the length."""
+) -> JudgedLasts:
+    """Every last, judged for one customer; of two feet the longer governs the length."""
     longer = governing(feet)
-    side = feet[longer].aligned.alignment.side.side
-    chosen = own_side(lasts, side)
+    chosen = own_side(lasts, feet[longer].aligned.alignment.side.side)
     columns = tuple(
         Column(index, rule, rule.weight > 0 and (index == longer or rule.zone not in GOVERNED))
         for index in range(len(feet))
         for rule in profile.zones
     )
-    found = tuple(clearances(foot, chosen, profile.zones) for foot in feet)
-    scored = judged(
-        np.concatenate([c.values for c in found], axis=1),
-        np.concatenate([c.foot_sd for c in found], axis=1),
-        np.concatenate([c.last_sd for c in found], axis=1),
-        columns,
-    )
+    rows = clearances(feet, chosen, columns)
+    numbers = np.array([[(c.value, c.foot_sd, c.last_sd) for c in row] for row in rows])
+    value, foot_sd, last_sd = np.moveaxis(numbers.reshape(len(chosen), len(columns), 3), 2, 0)
+    judged = scores(value, foot_sd, last_sd, columns)
     flare = flare_differences(feet, chosen)
-    return Field(
+    return JudgedLasts(
+        feet=tuple(feet),
         lasts=tuple(chosen),
-        mirrored=tuple(last.side.side != side for last in chosen),
-        flare=tuple(flare),
+        by=by,
         columns=columns,
-        clearances=found,
-        judged=scored,
-        level=worst_levels(scored, columns),
-        distance=_distance(by, scored, flare, feet[longer], chosen),
-        spread=distance_spread(scored),
+        clearances=rows,
+        scores=judged,
+        level=worst_levels(judged.level, columns),
+        flare=tuple(flare),
+        distance=_distance(by, judged, flare, feet[longer], chosen),
+        spread=distance_spread(judged),
     )
 
 
@@ -122,14 +132,14 @@ def flare_differences(
     feet: Sequence[Profiled], lasts: Sequence[LastRecord]
 ) -> list[FlareDifference]:
     """The profile distance of each last; two feet count by their root mean square."""
-    found = [profile_distances(one.flare, [last.flare for last in lasts]) for one in feet]
-    total = np.sqrt(np.mean([np.square(d.total) for d in found], axis=0))
-    angle = sum(one.flare.angle_deg for one in feet) / len(feet)
+    each = [profile_distances(foot.flare, [last.flare for last in lasts]) for foot in feet]
+    total = np.sqrt(np.mean([np.square(distances.total) for distances in each], axis=0))
+    angle = sum(foot.flare.angle_deg for foot in feet) / len(feet)
     return [
         FlareDifference(
             float(total[i]),
             last.flare.angle_deg - angle,
-            tuple((name, float(values[i])) for name, values in found[0].parts.items()),
+            tuple((name, float(values[i])) for name, values in each[0].parts.items()),
         )
         for i, last in enumerate(lasts)
     ]
@@ -137,15 +147,15 @@ def flare_differences(
 
 def _distance(
     by: SearchBy,
-    scored: Judged,
+    judged: Scores,
     flare: Sequence[FlareDifference],
     foot: Profiled,
     lasts: Sequence[LastRecord],
 ) -> Floats:
     """What the search goes by (n,)."""
     if by == "fit":
-        return fit_distance(scored)
-    profile = np.array([one.distance for one in flare])
+        return fit_distance(judged)
+    profile = np.array([difference.distance for difference in flare])
     if by == "flare":
         return profile
     nearness: Floats = np.sqrt(np.square(profile) + size_squares(foot, lasts))
@@ -153,24 +163,26 @@ def _distance(
 
 
 def size_squares(mesh: Profiled, lasts: Sequence[LastRecord]) -> Floats:
-    """How far each last's measures are from the mesh's (n,): the length's square and the mean
-    square of the other measures that both have, all in standard deviations of the difference.
-    Measures of one shape move together: they count as INDEPENDENT ones, however many there are.
+    """How far each last's measures are from the mesh's, (n,), in squared standard deviations.
+
+    The square of the extents' difference, and the mean square of the differences of the other
+    measures that both have. Measures of one shape move together: they count as INDEPENDENT ones,
+    however many there are.
     """
-    ours = {m.name: m for m in mesh.measures}
-    extent_mm = mesh.aligned.alignment.extent_mm
+    ours = {m.name: m for m in mesh.measures if m.name != "length"}
     squares = []
     for last in lasts:
-        own = (last.extent_mm - extent_mm) ** 2 / (2.0 * LENGTH_SD_MM**2)
+        longer_mm = last.extent_mm - mesh.aligned.alignment.extent_mm
         shared = []
-        for measure in last.measures:
-            other = ours.get(measure.name)
-            if other is None or other.definition != measure.definition or measure.name == "length":
+        for theirs in last.measures:
+            own = ours.get(theirs.name)
+            if own is None or own.definition != theirs.definition:
                 continue
-            a, b = other.measured, measure.measured
+            a, b = own.measured, theirs.measured
             if a.value is not None and b.value is not None and a.sd and b.sd:
                 shared.append((b.value - a.value) ** 2 / (a.sd**2 + b.sd**2))
-        squares.append(own + (INDEPENDENT * sum(shared) / len(shared) if shared else 0.0))
+        mean = sum(shared) / len(shared) if shared else 0.0
+        squares.append(longer_mm**2 / (2.0 * LENGTH_SD_MM**2) + INDEPENDENT * mean)
     return np.array(squares)
 
 
@@ -184,7 +196,7 @@ def own_side(lasts: Sequence[LastRecord], side: str | None) -> list[LastRecord]:
         last
         for last in lasts
         if last.side.side == side
-        or not any(_twins(last, one) for one in own.get(_labels(last), ()))
+        or not any(_twins(last, other) for other in own.get(_labels(last), ()))
     ]
 
 
@@ -193,105 +205,93 @@ def _labels(last: LastRecord) -> tuple[str | None, ...]:
     return labels.style, labels.size, labels.size_system, labels.width_label
 
 
-def _twins(one: LastRecord, other: LastRecord) -> bool:
+def _twins(last: LastRecord, other: LastRecord) -> bool:
     """Is one the other side's last of the same model and size? Their labels are alike."""
-    named = one.labels.style is not None and one.labels.size is not None
-    return named and abs(one.extent_mm - other.extent_mm) < TWIN_LENGTH_MM
+    named = last.labels.style is not None and last.labels.size is not None
+    return named and abs(last.extent_mm - other.extent_mm) < TWIN_LENGTH_MM
 
 
-def placed(found: Field, profile: FitProfile, by: SearchBy) -> Placing:
-    """The order of the lasts: by fit those that are no reject and whose toe room is known, length
-    first: by the verdict on the length, by the whole verdict, then by distance.
+def ranking(judged: JudgedLasts, tie_sds: float) -> Ranking:
+    """The order of the lasts.
+
+    By fit the rejects and the lasts without a toe room are left out, and the length comes first:
+    the verdict on it, then the whole verdict, then the distance.
     """
-    names = [last.labels.name for last in found.lasts]
-    if by != "fit":
-        order = sorted(
-            range(len(names)), key=lambda i: (round(float(found.distance[i]), 6), names[i])
-        )
-        tier = fixed_tiers([float(found.distance[i]) for i in order], TIE_DISTANCE)
-        return Placing(tuple(order), tuple(tier))
-    group = found.judged.level[:, _length_column(found)] * len(VERDICTS) + found.level
-    kept = [i for i in with_toe_room(found) if found.level[i] < REJECT]
-    kept.sort(key=lambda i: (group[i], round(float(found.distance[i]), 6), names[i]))
-    tier_of = tiers(kept, found.distance, group, found.spread, profile.tie_sds)
-    return Placing(tuple(kept), tuple(tier_of))
+    if judged.by != "fit":
+        rows = _by_distance(judged, range(len(judged.lasts)))
+        tier = fixed_tiers([float(judged.distance[i]) for i in rows], TIE_DISTANCE)
+        return Ranking(tuple(rows), tuple(tier))
+    group = judged.scores.level[:, _length_column(judged)] * len(VERDICTS) + judged.level
+    kept = [i for i in with_toe_room(judged) if judged.level[i] < REJECT]
+    rows = sorted(_by_distance(judged, kept), key=lambda i: group[i])
+    tier = tiers(rows, judged.distance, group, judged.spread, tie_sds)
+    return Ranking(tuple(rows), tuple(tier))
 
 
-def with_toe_room(found: Field) -> list[int]:
-    """The rows whose toe room is known: the length is the gate, so no other last is judged."""
-    return np.flatnonzero(found.judged.level[:, _length_column(found)] != NOT_JUDGED).tolist()
-
-
-def _length_column(found: Field) -> int:
-    """The column of the governing foot's length."""
-    return next(
-        i
-        for i, column in enumerate(found.columns)
-        if column.rule.zone == "length" and column.counts
+def _by_distance(judged: JudgedLasts, rows: Iterable[int]) -> list[int]:
+    """The rows by distance, then by name."""
+    return sorted(
+        rows, key=lambda i: (round(float(judged.distance[i]), 6), judged.lasts[i].labels.name)
     )
 
 
-def nearest(found: Field, count: int) -> list[int]:
-    """The rows that come nearest to fitting, by distance then name."""
-    names = [last.labels.name for last in found.lasts]
-    rows = with_toe_room(found)
-    rows.sort(key=lambda i: (round(float(found.distance[i]), 6), names[i]))
-    return rows[:count]
+def with_toe_room(judged: JudgedLasts) -> list[int]:
+    """The rows whose toe room is known: the length is the gate, so no other last is judged."""
+    level: list[int] = judged.scores.level[:, _length_column(judged)].tolist()
+    return [row for row, known in enumerate(level) if known != NOT_JUDGED]
 
 
-def refusals(found: Field) -> Counter[str]:
-    """How many lasts are left out: by the first zone that rejects each, and those without a known
-    toe room.
+def _length_column(judged: JudgedLasts) -> int:
+    """The column of the governing foot's length."""
+    lengths = [i for i, c in enumerate(judged.columns) if c.rule.zone == "length" and c.counts]
+    return lengths[0]
+
+
+def nearest(judged: JudgedLasts, count: int) -> list[int]:
+    """The rows of the lasts that come nearest to fitting."""
+    return _by_distance(judged, with_toe_room(judged))[:count]
+
+
+def refusals(judged: JudgedLasts) -> Counter[str]:
+    """How many lasts are left out, by reason: the first zone that rejects a last, or
+    "length_unknown" if its toe room is not known.
     """
-    known = with_toe_room(found)
-    counts = Counter(refusal(found, i) for i in known if found.level[i] == REJECT)
-    return counts + Counter({"length_unknown": len(found.lasts) - len(known)})
+    known = with_toe_room(judged)
+    counts = Counter(refusal(judged, i) for i in known if judged.level[i] == REJECT)
+    return counts + Counter({"length_unknown": len(judged.lasts) - len(known)})
 
 
-def refusal(found: Field, row: int) -> str:
+def refusal(judged: JudgedLasts, row: int) -> str:
     """Why a reject is one: "too_short", "too_long", or the zone and the direction."""
-    for column, level, score in zip(
-        found.columns, found.judged.level[row], found.judged.score[row], strict=True
-    ):
-        if column.counts and level == REJECT:
-            kind = ZONES[column.rule.zone]
-            if kind.name == "length":
-                return "too_short" if score < 0 else "too_long"
-            return f"{kind.name}_{kind.more if score > 0 else kind.less}".replace(" ", "_")
+    for place, column in enumerate(judged.columns):
+        if column.counts and judged.scores.level[row, place] == REJECT:
+            zone, loose = ZONES[column.rule.zone], judged.scores.score[row, place] > 0
+            word = zone.more if loose else zone.less
+            start = "too" if zone.name == "length" else zone.name
+            return f"{start}_{word}".replace(" ", "_")
     raise ValueError("the last is no reject")
 
 
-def foot_fits(found: Field, row: int, feet: Sequence[Profiled]) -> tuple[FootFit, ...]:
+def foot_fits(judged: JudgedLasts, row: int) -> tuple[FootFit, ...]:
     """Each foot of the customer in one last, zone by zone."""
-    return tuple(
-        _foot_fit(found, row, index, foot.aligned.alignment.side.side)
-        for index, foot in enumerate(feet)
-    )
+    fits = []
+    for index, foot in enumerate(judged.feet):
+        places = [i for i, column in enumerate(judged.columns) if column.foot == index]
+        level = judged.scores.level[row : row + 1, places]
+        verdict = VERDICTS[worst_levels(level, [judged.columns[i] for i in places])[0]]
+        zones = tuple(_zone_fit(judged, row, place) for place in places)
+        fits.append(FootFit(foot.aligned.alignment.side.side, verdict, zones))
+    return tuple(fits)
 
 
-def _foot_fit(found: Field, row: int, foot: int, side: str | None) -> FootFit:
-    places = [i for i, column in enumerate(found.columns) if column.foot == foot]
-    zones = tuple(_zone_fit(found, row, place, at) for at, place in enumerate(places))
-    only = Judged(
-        found.judged.score[row : row + 1, places],
-        found.judged.level[row : row + 1, places],
-        found.judged.foot_sd[row : row + 1, places],
-        found.judged.last_sd[row : row + 1, places],
-        found.judged.weight[places],
-    )
-    worst = worst_levels(only, [found.columns[i] for i in places])[0]
-    return FootFit(side, VERDICTS[worst], zones)  # type: ignore[arg-type]
-
-
-def _zone_fit(found: Field, row: int, place: int, zone: int) -> ZoneFit:
-    column = found.columns[place]
-    level, score = found.judged.level[row, place], float(found.judged.score[row, place])
+def _zone_fit(judged: JudgedLasts, row: int, place: int) -> ZoneFit:
+    column, level = judged.columns[place], judged.scores.level[row, place]
     return ZoneFit(
         zone=column.rule.zone,
         unit=ZONES[column.rule.zone].unit,
-        clearance=found.clearances[column.foot].measured(row, zone),
+        clearance=judged.clearances[row][place].measured,
         target=column.rule.target,
-        score=score if level >= 0 else None,
-        verdict=VERDICTS[level] if level >= 0 else None,
+        score=float(judged.scores.score[row, place]) if level != NOT_JUDGED else None,
+        verdict=VERDICTS[level] if level != NOT_JUDGED else None,
         counts=column.counts,
     )

@@ -5,13 +5,14 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from footfit.geometry.fit.sizes import SYSTEMS, foot_size, system_named
-from footfit.pipeline.fit.scoring import VERDICTS, Column
+from footfit.pipeline.fit.scoring import VERDICTS
 from footfit.pipeline.fit.zones import ZONES
 from footfit.results import Notice, Profiled, ZoneFit, ZoneRule
 
 WORTH_SAYING = 0.5
 """The score from which a zone is worth a word: half-way to the edge of good."""
 DEFAULT_SYSTEM = "eu"
+UNIT_WORDS = {"mm": " mm", "deg": " deg", "percent": " %", "ratio": ""}
 
 
 def length_words(clearance_mm: float, target_mm: float) -> str:
@@ -67,67 +68,63 @@ def zone_words(zone: str, clearance: float, target: float, sd: float = 0.0) -> s
     return f"{kind.label} {abs(off):.1f} mm {word} than asked"
 
 
-def said(zone: ZoneFit) -> str:
-    """One judged zone in words."""
+def judged_words(zone: ZoneFit) -> str:
+    """One zone that has a clearance, in words."""
     assert zone.clearance.value is not None
     return zone_words(zone.zone, zone.clearance.value, zone.target, zone.clearance.sd or 0.0)
 
 
 def best_sentence(zones: Sequence[ZoneFit]) -> str:
     """Why the first is first: its toe room, and what it is furthest off in."""
-    room, others = _room(zones), _notable(zones)
-    if not others:
-        return f"{room}; near the target in every zone judged"
-    return f"{room}; {said(others[0])}"
+    others = _notable(zones)
+    worst = judged_words(others[0]) if others else "near the target in every zone judged"
+    return f"{_toe_room(zones)}; {worst}"
 
 
-def behind_sentence(zones: Sequence[ZoneFit], cost: Sequence[float], first: str) -> str:
-    """Why a last stands behind the first: the zone that costs it most, by ``cost``."""
-    room = _room(zones)
-    worst = max(range(len(zones)), key=lambda i: cost[i])
-    if cost[worst] <= 0.0 or zones[worst].score is None:
+def behind_sentence(zones: Sequence[ZoneFit], costs: Sequence[float], first: str) -> str:
+    """Why a last stands behind the first: the zone that costs it most, by ``costs``."""
+    room = _toe_room(zones)
+    worst, cost = max(zip(zones, costs, strict=True), key=lambda pair: pair[1])
+    if cost <= 0.0 or worst.score is None:
         return f"{room}; a little further off in several zones than {first}"
-    if zones[worst].zone == "length":
+    if worst.zone == "length":
         return f"{room}: further off than {first}"
-    return f"{room}; {said(zones[worst])}, behind {first} by that"
+    return f"{room}; {judged_words(worst)}, behind {first} by that"
 
 
 def missed_sentence(zones: Sequence[ZoneFit], rules: Sequence[ZoneRule]) -> str:
     """Why a last does not fit: each zone that rejects it, and by how much it misses."""
     words = []
     for zone, rule in zip(zones, rules, strict=True):
-        rejects = zone.counts and zone.verdict == "reject"
-        if not rejects or zone.clearance.value is None or rule.poor is None:
-            continue
-        low, high = rule.poor
         value = zone.clearance.value
-        miss, kind = (low - value if value < low else value - high), ZONES[zone.zone]
-        unit = {"percent": "%", "ratio": ""}.get(kind.unit, kind.unit)
-        words.append(f"{said(zone)}, {miss:.1f} {unit} past the limit".replace("  ", " "))
-    return "; ".join(words) or _room(zones)
+        if not zone.counts or zone.verdict != "reject" or value is None or rule.poor is None:
+            continue
+        miss = max(rule.poor[0] - value, value - rule.poor[1])
+        unit = UNIT_WORDS[zone.unit]
+        words.append(f"{judged_words(zone)}, {miss:.1f}{unit} past the limit")
+    return "; ".join(words) or _toe_room(zones)
 
 
-def _room(zones: Sequence[ZoneFit]) -> str:
-    return next(said(zone) for zone in zones if zone.zone == "length")
+def _toe_room(zones: Sequence[ZoneFit]) -> str:
+    return next(judged_words(zone) for zone in zones if zone.zone == "length" and zone.counts)
 
 
 def _notable(zones: Sequence[ZoneFit]) -> list[ZoneFit]:
     """The zones but the length that are worth a word, the worst first."""
-    known = [z for z in zones if z.zone != "length" and z.counts and z.score is not None]
-    notable = [z for z in known if abs(z.score or 0.0) >= WORTH_SAYING]
-    return sorted(notable, key=lambda z: (-VERDICTS.index(z.verdict or "good"), -abs(z.score or 0)))
+    scores = [(zone, abs(zone.score or 0.0)) for zone in zones if zone.counts]
+    notable = [pair for pair in scores if pair[0].zone != "length" and pair[1] >= WORTH_SAYING]
+    notable.sort(key=lambda pair: (-VERDICTS.index(pair[0].verdict or "good"), -pair[1]))
+    return [zone for zone, _ in notable]
 
 
-def not_judged(columns: Sequence[Column], known: Sequence[bool]) -> tuple[str, ...]:
-    """The zones of the profile that were not judged, by name, each once, in their order."""
-    names = [c.rule.zone for c, there in zip(columns, known, strict=True) if c.counts and not there]
-    return tuple(dict.fromkeys(names))
+def not_judged(zones: Sequence[ZoneFit]) -> tuple[str, ...]:
+    """The zones that count and were not judged, by name, each once, in their order."""
+    return tuple(dict.fromkeys(z.zone for z in zones if z.counts and z.score is None))
 
 
-def unknown_words(columns: Sequence[Column], known: Sequence[bool]) -> str:
+def unknown_words(zones: Sequence[ZoneFit], required: Sequence[bool]) -> str:
     """The required zones that were not judged, as the end of a sentence; empty without any."""
-    settled = [there or not c.rule.required for c, there in zip(columns, known, strict=True)]
-    names = not_judged(columns, settled)
+    names = not_judged([zone for zone, needed in zip(zones, required, strict=True) if needed])
     return f"; not judged: {zone_list(names)}" if names else ""
 
 

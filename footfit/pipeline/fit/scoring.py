@@ -1,7 +1,7 @@
 """The arithmetic of a fit, on arrays: scores, verdicts, the fit distance, its spread, ties.
 
-Rows are lasts, columns are zones (of one foot, or of both feet of a pair side by side). What a
-clearance should be stands in the fit profile (``docs/fit.md``); nothing of it is here.
+Rows are lasts; columns are zones, of one foot or of both feet of a pair side by side. What a
+clearance should be stands in the fit profile (``docs/fit.md``).
 """
 
 from __future__ import annotations
@@ -19,7 +19,7 @@ GOOD, ACCEPTABLE, POOR, REJECT = range(4)
 NOT_JUDGED = -1
 SURE_SDS = 2.0
 UNKNOWN_SCORE = 1.0
-"""What a zone counts that one last lacks and others have: the edge of good."""
+"""The score of a zone that one last lacks and others have: the edge of good."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -32,8 +32,8 @@ class Column:
 
 
 @dataclass(frozen=True, slots=True)
-class Judged:
-    """n lasts judged in z columns.
+class Scores:
+    """The scores of n lasts in z columns.
 
     ``score`` (n, z) is 0 at the target and 1 at the edge of good, - tight, + loose; NaN where it
     is not measured. ``level`` (n, z) indexes VERDICTS, NOT_JUDGED where it is not measured.
@@ -47,15 +47,15 @@ class Judged:
     weight: Floats
 
 
-def judged(
+def scores(
     clearance: Floats, foot_sd: Floats, last_sd: Floats, columns: Sequence[Column]
-) -> Judged:
-    """Score and judge clearances (n, z) with their spreads (n, z) by the columns' rules."""
+) -> Scores:
+    """The scores of clearances (n, z) with their spreads (n, z), by the columns' rules."""
     scale = np.array([scales(column.rule) for column in columns]).reshape(-1, 2)
     target = np.array([column.rule.target for column in columns])
     over = clearance >= target
     width = np.where(over, scale[:, 1], scale[:, 0])
-    return Judged(
+    return Scores(
         score=(clearance - target) / width,
         level=levels(clearance, [c.rule for c in columns], np.hypot(foot_sd, last_sd)),
         foot_sd=np.where(np.isnan(clearance), 0.0, foot_sd / width),
@@ -65,7 +65,7 @@ def judged(
 
 
 def scales(rule: ZoneRule) -> tuple[float, float]:
-    """From the target to the edge of good, downwards and upwards; one serves both if alone."""
+    """From the target to the edge of good, downwards and upwards; if one is 0, the other serves."""
     below, above = rule.target - rule.good[0], rule.good[1] - rule.target
     return below or above, above or below
 
@@ -74,7 +74,7 @@ def levels(clearance: Floats, rules: Sequence[ZoneRule], sd: Floats) -> Ints:
     """The verdict of each clearance as an index of VERDICTS; the ranges' ends are inside.
 
     A reject takes a last out of the answer, so it must be sure: past the limit by SURE_SDS
-    standard deviations, else it is poor. The length is the gate and knows no doubt.
+    standard deviations, else it is poor. The length is the gate, and its limits are strict.
 
     Examples
     --------
@@ -84,15 +84,15 @@ def levels(clearance: Floats, rules: Sequence[ZoneRule], sd: Floats) -> Ints:
     [3, 1, 0, 1, -1]
     """
     doubt = np.array([0.0 if rule.zone == "length" else SURE_SDS for rule in rules]) * sd
-    found = np.zeros(clearance.shape, dtype=np.int64)
+    level = np.zeros(clearance.shape, dtype=np.int64)
     for name in ("good", "acceptable"):
         low, high = _ends(rules, name)
-        found += (clearance < low) | (clearance > high)
+        level += (clearance < low) | (clearance > high)
     low, high = _ends(rules, "poor")
-    found[(clearance < low) | (clearance > high)] = POOR
-    found[(clearance < low - doubt) | (clearance > high + doubt)] = REJECT
-    found[np.isnan(clearance)] = NOT_JUDGED
-    return found
+    level[(clearance < low) | (clearance > high)] = POOR
+    level[(clearance < low - doubt) | (clearance > high + doubt)] = REJECT
+    level[np.isnan(clearance)] = NOT_JUDGED
+    return level
 
 
 def _ends(rules: Sequence[ZoneRule], name: str) -> tuple[Floats, Floats]:
@@ -101,46 +101,47 @@ def _ends(rules: Sequence[ZoneRule], name: str) -> tuple[Floats, Floats]:
     return ends[:, 0], ends[:, 1]
 
 
-def worst_levels(found: Judged, columns: Sequence[Column]) -> Ints:
-    """Each last's verdict (n,): the worst of the zones that count, and at best acceptable where a
-    required zone is not judged: what is not known is not good.
+def worst_levels(level: Ints, columns: Sequence[Column]) -> Ints:
+    """The verdict of each last (n,) from its levels (n, z): the worst of the zones that count.
+
+    It is at best acceptable if a required zone is not judged: what is not known is not good.
     """
     counts = np.array([column.counts for column in columns], dtype=bool)
     required = np.array([c.counts and c.rule.required for c in columns], dtype=bool)
-    worst = np.where(counts, found.level, GOOD).max(axis=1, initial=GOOD)
-    unknown = (required & (found.level == NOT_JUDGED)).any(axis=1)
+    worst = np.where(counts, level, GOOD).max(axis=1, initial=GOOD)
+    unknown = (required & (level == NOT_JUDGED)).any(axis=1)
     verdict: Ints = np.where(unknown, np.maximum(worst, ACCEPTABLE), worst)
     return verdict
 
 
-def fit_distance(found: Judged) -> Floats:
+def fit_distance(scores: Scores) -> Floats:
     """The distance (n,): the weighted root mean square of the scores; 1 is the edge of good.
 
     A zone that one last lacks counts as UNKNOWN_SCORE; one that every last lacks counts nothing.
     """
-    weight = _carried(found)
-    distance: Floats = np.sqrt(np.square(_known_scores(found)) @ weight / weight.sum())
+    weight = _carried(scores)
+    distance: Floats = np.sqrt(np.square(_known_scores(scores)) @ weight / weight.sum())
     return distance
 
 
-def _carried(found: Judged) -> Floats:
+def _carried(scores: Scores) -> Floats:
     """The weights (z,) of the zones that any last is judged in."""
-    carried: Floats = np.where(np.isfinite(found.score).any(axis=0), found.weight, 0.0)
+    carried: Floats = np.where(np.isfinite(scores.score).any(axis=0), scores.weight, 0.0)
     return carried
 
 
-def _known_scores(found: Judged) -> Floats:
-    return np.nan_to_num(found.score, nan=UNKNOWN_SCORE)
+def _known_scores(scores: Scores) -> Floats:
+    return np.nan_to_num(scores.score, nan=UNKNOWN_SCORE)
 
 
 @dataclass(frozen=True, slots=True)
 class Spread:
     """How sure n distances are.
 
-    ``slope`` (n, z) is the distance's derivative by each score, ``foot_sd`` (n, z) the scores'
-    spread from the foot's measures, which is common to all lasts; ``own`` (n,) is the distance's
-    variance from the last's own measures, ``common`` (n,) what the foot's leave at the target,
-    where the slopes vanish.
+    ``slope`` (n, z) is the distance's derivative by each score. ``foot_sd`` (n, z) is the scores'
+    spread from the foot's measures, which is common to all lasts. ``own`` (n,) is the distance's
+    variance from the last's own measures. ``common`` (n,) is what the foot's measures leave at the
+    target, where the slopes vanish.
     """
 
     slope: Floats
@@ -155,48 +156,50 @@ class Spread:
         return sd
 
     def difference(self, i: int, j: int) -> float:
-        """The standard deviation of the difference of two distances: what the foot's measures
-        are off by moves both, and counts only by how differently.
+        """The standard deviation of the difference of two distances.
+
+        An error of the foot's measures moves both, and counts only by how differently.
         """
         sd = 0.5 * (self.foot_sd[i] + self.foot_sd[j])
         foot = np.square((self.slope[i] - self.slope[j]) * sd).sum()
         return float(np.sqrt(foot + self.own[i] + self.own[j]))
 
 
-def distance_spread(found: Judged) -> Spread:
+def distance_spread(scores: Scores) -> Spread:
     """The spread of the fit distance, propagated from the measures' standard deviations.
 
     With Q = D^2 = sum w u^2 / W and u of variance s^2: var Q = sum (w/W)^2 (4 u^2 s^2 + 2 s^4),
     and var D = var Q / 4 Q with the noise's own share, sum w s^2 / W, added to Q.
     """
-    weight = _carried(found)
+    weight = _carried(scores)
     share = weight / weight.sum()
-    foot, last = np.square(found.foot_sd), np.square(found.last_sd)
-    scores = _known_scores(found)
-    base = np.maximum(np.square(scores) @ share + (foot + last) @ share, 1e-18)[:, None]
-    slope = share * scores / np.sqrt(base)
+    foot, last = np.square(scores.foot_sd), np.square(scores.last_sd)
+    score = _known_scores(scores)
+    base = np.maximum(np.square(score) @ share + (foot + last) @ share, 1e-18)[:, None]
+    slope = share * score / np.sqrt(base)
     quarter = np.square(share) / (2.0 * base)
     own = np.square(slope) * last + quarter * last * (last + 2.0 * foot)
-    return Spread(slope, found.foot_sd, own.sum(axis=1), (quarter * foot**2).sum(axis=1))
+    return Spread(slope, scores.foot_sd, own.sum(axis=1), (quarter * foot**2).sum(axis=1))
 
 
 def tiers(
     order: Sequence[int], distance: Floats, group: Ints, spread: Spread, tie_sds: float
 ) -> list[int]:
-    """The tier of each of ``order`` (best first within each group): a tier begins with its best
-    and holds the lasts of its group that the measures do not tell from that one.
+    """The tier of each row of ``order``, which is best first within each group.
+
+    A tier begins with its best and holds the lasts of its group whose distance the measures do not
+    tell from that one's.
     """
-    found: list[int] = []
+    tier: list[int] = []
     first = -1
     for i in order:
-        if first >= 0 and group[i] == group[first]:
-            apart = distance[i] - distance[first]
-            if apart <= tie_sds * spread.difference(first, i):
-                found.append(found[-1])
-                continue
-        first = i
-        found.append(found[-1] + 1 if found else 0)
-    return found
+        same = first >= 0 and group[i] == group[first]
+        if same and distance[i] - distance[first] <= tie_sds * spread.difference(first, i):
+            tier.append(tier[-1])
+        else:
+            first = i
+            tier.append(tier[-1] + 1 if tier else 0)
+    return tier
 
 
 def fixed_tiers(distances: Sequence[float], tie: float) -> list[int]:
@@ -207,12 +210,10 @@ def fixed_tiers(distances: Sequence[float], tie: float) -> list[int]:
     >>> fixed_tiers([1.0, 2.0, 3.0, 9.0], tie=1.5)
     [0, 0, 1, 2]
     """
-    found: list[int] = []
-    start = float("-inf")
+    starts: list[float] = []
+    tier: list[int] = []
     for distance in distances:
-        if distance > start + tie:
-            start = distance
-            found.append(found[-1] + 1 if found else 0)
-        else:
-            found.append(found[-1])
-    return found
+        if not starts or distance > starts[-1] + tie:
+            starts.append(distance)
+        tier.append(len(starts) - 1)
+    return tier

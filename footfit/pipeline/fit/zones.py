@@ -1,34 +1,37 @@
 """The zones of a fit: where a foot and a last are compared, and how their clearance is taken.
 
 A clearance is last minus foot. Most zones compare the measure of their own name; the others have
-a function of their own. A new zone is a row of ``ZONES`` (and, where it compares no measure, a
-function in ``_SPECIAL``); profile files may then name it. The directional clearance of the two
-surfaces belongs here too, as zones that need both meshes: `clearances` is where they join.
+a function of their own. A new zone is a row of ``ZONES`` and, if it compares no measure, a function
+in ``_SPECIAL``. Fit profiles may then name it.
 """
 
 from __future__ import annotations
 
 import math
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from footfit.geometry.flare.definition import CHANNELS, FlareProfile
 from footfit.geometry.flare.flare_profile import DISTANCE
-from footfit.geometry.numeric.arrays import Floats
-from footfit.results import LastRecord, Measured, Profiled, ZoneRule
+from footfit.pipeline.fit.scoring import Column
+from footfit.results import LastRecord, Measure, Measured, Profiled, ZoneRule
 
 LENGTH_SD_MM = 0.5
 """Repeatability of an aligned length between two scans of one shape (docs/alignment.md)."""
 PLAN_SD = DISTANCE.sd[CHANNELS.index("plan")]
 HEEL_FROM_MM = 5.0
-"""A heel height that says that a last is pitched; below, the correction is under 0.05 mm."""
+"""From this heel height on a last is pitched; below, the correction is under 0.05 mm."""
+BALL_SHARE = 0.72
+"""Where the ball lies, over the length, if it was not measured."""
+STEEPEST = 0.6
+"""The sine of the steepest pitch that counts: a heel of 110 mm."""
 
 
 @dataclass(frozen=True, slots=True)
 class Zone:
-    """One place of comparison: ``less`` and ``more`` say a clearance under and over the asked."""
+    """One place of comparison; ``less`` and ``more`` are the words for what is off the target."""
 
     name: str
     label: str
@@ -62,8 +65,11 @@ ZONES: dict[str, Zone] = {
 
 
 @dataclass(frozen=True, slots=True)
-class Taken:
-    """One clearance with the spread that each side brings, or the reason why there is none."""
+class Clearance:
+    """The last minus the foot in one zone, with the spread that each of the two brings.
+
+    ``value`` is NaN where it is not measured; ``reason`` then says why.
+    """
 
     value: float
     foot_sd: float = 0.0
@@ -72,48 +78,21 @@ class Taken:
 
     @property
     def measured(self) -> Measured:
-        """As a result."""
+        """The clearance as a result."""
         if self.reason is not None:
             return Measured(None, reason=self.reason)
         return Measured(self.value, math.hypot(self.foot_sd, self.last_sd))
 
 
-@dataclass(frozen=True, slots=True)
-class Clearances:
-    """The clearances of n lasts in z zones: ``values`` and ``last_sd`` (n, z), ``foot_sd`` (n, z).
-
-    NaN where a clearance is not measured; ``reasons[i][j]`` then says why.
-    """
-
-    values: Floats
-    foot_sd: Floats
-    last_sd: Floats
-    reasons: tuple[tuple[str | None, ...], ...]
-
-    def measured(self, last: int, zone: int) -> Measured:
-        """One clearance as a result."""
-        taken = Taken(
-            float(self.values[last, zone]),
-            float(self.foot_sd[last, zone]),
-            float(self.last_sd[last, zone]),
-            self.reasons[last][zone],
-        )
-        return taken.measured
-
-
 def clearances(
-    foot: Profiled, lasts: Sequence[LastRecord], rules: Sequence[ZoneRule]
-) -> Clearances:
-    """The clearance of a foot in each of n lasts, in the zones of the rules."""
-    measures = _by_name(foot.measures)
-    one = ZoneShape(foot.aligned.alignment.extent_mm, foot.flare, measures, _heel_mm(measures))
-    shapes = [zone_shape(last) for last in lasts]
-    asked_mm = next((rule.target for rule in rules if rule.zone == "length"), 0.0)
-    table = [[_taken(one, shape, rule, asked_mm) for rule in rules] for shape in shapes]
-    values = np.array([[(t.value, t.foot_sd, t.last_sd) for t in row] for row in table])
-    values = values.reshape(len(lasts), len(rules), 3)
-    reasons = tuple(tuple(taken.reason for taken in row) for row in table)
-    return Clearances(values[:, :, 0], values[:, :, 1], values[:, :, 2], reasons)
+    feet: Sequence[Profiled], lasts: Sequence[LastRecord], columns: Sequence[Column]
+) -> tuple[tuple[Clearance, ...], ...]:
+    """The clearance of each foot in each last: a row for each last, a clearance for each column."""
+    ours, theirs = [foot_shape(foot) for foot in feet], [last_shape(last) for last in lasts]
+    asked_mm = next((c.rule.target for c in columns if c.rule.zone == "length"), 0.0)
+    return tuple(
+        tuple(_clearance(ours[c.foot], last, c.rule, asked_mm) for c in columns) for last in theirs
+    )
 
 
 @dataclass(frozen=True, slots=True)
@@ -122,82 +101,83 @@ class ZoneShape:
 
     extent_mm: float
     flare: FlareProfile
-    measures: Mapping[str, tuple[Measured, str]]
-    heel_height_mm: float | None
+    measures: Mapping[str, Measure]
+    labelled_heel_mm: float | None = None
 
     def measured_mm(self, name: str) -> float | None:
         """The value of a measure, by whichever definition; None where there is none."""
-        return self.measures[name][0].value if name in self.measures else None
+        return self.measures[name].measured.value if name in self.measures else None
+
+    @property
+    def heel_height_mm(self) -> float | None:
+        """The heel height as measured, else as labelled; a foot has none."""
+        measured_mm = self.measured_mm("heel_height")
+        return self.labelled_heel_mm if measured_mm is None else measured_mm
 
 
-def zone_shape(last: LastRecord) -> ZoneShape:
+def foot_shape(foot: Profiled) -> ZoneShape:
+    """What zones read of a foot."""
+    measures = {measure.name: measure for measure in foot.measures}
+    return ZoneShape(foot.aligned.alignment.extent_mm, foot.flare, measures)
+
+
+def last_shape(last: LastRecord) -> ZoneShape:
     """What zones read of a last."""
-    measures = _by_name(last.measures)
-    heel = _heel_mm(measures)
-    heel = last.labels.heel_height_mm if heel is None else heel
-    return ZoneShape(last.extent_mm, last.flare, measures, heel)
+    measures = {measure.name: measure for measure in last.measures}
+    return ZoneShape(last.extent_mm, last.flare, measures, last.labels.heel_height_mm)
 
 
-def _heel_mm(measures: Mapping[str, tuple[Measured, str]]) -> float | None:
-    """The measured heel height; a foot has none."""
-    return measures["heel_height"][0].value if "heel_height" in measures else None
-
-
-def _by_name(measures: Sequence[object]) -> dict[str, tuple[Measured, str]]:
-    return {m.name: (m.measured, m.definition) for m in measures}  # type: ignore[attr-defined]
-
-
-def _taken(foot: ZoneShape, last: ZoneShape, rule: ZoneRule, asked_mm: float) -> Taken:
-    special = _SPECIAL.get(rule.zone)
+def _clearance(foot: ZoneShape, last: ZoneShape, rule: ZoneRule, asked_mm: float) -> Clearance:
+    """The clearance in the zone of a rule, without what the rule's cavity takes."""
     if rule.zone == "ball_line":
-        taken = ball_line(foot, last, asked_mm)
+        clearance = ball_line(foot, last, asked_mm)
+    elif rule.zone in _SPECIAL:
+        clearance = _SPECIAL[rule.zone](foot, last)
     else:
-        taken = special(foot, last) if special else _difference(foot, last, rule.zone)
-    if taken.reason is not None:
-        return taken
-    return Taken(taken.value - rule.cavity, taken.foot_sd, taken.last_sd)
+        clearance = _difference(foot, last, rule.zone)
+    return replace(clearance, value=clearance.value - rule.cavity) if rule.cavity else clearance
 
 
-def _missing(reason: str) -> Taken:
-    return Taken(float("nan"), reason=reason)
+def _missing(reason: str) -> Clearance:
+    return Clearance(math.nan, reason=reason)
 
 
-def _difference(foot: ZoneShape, last: ZoneShape, name: str) -> Taken:
+def _difference(foot: ZoneShape, last: ZoneShape, name: str) -> Clearance:
     """The last's measure minus the foot's, if both have it and mean the same by it."""
-    for who, shape in (("foot", foot), ("last", last)):
+    for kind, shape in (("foot", foot), ("last", last)):
         if name not in shape.measures:
-            return _missing(f"not measured on the {who}")
-        if shape.measures[name][0].value is None:
-            words = shape.measures[name][0].reason or "not measured"
-            return _missing(f"the {who}: {words}")
-    (one, meant), (other, also) = foot.measures[name], last.measures[name]
-    if meant != also:
+            return _missing(f"not measured on the {kind}")
+        if shape.measured_mm(name) is None:
+            reason = shape.measures[name].measured.reason or "not measured"
+            return _missing(f"the {kind}: {reason}")
+    if foot.measures[name].definition != last.measures[name].definition:
         return _missing("measured by another definition; type: footfit upgrade-catalogue")
-    assert one.value is not None
-    assert other.value is not None
-    return Taken(other.value - one.value, one.sd or 0.0, other.sd or 0.0)
+    ours, theirs = foot.measures[name].measured, last.measures[name].measured
+    assert ours.value is not None
+    assert theirs.value is not None
+    return Clearance(theirs.value - ours.value, ours.sd or 0.0, theirs.sd or 0.0)
 
 
-def _length(foot: ZoneShape, last: ZoneShape) -> Taken:
+def _length(foot: ZoneShape, last: ZoneShape) -> Clearance:
     """The toe room: functional lengths where both are measured, else lengths, along the bottom of
     the last. A last in the foot's place, as in a search by shape, is measured along its bottom too.
     """
-    taken = _difference(foot, last, "functional_length")
-    if taken.reason is not None:  # lengths of other versions differ by tenths of a mm
+    room = _difference(foot, last, "functional_length")
+    if room.reason is not None:  # lengths of other versions differ by tenths of a mm
         foot_mm, last_mm = foot.measured_mm("length"), last.measured_mm("length")
         if foot_mm is None or last_mm is None:
             return _difference(foot, last, "length")
-        taken = Taken(last_mm - foot_mm, LENGTH_SD_MM, LENGTH_SD_MM)
-    gain = pitch_gain_mm(last) - pitch_gain_mm(foot)
-    return Taken(taken.value + gain, taken.foot_sd, taken.last_sd)
+        room = Clearance(last_mm - foot_mm, LENGTH_SD_MM, LENGTH_SD_MM)
+    return replace(room, value=room.value + pitch_gain_mm(last) - pitch_gain_mm(foot))
 
 
 def pitch_gain_mm(last: ZoneShape) -> float:
     """How much longer a pitched last is along its bottom than along X.
 
-    The frame rests a last on its seat and its ball, so X is their chord; the forepart, which
-    stands on the ground, rises from it by the pitch, whose sine is heel height over that chord.
-    A foot of flat scan lies along the bottom: the forepart counts with its own length.
+    The frame rests a last on its seat and its ball, so X lies along their chord. The forepart
+    stands on the ground and rises from that chord by the pitch, whose sine is the heel height over
+    the chord. A foot that was scanned flat lies along the bottom, so the forepart counts with its
+    own length.
     """
     heel = last.heel_height_mm
     if heel is None or heel < HEEL_FROM_MM:
@@ -208,35 +188,29 @@ def pitch_gain_mm(last: ZoneShape) -> float:
     return (last.extent_mm - chord) * (1.0 / math.sqrt(1.0 - sine * sine) - 1.0)
 
 
-BALL_SHARE = 0.72
-"""Where the ball lies over the length where it was not measured."""
-STEEPEST = 0.6
-"""The sine of the steepest pitch that is believed: a heel of 110 mm."""
+def ball_line(foot: ZoneShape, last: ZoneShape, asked_mm: float) -> Clearance:
+    """How much further forward the last's ball is than the foot's, in % of the foot's length.
 
-
-def ball_line(foot: ZoneShape, last: ZoneShape, asked_mm: float) -> Taken:
-    """How much further forward the last's ball is than the foot's, in % of the foot's length,
-    beyond what its length explains.
-
-    A last that is longer than the toe room asked for carries its ball forward in proportion; that
-    is judged as length and not once more here. A long toe with the ball in place is in place.
+    What the length explains is left out: a last that is longer than the toe room asked for has its
+    ball further forward in proportion, and that is judged as length. A long toe with the ball in
+    place is in place.
     """
-    taken, room = _difference(foot, last, "ball_length"), _length(foot, last)
-    if taken.reason is not None or room.reason is not None:
-        return taken if taken.reason is not None else room
+    ball, room = _difference(foot, last, "ball_length"), _length(foot, last)
+    if ball.reason is not None or room.reason is not None:
+        return ball if ball.reason is not None else room
     carried = BALL_SHARE * (room.value - asked_mm)
-    explained = min(max(taken.value, min(carried, 0.0)), max(carried, 0.0))
+    explained = min(max(ball.value, min(carried, 0.0)), max(carried, 0.0))
     scale = 100.0 / foot.extent_mm
-    return Taken((taken.value - explained) * scale, taken.foot_sd * scale, taken.last_sd * scale)
+    return Clearance((ball.value - explained) * scale, ball.foot_sd * scale, ball.last_sd * scale)
 
 
-def _flare(foot: ZoneShape, last: ZoneShape) -> Taken:
+def _flare(foot: ZoneShape, last: ZoneShape) -> Clearance:
     """The flare angles' difference."""
     delta = last.flare.angle_deg - foot.flare.angle_deg
-    return Taken(delta, foot.flare.angle_sd_deg, last.flare.angle_sd_deg)
+    return Clearance(delta, foot.flare.angle_sd_deg, last.flare.angle_sd_deg)
 
 
-def _plan(foot: ZoneShape, last: ZoneShape) -> Taken:
+def _plan(foot: ZoneShape, last: ZoneShape) -> Clearance:
     """The root mean square of the plan curvatures' difference over the distance's stations."""
     ours, theirs = foot.flare.curvature.get("plan"), last.flare.curvature.get("plan")
     if ours is None or theirs is None or len(ours) != len(theirs):
@@ -244,10 +218,10 @@ def _plan(foot: ZoneShape, last: ZoneShape) -> Taken:
     low, high = DISTANCE.stations
     inside = (foot.flare.stations >= low) & (foot.flare.stations <= high)
     rms = float(np.sqrt(np.mean(np.square(theirs[inside] - ours[inside]))))
-    return Taken(rms, PLAN_SD, PLAN_SD)
+    return Clearance(rms, PLAN_SD, PLAN_SD)
 
 
-_SPECIAL: dict[str, Callable[[ZoneShape, ZoneShape], Taken]] = {
+_SPECIAL: dict[str, Callable[[ZoneShape, ZoneShape], Clearance]] = {
     "length": _length,
     "flare": _flare,
     "plan": _plan,
