@@ -28,8 +28,8 @@ from footfit.results import (
     Profiled,
     Reference,
     SideVerdict,
+    SurfaceClearance,
     SurfaceCurvature,
-    SurfaceRoom,
 )
 
 STATIONS = np.linspace(0.04, 0.96, 60)
@@ -214,7 +214,7 @@ def roomy_candidate(side="right"):
         ZoneClearance("toe", 5.61, -1.08, 12.31, 47.3, 1.5, 17.6),
         ZoneClearance("bottom", None, None, None, 0.0, 0.0, 0.0),
     )
-    return candidate(1, record("derby-42"), surfaces=(SurfaceRoom(side, 2.9, zones),))
+    return candidate(1, record("derby-42"), surfaces=(SurfaceClearance(side, 2.9, zones),))
 
 
 def match(feet=None, names=("derby-42", "oxford-42", "trainer-42", "boot-42", "derby-43"), **more):

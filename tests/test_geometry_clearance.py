@@ -20,7 +20,7 @@ from footfit.geometry.fit.clearance import (
     zone_of,
 )
 from footfit.geometry.fit.paired_sections import STATIONS, section_pairs
-from footfit.geometry.fit.placement import docked, docking
+from footfit.geometry.fit.placement import placed, placement
 from footfit.geometry.measures.landmarks import Shape
 from footfit.geometry.mesh.nearest import nearest_on_surface, part_middles
 from tests import shapes
@@ -95,12 +95,12 @@ def test_the_parts_of_a_triangle_are_equal_and_fill_it(split):
     assert np.allclose(middles.mean(axis=0), 1 / 3)
 
 
-# ---------------------------------------------------------------- docking
+# ---------------------------------------------------------------- placement
 
 
 def test_a_last_lies_in_itself_without_moving():
-    way = docking(last(), last())
-    assert np.abs(docked(last().vertices_mm, way) - last().vertices_mm).max() < 1e-9
+    way = placement(last(), last())
+    assert np.abs(placed(last().vertices_mm, way) - last().vertices_mm).max() < 1e-9
     assert way.swing_mm == pytest.approx(0.0, abs=1e-9)
     room = foot_clearance(last(), last())
     assert np.nanmax(np.abs(room)) < 1e-9
@@ -112,7 +112,7 @@ def test_a_last_lies_in_itself_without_moving():
 )
 def test_a_moved_copy_is_brought_back(pitch_deg, yaw_deg, shift):
     moved = Shape(turned(last().vertices_mm, pitch_deg, yaw_deg, shift), last().faces, "last")
-    back = docked(moved.vertices_mm, docking(moved, last()))
+    back = placed(moved.vertices_mm, placement(moved, last()))
     low = last().vertices_mm[:, 2] < 0.3 * 272.0
     assert np.abs(back - last().vertices_mm)[low].max() < 0.5
 
@@ -120,19 +120,19 @@ def test_a_moved_copy_is_brought_back(pitch_deg, yaw_deg, shift):
 def test_the_swing_is_how_far_the_axes_part_at_the_ball():
     yaw_deg = 4.0
     moved = Shape(turned(last().vertices_mm, 0.0, yaw_deg, np.zeros(3)), last().faces, "last")
-    way = docking(moved, last())
+    way = placement(moved, last())
     assert way.yaw_deg == pytest.approx(-yaw_deg, abs=0.15)
     assert way.swing_mm == pytest.approx(-np.tan(np.radians(yaw_deg)) * 0.65 * 272.0, abs=0.6)
 
 
 def test_a_flat_foot_bends_at_its_tread_into_a_toe_spring():
     """The foot is a last whose forepart was bent down: the bend that brings it back is found."""
-    bend = replace(docking(last(), last()), bend_deg=-8.0)
-    flat = Shape(docked(last().vertices_mm, bend), last().faces, "foot")
-    way = docking(flat, last())
+    bend = replace(placement(last(), last()), bend_deg=-8.0)
+    flat = Shape(placed(last().vertices_mm, bend), last().faces, "foot")
+    way = placement(flat, last())
     assert way.bend_deg == pytest.approx(8.0, abs=0.6)
     assert abs(way.pitch_deg) < 0.3
-    back = docked(flat.vertices_mm, way)
+    back = placed(flat.vertices_mm, way)
     low = last().vertices_mm[:, 2] < 20.0
     assert np.abs(back - last().vertices_mm)[low].max() < 1.0
 
@@ -140,14 +140,14 @@ def test_a_flat_foot_bends_at_its_tread_into_a_toe_spring():
 def test_no_bottom_is_refused_in_words():
     open_front = last().faces[(last().vertices_mm[last().faces][:, :, 0] < 150.0).all(axis=1)]
     with pytest.raises(NoSole, match="to rest on"):
-        docking(last(), Shape(last().vertices_mm, open_front, "last"))
+        placement(last(), Shape(last().vertices_mm, open_front, "last"))
 
 
 # ---------------------------------------------------------------- zones
 
 
 def in_the_last(foot: Shape, around: Shape) -> tuple[Shape, np.ndarray]:
-    inside = Shape(docked(foot.vertices_mm, docking(foot, around)), foot.faces, foot.kind)
+    inside = Shape(placed(foot.vertices_mm, placement(foot, around)), foot.faces, foot.kind)
     return inside, foot_clearance(inside, around)
 
 

@@ -47,7 +47,7 @@ def test_a_turned_scan_has_the_same_room(scan, stocked, tmp_path):
             assert (a.difference.value is None) == (b.difference.value is None)
             if a.difference.value is not None:
                 assert a.difference.value == pytest.approx(b.difference.value, abs=0.8)
-    assert one.docking.swing_mm == pytest.approx(other.docking.swing_mm, abs=0.5)
+    assert one.placement.swing_mm == pytest.approx(other.placement.swing_mm, abs=0.5)
 
 
 def test_the_room_in_a_wider_copy_is_what_was_added_along_the_normals():
@@ -60,7 +60,7 @@ def test_the_room_in_a_wider_copy_is_what_was_added_along_the_normals():
     normals, areas = vertex_normals(vertices, faces), vertex_areas(vertices, faces)
     added = 0.06 * vertices[:, 1] * normals[:, 1]
     zone = zone_of(Shape(vertices, faces))
-    known = np.isfinite(found.room_mm)
+    known = np.isfinite(found.clearance_mm)
     for side in found.zones:
         here = known & (zone == ZONES.index(side.zone))
         expected = added[here] @ areas[here] / areas[here].sum()

@@ -98,7 +98,7 @@ def test_a_left_foots_files_are_of_the_left():
 def test_mirrored_pairs_have_the_same_room_and_a_mirrored_last_too():
     first = comparison()
     for other in (comparison(True, True), comparison(False, True), comparison(True, False)):
-        assert np.allclose(first.room_mm, other.room_mm, atol=1e-6, equal_nan=True)
+        assert np.allclose(first.clearance_mm, other.clearance_mm, atol=1e-6, equal_nan=True)
         assert other.zones == pytest.approx(first.zones) or all(
             abs(a.mean_mm - b.mean_mm) < 1e-6 for a, b in zip(first.zones, other.zones, strict=True)
         )

@@ -117,11 +117,13 @@ def test_lighter_meshes_keep_the_figures_and_carry_the_colours_over():
     assert len(light.faces) <= 3100
     assert light.zones == whole.zones
     assert light.sections == whole.sections
-    known = np.isfinite(light.room_mm)
+    known = np.isfinite(light.clearance_mm)
     assert known.mean() > 0.5
-    assert np.nanmin(whole.room_mm) <= light.room_mm[known].min()
-    assert light.room_mm[known].max() <= np.nanmax(whole.room_mm)
-    assert light.room_mm[known].mean() == pytest.approx(np.nanmean(whole.room_mm), abs=0.8)
+    assert np.nanmin(whole.clearance_mm) <= light.clearance_mm[known].min()
+    assert light.clearance_mm[known].max() <= np.nanmax(whole.clearance_mm)
+    assert light.clearance_mm[known].mean() == pytest.approx(
+        np.nanmean(whole.clearance_mm), abs=0.8
+    )
 
 
 # ---------------------------------------------------------------- in a browser

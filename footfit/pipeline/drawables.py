@@ -46,22 +46,22 @@ def best_comparisons(path: Path, match: Match) -> tuple[Comparison, ...]:
 
 
 def drawable(comparison: Comparison, faces: int = DRAWN_FACES) -> Comparison:
-    """The same figures with lighter meshes; the room is carried over from the whole surface."""
+    """The same figures with lighter meshes; the clearance is that of the whole surface."""
     around = lighter_mesh(comparison.last_vertices_mm, comparison.last_faces, faces)
     inside = lighter_mesh(comparison.vertices_mm, comparison.faces, faces)
-    room_mm = comparison.room_mm
+    clearance_mm = comparison.clearance_mm
     if len(inside[1]) < len(comparison.faces):
         found = nearest_on_surface(inside[0], comparison.vertices_mm, comparison.faces)
-        corners = room_mm[comparison.faces[found.face]]
+        corners = clearance_mm[comparison.faces[found.face]]
         felt = np.where(found.weights > 0.0, corners, 0.0)  # an unknown corner without weight
-        room_mm = np.einsum("pj,pj->p", found.weights, felt)
+        clearance_mm = np.einsum("pj,pj->p", found.weights, felt)
     return replace(
         comparison,
         vertices_mm=inside[0],
         faces=inside[1],
         last_vertices_mm=around[0],
         last_faces=around[1],
-        room_mm=room_mm,
+        clearance_mm=clearance_mm,
     )
 
 

@@ -16,7 +16,7 @@ from footfit.results.compare import (
     Comparison,
     SectionComparison,
     SizeDifference,
-    SurfaceRoom,
+    SurfaceClearance,
 )
 from footfit.results.fit import FitProfile, FootFit, ZoneFit, ZoneRule
 from footfit.results.last_record import LastLabels, LastRecord, StoredLast
@@ -88,8 +88,8 @@ __all__ = [
     "SideVerdict",
     "SizeDifference",
     "StoredLast",
+    "SurfaceClearance",
     "SurfaceCurvature",
-    "SurfaceRoom",
     "UpgradeOutcome",
     "Verdict",
     "ZoneFit",

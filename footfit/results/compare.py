@@ -11,7 +11,7 @@ if TYPE_CHECKING:
     from collections.abc import Iterable
 
     from footfit.geometry.fit.clearance import ZoneClearance
-    from footfit.geometry.fit.placement import Docking
+    from footfit.geometry.fit.placement import Placement
     from footfit.geometry.numeric.arrays import Floats, Ints
     from footfit.results.last_record import LastRecord
     from footfit.results.profile import Profiled
@@ -62,11 +62,11 @@ class SectionComparison:
 
 
 @dataclass(frozen=True, slots=True)
-class SurfaceRoom:
-    """One foot of a customer laid into one last: the room between the surfaces, zone by zone.
+class SurfaceClearance:
+    """One foot of a customer in one last: the clearance between the surfaces, zone by zone.
 
-    ``swing_mm`` is how far the foot's tread had to go to medial to lie on the last's. ``reason``
-    says why the foot could not be laid in; there are no zones then.
+    ``swing_mm`` is how far the foot's tread moves to medial to lie on the last's. ``reason`` says
+    why the foot could not be placed; there are no zones then.
     """
 
     side: SideName | None
@@ -83,7 +83,7 @@ class SurfaceRoom:
 class Comparison:
     """A foot in a last, both as right shapes in the last's frame, mm.
 
-    ``vertices_mm`` (n, 3) and ``faces`` (m, 3) are the foot as it is docked, ``room_mm`` (n,) its
+    ``vertices_mm`` (n, 3) and ``faces`` (m, 3) are the foot in its place, ``clearance_mm`` (n,) its
     clearance at each vertex, NaN where the shoe does not reach; ``last_vertices_mm`` and
     ``last_faces`` are the last. ``mirrored``: the last is of the other side than the foot.
     """
@@ -91,12 +91,12 @@ class Comparison:
     foot: Profiled
     last: LastRecord
     mirrored: bool
-    docking: Docking
+    placement: Placement
     vertices_mm: Floats
     faces: Ints
     last_vertices_mm: Floats
     last_faces: Ints
-    room_mm: Floats
+    clearance_mm: Floats
     zones: tuple[ZoneClearance, ...]
     sections: tuple[SectionComparison, ...]
     warnings: tuple[Notice, ...]
@@ -139,7 +139,7 @@ class Comparison:
                 "length_mm": _lengths_part(alignment.length_mm, self.last.length_mm),
                 "extent_mm": _lengths_part(alignment.extent_mm, self.last.extent_mm),
                 "flare_delta_deg": self.flare_delta_deg,
-                "docking": part(fields(self.docking, "hinge_mm", "hinge_length_mm")),
+                "docking": part(fields(self.placement, "hinge_mm", "hinge_length_mm")),
                 "zones": zones_part(self.zones),
                 "sections": self.sections,
                 "warnings": self.warnings,

@@ -11,7 +11,7 @@ from footfit.results.profile import flare_part
 from footfit.results.values import FIT_NAMES, NOT_YET, measured_part, measures_part
 
 if TYPE_CHECKING:
-    from footfit.results.compare import SurfaceRoom
+    from footfit.results.compare import SurfaceClearance
     from footfit.results.fit import FitProfile, FootFit
     from footfit.results.last_record import LastRecord
     from footfit.results.profile import Profiled
@@ -53,7 +53,7 @@ class Candidate:
     distance_sd: float | None = None
     fits: tuple[FootFit, ...] = ()
     not_judged: tuple[str, ...] = ()
-    surfaces: tuple[SurfaceRoom, ...] = ()
+    surfaces: tuple[SurfaceClearance, ...] = ()
 
     def to_dict(self) -> Json:
         """The fields but the record; null where nobody asked for the room between surfaces."""

@@ -1,7 +1,7 @@
-"""The room between a foot and the last around it: signed, by direction, in mm and cm2.
+"""The clearance between a foot and the last around it: signed, by direction, in mm and cm2.
 
-Both shapes are canonical right ones and the foot is docked (``docking.py``). + is room to spare,
-- is where the foot would reach through the last's surface.
+Both shapes are canonical right ones, and the foot lies in the last (``placement.py``). + is space
+to spare, - is where the foot would reach through the last's surface.
 """
 
 from __future__ import annotations
@@ -27,14 +27,17 @@ class ClearanceSettings:
     ----------
     topline : ((share, share), ...)
         Height over the length at places along the length, straight in between: what lies higher is
-        not in the shoe (back, under the ankles, at the throat). Ahead of the last place all is.
+        not in the shoe (back, under the ankles, at the throat). In front of the last place
+        everything is in the shoe.
     toe_from : float
-        Over the length: what lies ahead is toe, but for its bottom.
+        A share of the length: in front of it, everything but the sole counts as toe.
     facing_down, facing_up : float
-        The Z part of a normal, from which on a place is bottom or dorsal.
+        From this Z part of its normal on, a place is bottom or dorsal.
     tight_mm, loose_mm : float
-        An area counts as tight under the one and as loose over the other; a foot gives way by the
-        first without pressing (the spread of a soft foot's scans).
+        An area with less clearance than the first is tight, with more than the second loose. A foot
+        yields by the first without pressure (the spread of a soft foot's scans).
+    quantiles : (share, share)
+        The low and the high quantile that stand for a zone's tightest and loosest places.
     """
 
     topline: tuple[tuple[float, float], ...] = ((0.0, 0.22), (0.22, 0.19), (0.50, 0.30))
@@ -43,6 +46,7 @@ class ClearanceSettings:
     facing_up: float = 0.60
     tight_mm: float = -2.0
     loose_mm: float = 8.0
+    quantiles: tuple[float, float] = (0.05, 0.95)
 
 
 CLEARANCE = ClearanceSettings()
@@ -50,8 +54,8 @@ CLEARANCE = ClearanceSettings()
 
 @dataclass(frozen=True, slots=True)
 class ZoneClearance:
-    """The room in one zone: its area-weighted mean and 5 and 95 % quantiles, and how much of its
-    area is tight or loose. The figures are None where nothing of the zone is compared.
+    """The clearance in one zone: its area-weighted mean, its 5 and 95 % quantiles, and how much of
+    the area is tight or loose. The figures are None if nothing of the zone is compared.
     """
 
     zone: str
@@ -63,19 +67,23 @@ class ZoneClearance:
     loose_cm2: float
 
 
-def signed_clearance(points: Floats, vertices: Floats, faces: Ints) -> Floats:
-    """The room (p,) from points to a surface around them: + inside it, - outside.
+def signed_clearance(
+    points: Floats, vertices: Floats, faces: Ints, open_faces: Bools | None = None
+) -> Floats:
+    """The clearance (p,) from points to a surface around them: + inside it, - outside.
 
     Parameters
     ----------
     points : (p, 3)
     vertices, faces : (n, 3), (m, 3)
         Wound outward.
+    open_faces : (m,), optional
+        Faces that close an opening, as a last's top does.
 
     Returns
     -------
     (p,)
-        NaN where the nearest part is an open rim, which has no inside.
+        NaN where the nearest place is on an open rim, which has no inside, or on an open face.
 
     Examples
     --------
@@ -85,35 +93,33 @@ def signed_clearance(points: Floats, vertices: Floats, faces: Ints) -> Floats:
     >>> signed_clearance(np.array([[-2.0, 0, 0], [3, 0, 0]]), wall, np.array([[0, 1, 2]])).tolist()
     [2.0, -3.0]
     """
-    found = nearest_on_surface(points, vertices, faces)
-    way = points - found.place
-    outside = np.einsum("ij,ij->i", way, outward_at(found, vertices, faces)) > 0.0
-    room = np.where(outside, -found.distance, found.distance)
-    room[at_rim(found, faces, len(vertices))] = np.nan
-    return room
+    nearest = nearest_on_surface(points, vertices, faces)
+    way = points - nearest.place
+    outside = np.einsum("ij,ij->i", way, outward_at(nearest, vertices, faces)) > 0.0
+    clearance = np.where(outside, -nearest.distance, nearest.distance)
+    unknown = at_rim(nearest, faces, len(vertices))
+    if open_faces is not None:
+        unknown |= open_faces[nearest.face]
+    clearance[unknown] = np.nan
+    return clearance
 
 
 def foot_clearance(foot: Shape, last: Shape, settings: ClearanceSettings = CLEARANCE) -> Floats:
-    """The room (n,) at each vertex of a docked foot; NaN where the shoe does not reach.
+    """The clearance (n,) at each vertex of a foot that lies in a last, mm.
 
-    That is over the topline, at the foot's own lid (a cut leg), where the last's lid or open rim
-    is nearest, and at vertices without a face.
+    NaN where the shoe does not reach: over the topline, at the foot's own top cut, where the last's
+    top or an open rim is nearest, and at vertices without a face.
     """
-    compared = np.flatnonzero(in_shoe(foot, settings))
-    points = foot.vertices_mm[compared]
-    found = nearest_on_surface(points, last.vertices_mm, last.faces)
-    way = points - found.place
-    outward = outward_at(found, last.vertices_mm, last.faces)
-    outside = np.einsum("ij,ij->i", way, outward) > 0.0
-    room = np.where(outside, -found.distance, found.distance)
-    room[last.lid[found.face] | at_rim(found, last.faces, len(last.vertices_mm))] = np.nan
-    result = np.full(len(foot.vertices_mm), np.nan)
-    result[compared] = room
-    return result
+    compared = in_shoe(foot, settings)
+    clearance_mm = np.full(len(foot.vertices_mm), np.nan)
+    clearance_mm[compared] = signed_clearance(
+        foot.vertices_mm[compared], last.vertices_mm, last.faces, last.lid
+    )
+    return clearance_mm
 
 
 def in_shoe(foot: Shape, settings: ClearanceSettings = CLEARANCE) -> Bools:
-    """Which vertices (n,) lie under the topline and are no part of a cut leg's lid."""
+    """Which vertices (n,) lie under the topline and are not part of a leg's top cut."""
     share, height = np.array(settings.topline).T
     at = (foot.vertices_mm[:, 0] - foot.x_mm(0.0)) / foot.length_mm
     limit = np.interp(at, share, height, right=np.inf) * foot.length_mm
@@ -126,8 +132,8 @@ def in_shoe(foot: Shape, settings: ClearanceSettings = CLEARANCE) -> Bools:
 def zone_of(foot: Shape, settings: ClearanceSettings = CLEARANCE) -> Ints:
     """The zone of each vertex (n,): its place in ``ZONES``.
 
-    By where the surface looks: down is bottom, up is dorsal, else medial or lateral; of what
-    lies ahead of ``toe_from`` all but the bottom is toe.
+    By where the surface looks: down is bottom, up is dorsal, else medial or lateral. In front of
+    ``toe_from`` everything but the bottom is toe.
     """
     normals = vertex_normals(foot.vertices_mm, foot.faces)
     zone = np.where(normals[:, 1] > 0.0, ZONES.index("medial"), ZONES.index("lateral"))
@@ -138,28 +144,28 @@ def zone_of(foot: Shape, settings: ClearanceSettings = CLEARANCE) -> Ints:
 
 
 def zone_clearances(
-    foot: Shape, room_mm: Floats, settings: ClearanceSettings = CLEARANCE
+    foot: Shape, clearance_mm: Floats, settings: ClearanceSettings = CLEARANCE
 ) -> tuple[ZoneClearance, ...]:
-    """The room of each zone, from the room (n,) at the foot's vertices."""
+    """The clearance of each zone, from the clearance (n,) at the foot's vertices."""
     zone, areas = zone_of(foot, settings), vertex_areas(foot.vertices_mm, foot.faces)
-    known = np.isfinite(room_mm) & (areas > 0.0)
+    known = np.isfinite(clearance_mm) & (areas > 0.0)
     return tuple(
-        _zone_clearance(name, room_mm[chosen], areas[chosen], settings)
+        _zone_clearance(name, clearance_mm[chosen], areas[chosen], settings)
         for index, name in enumerate(ZONES)
         for chosen in (known & (zone == index),)
     )
 
 
 def _zone_clearance(
-    name: str, room_mm: Floats, areas_mm2: Floats, settings: ClearanceSettings
+    name: str, clearance_mm: Floats, areas_mm2: Floats, settings: ClearanceSettings
 ) -> ZoneClearance:
-    if not len(room_mm):
+    if not len(clearance_mm):
         return ZoneClearance(name, None, None, None, 0.0, 0.0, 0.0)
-    low, high = (area_quantile(room_mm, areas_mm2, share) for share in (0.05, 0.95))
-    tight, loose = room_mm < settings.tight_mm, room_mm > settings.loose_mm
+    low, high = (area_quantile(clearance_mm, areas_mm2, share) for share in settings.quantiles)
+    tight, loose = clearance_mm < settings.tight_mm, clearance_mm > settings.loose_mm
     return ZoneClearance(
         zone=name,
-        mean_mm=float(room_mm @ areas_mm2 / areas_mm2.sum()),
+        mean_mm=float(clearance_mm @ areas_mm2 / areas_mm2.sum()),
         p05_mm=low,
         p95_mm=high,
         area_cm2=float(areas_mm2.sum()) / 100.0,

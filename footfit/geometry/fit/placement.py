@@ -1,8 +1,8 @@
-"""How a foot is laid into a last: heel to heel, tread on tread, toes on the toe spring.
+"""How a foot is placed in a last: heel to heel, tread on tread, toes on the toe spring.
 
-Both shapes are canonical right ones in mm. A foot was scanned flat, a last is pitched: the
-seat-to-ball chord of the last's bottom is followed by turning the whole foot about Y, and what the
-bottom rises ahead of the tread by bending the foot at its tread, as it bends in a shoe.
+Both shapes are canonical right ones in mm. A foot is scanned flat, and a last is pitched. So the
+whole foot is turned about Y until it follows the chord of the last's bottom from seat to ball. In
+front of the tread the bottom rises, and the foot is bent there, as it bends in a shoe.
 """
 
 from __future__ import annotations
@@ -17,14 +17,16 @@ from footfit.geometry.mesh.sections import depth_at, extremes_below, lowest, sec
 from footfit.geometry.mesh.surface import face_areas
 from footfit.geometry.numeric.arrays import Floats
 from footfit.geometry.numeric.quantiles import area_quantile
+from footfit.geometry.pose.frame import FRAME
 
 
 @dataclass(frozen=True, slots=True)
-class DockingSettings:
+class PlacementSettings:
     """Where foot and last are brought together, over the foot's length.
 
-    ``band`` over a section's lowest point is its sole; ``places`` over the sole's width are where
-    its height is read; ``hinge`` is how far ahead of the tread the bend is complete.
+    What lies up to ``band`` over a section's lowest point is its sole. ``places`` over the sole's
+    width are where its height is read. ``hinge`` is how far in front of the tread the bend is
+    complete.
     """
 
     seat: tuple[float, float] = (0.06, 0.16)
@@ -33,25 +35,23 @@ class DockingSettings:
     sections: int = 7
     band: float = 0.10
     places: tuple[float, ...] = (0.35, 0.50, 0.65)
-    heel_share: float = 0.003
-    heel_height: float = 0.20
     hinge: float = 0.12
     most_bend_deg: float = 25.0
     rounds: int = 4
 
 
-DOCKING = DockingSettings()
+PLACEMENT = PlacementSettings()
 
 
 @dataclass(frozen=True, slots=True)
-class Docking:
-    """The way a foot moves into a last: it is bent ahead of a hinge, then turned and shifted.
+class Placement:
+    """How a foot moves into a last: it is bent in front of a hinge, then turned and shifted.
 
-    ``bend_deg`` (+ is toes up) turns what lies ahead of ``hinge_mm`` (2,), the x and z of the
-    tread's front in the foot's own frame, growing over ``hinge_length_mm``. ``pitch_deg`` (about
-    Y, + is toes up) and then ``yaw_deg`` (about Z, + to medial) turn the foot about the origin;
-    ``shift_mm`` (3,) follows. ``swing_mm`` is how far the foot's tread had to go to medial to lie
-    on the last's, heel on heel: how far the two axes part at the ball.
+    ``bend_deg`` (+ is toes up) turns what lies in front of ``hinge_mm`` (2,), the x and z of the
+    tread's front in the foot's own frame; it grows over ``hinge_length_mm``. ``pitch_deg`` (about
+    Y, + is toes up) and then ``yaw_deg`` (about Z, + to medial) turn the foot about the origin.
+    ``shift_mm`` (3,) comes last. ``swing_mm`` is how far the foot's tread moves to medial to lie on
+    the last's with heel on heel: how far the two axes are apart at the ball.
     """
 
     hinge_mm: Floats
@@ -65,15 +65,15 @@ class Docking:
 
 @dataclass(frozen=True, slots=True)
 class _Rest:
-    """Where a stretch of a sole lies: its mean x, the middle of its width, its mean height."""
+    """Where a part of a sole lies: its mean x, the middle of its width, its mean height, mm."""
 
     x: float
     y: float
     z: float
 
 
-def docking(foot: Shape, last: Shape, settings: DockingSettings = DOCKING) -> Docking:
-    """How ``foot`` is to be moved so that it lies in ``last``.
+def placement(foot: Shape, last: Shape, settings: PlacementSettings = PLACEMENT) -> Placement:
+    """The movement that puts ``foot`` into ``last``.
 
     Raises
     ------
@@ -84,64 +84,65 @@ def docking(foot: Shape, last: Shape, settings: DockingSettings = DOCKING) -> Do
     hinge_x = foot.x_mm(settings.tread[1])
     hinge = _rest(foot, (hinge_x - 0.01 * length, hinge_x), length, settings)
     if hinge is None:
-        raise NoSole("the foot's sole is open at the tread: it cannot be laid into a last")
-    found = Docking(np.array([hinge_x, hinge.z]), settings.hinge * length)
+        raise NoSole("the foot's sole is open at the tread, so it cannot be placed in a last")
+    place = Placement(np.array([hinge_x, hinge.z]), settings.hinge * length)
     for _ in range(settings.rounds):
-        found = _closer(foot, last, found, settings)
-    return found
+        place = _closer(foot, last, place, settings)
+    return place
 
 
-def docked(vertices_mm: Floats, way: Docking) -> Floats:
-    """The vertices (n, 3) of a foot where a docking puts them."""
+def placed(vertices_mm: Floats, place: Placement) -> Floats:
+    """The vertices (n, 3) of a foot where a placement puts them."""
     x, y, z = vertices_mm.T
-    ahead = np.clip((x - way.hinge_mm[0]) / way.hinge_length_mm, 0.0, 1.0)
-    angle = np.radians(way.bend_deg) * ahead * ahead * (3.0 - 2.0 * ahead)
-    dx, dz = x - way.hinge_mm[0], z - way.hinge_mm[1]
+    ahead = np.clip((x - place.hinge_mm[0]) / place.hinge_length_mm, 0.0, 1.0)
+    angle = np.radians(place.bend_deg) * ahead * ahead * (3.0 - 2.0 * ahead)
+    dx, dz = x - place.hinge_mm[0], z - place.hinge_mm[1]
     c, s = np.cos(angle) - 1.0, np.sin(angle)  # minus 1: no bend moves nothing, to the last bit
     x, z = x + c * dx - s * dz, z + s * dx + c * dz
-    c, s = np.cos(np.radians(way.pitch_deg)), np.sin(np.radians(way.pitch_deg))
+    c, s = np.cos(np.radians(place.pitch_deg)), np.sin(np.radians(place.pitch_deg))
     x, z = c * x - s * z, s * x + c * z
-    c, s = np.cos(np.radians(way.yaw_deg)), np.sin(np.radians(way.yaw_deg))
+    c, s = np.cos(np.radians(place.yaw_deg)), np.sin(np.radians(place.yaw_deg))
     x, y = c * x - s * y, s * x + c * y
-    moved: Floats = np.column_stack([x, y, z]) + np.array(way.shift_mm)
+    moved: Floats = np.column_stack([x, y, z]) + np.array(place.shift_mm)
     return moved
 
 
-def _closer(foot: Shape, last: Shape, way: Docking, settings: DockingSettings) -> Docking:
-    """One round: where the moved foot rests now, against where the last would have it."""
-    moved = Shape(docked(foot.vertices_mm, way), foot.low, foot.kind)
-    length, back = foot.length_mm, _heel_back(moved, foot.length_mm, settings)
+def _closer(foot: Shape, last: Shape, place: Placement, settings: PlacementSettings) -> Placement:
+    """One round: the moved foot's seat, tread and toes are brought to the last's."""
+    moved = Shape(placed(foot.vertices_mm, place), foot.low, foot.kind)
+    length = foot.length_mm
+    back = _heel_back(moved, length)
     theirs = Shape(last.vertices_mm, last.low, last.kind)
-    here, there = (_rests(one, back, length, settings) for one in (moved, theirs))
+    here, there = (_rests(shape, back, length, settings) for shape in (moved, theirs))
     if here[0] is None or here[1] is None or there[0] is None or there[1] is None:
         raise NoSole("foot and last share no bottom to rest on: the last is far too short, or open")
     seat, tread, to_seat, to_tread = here[0], here[1], there[0], there[1]
     reach = tread.x - seat.x
     pitch = np.arctan2((to_tread.z - to_seat.z) - (tread.z - seat.z), reach)
     turn = np.arctan2((to_tread.y - to_seat.y) - (tread.y - seat.y), reach)
-    bend_deg = way.bend_deg
+    bend_deg = place.bend_deg
     if here[2] is not None and there[2] is not None:
         ahead = here[2].x - tread.x
         rise = (there[2].z - to_tread.z) - (here[2].z - tread.z) - np.tan(pitch) * ahead
         hinge = back + settings.tread[1] * length
         bend_deg += float(np.degrees(np.arctan2(rise, here[2].x - hinge)))
-    yaw_deg = way.yaw_deg + float(np.degrees(turn))
+    yaw_deg = place.yaw_deg + float(np.degrees(turn))
     turned = replace(
-        way,
+        place,
         bend_deg=float(np.clip(bend_deg, -settings.most_bend_deg, settings.most_bend_deg)),
-        pitch_deg=way.pitch_deg + float(np.degrees(pitch)),
+        pitch_deg=place.pitch_deg + float(np.degrees(pitch)),
         yaw_deg=yaw_deg,
         swing_mm=float(np.tan(np.radians(yaw_deg))) * (tread.x - back),
     )
     return _shifted(foot, theirs, turned, settings)
 
 
-def _shifted(foot: Shape, last: Shape, way: Docking, settings: DockingSettings) -> Docking:
-    """The same turns with the shift that lays heel on heel and seat on seat."""
+def _shifted(foot: Shape, last: Shape, place: Placement, settings: PlacementSettings) -> Placement:
+    """The same turns with the shift that puts heel on heel and seat on seat."""
     length = foot.length_mm
-    moved = Shape(docked(foot.vertices_mm, way), foot.low, foot.kind)
-    back = _heel_back(moved, length, settings)
-    forward = _heel_back(last, length, settings) - back
+    moved = Shape(placed(foot.vertices_mm, place), foot.low, foot.kind)
+    back = _heel_back(moved, length)
+    forward = _heel_back(last, length) - back
     start, end = settings.seat
     here = _rest(moved, (back + start * length, back + end * length), length, settings)
     back += forward
@@ -149,21 +150,21 @@ def _shifted(foot: Shape, last: Shape, way: Docking, settings: DockingSettings) 
     if here is None or there is None:
         raise NoSole("foot and last share no seat to rest on: the heel of one of them is open")
     step = (forward, there.y - here.y, there.z - here.z)
-    x, y, z = (float(old + more) for old, more in zip(way.shift_mm, step, strict=True))
-    return replace(way, shift_mm=(x, y, z))
+    x, y, z = (float(old + more) for old, more in zip(place.shift_mm, step, strict=True))
+    return replace(place, shift_mm=(x, y, z))
 
 
-def _heel_back(shape: Shape, length_mm: float, settings: DockingSettings) -> float:
-    """Where a heel's back is along X: the quantile that docks a shape in its frame."""
+def _heel_back(shape: Shape, length_mm: float) -> float:
+    """Where a heel's back is along X: the quantile that puts the origin of a shape's frame."""
     middles = shape.vertices_mm[shape.faces].mean(axis=1)
     ground = float(middles[:, 2].min())
-    low = middles[:, 2] - ground < settings.heel_height * length_mm
+    low = middles[:, 2] - ground < FRAME.docking_height * length_mm
     areas = face_areas(shape.vertices_mm, shape.faces[low])
-    return area_quantile(middles[low, 0], areas, settings.heel_share)
+    return area_quantile(middles[low, 0], areas, FRAME.docking_share)
 
 
 def _rests(
-    shape: Shape, back_mm: float, length_mm: float, settings: DockingSettings
+    shape: Shape, back_mm: float, length_mm: float, settings: PlacementSettings
 ) -> list[_Rest | None]:
     """Seat, tread and toes of a shape, at places counted from ``back_mm``."""
     return [
@@ -173,7 +174,7 @@ def _rests(
 
 
 def _rest(
-    shape: Shape, window_mm: tuple[float, float], length_mm: float, settings: DockingSettings
+    shape: Shape, window_mm: tuple[float, float], length_mm: float, settings: PlacementSettings
 ) -> _Rest | None:
     """Where a sole lies between two places along X; None where there is none."""
     x = np.linspace(*window_mm, settings.sections)

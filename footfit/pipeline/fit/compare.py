@@ -1,4 +1,4 @@
-"""Compare: one foot laid into one last, surface against surface and section by section."""
+"""Compare: one foot in one last, surface against surface and section by section."""
 
 from __future__ import annotations
 
@@ -9,9 +9,9 @@ from pathlib import Path
 from footfit.catalogue.store import open_catalogue
 from footfit.geometry.fit.clearance import ZoneClearance, foot_clearance, zone_clearances
 from footfit.geometry.fit.paired_sections import SectionPair, SectionSizes, section_pairs
-from footfit.geometry.fit.placement import Docking, docked, docking
-from footfit.geometry.measures import measure_table
+from footfit.geometry.fit.placement import Placement, placed, placement
 from footfit.geometry.measures.landmarks import Shape
+from footfit.geometry.measures.measure_table import measure_named
 from footfit.geometry.measures.measure_value import Reading
 from footfit.geometry.numeric.arrays import Floats, Ints
 from footfit.meshes.copies.compact_copy import expanded
@@ -40,12 +40,14 @@ SD_FROM = {
     "height": "instep_height",
     "girth": "instep_girth",
 }
-"""The measure whose repeatability a section's size has: it is taken the same way."""
+"""The measure that is taken like a section's size, and so has the same repeatability."""
+FAR_MM = 40.0
+"""Six sizes: with such a difference a comparison says nothing of a fit."""
 
 
 @dataclass(frozen=True, slots=True)
 class LastShape:
-    """A last to compare with: what is known of it, and its mesh, canonical mm, on its own side."""
+    """A last to compare with: its record, and its mesh, canonical mm, on its own side."""
 
     record: LastRecord
     vertices_mm: Floats
@@ -80,20 +82,20 @@ def scanned_last(source: Source, reading: ReadingOptions) -> LastShape:
 
 
 @dataclass(frozen=True, slots=True)
-class Laid:
-    """A foot in a last, both right shapes in the last's frame: the way it went in, the room (n,)
-    at its vertices, and the room by zone.
+class PlacedFoot:
+    """A foot in a last, both right shapes in the last's frame, with the ``clearance_mm`` (n,) at
+    the foot's vertices and the clearance by zone.
     """
 
-    inside: Shape
-    around: Shape
-    way: Docking
-    room_mm: Floats
+    foot: Shape
+    last: Shape
+    placement: Placement
+    clearance_mm: Floats
     zones: tuple[ZoneClearance, ...]
 
 
-def laid(foot: Profiled, last: LastShape) -> Laid:
-    """Lay a foot into a last.
+def placed_foot(foot: Profiled, last: LastShape) -> PlacedFoot:
+    """A foot, placed in a last.
 
     Raises
     ------
@@ -102,33 +104,33 @@ def laid(foot: Profiled, last: LastShape) -> Laid:
     """
     around = Shape(*as_right(last.vertices_mm, last.faces, last.record.side.side), "last")
     vertices_mm, faces = right_shape(foot.aligned)
-    way = docking(Shape(vertices_mm, faces, "foot"), around)
-    inside = Shape(docked(vertices_mm, way), faces, "foot")
-    room_mm = foot_clearance(inside, around)
-    return Laid(inside, around, way, room_mm, zone_clearances(inside, room_mm))
+    place = placement(Shape(vertices_mm, faces, "foot"), around)
+    inside = Shape(placed(vertices_mm, place), faces, "foot")
+    clearance_mm = foot_clearance(inside, around)
+    return PlacedFoot(inside, around, place, clearance_mm, zone_clearances(inside, clearance_mm))
 
 
 def compared(foot: Profiled, last: LastShape) -> Comparison:
-    """Lay a foot into a last and measure the room around it, surface and sections.
+    """Place a foot in a last and measure the clearance around it, by surface and by section.
 
     Raises
     ------
     NoSole
         One of the two has no bottom to rest on.
     """
-    found = laid(foot, last)
+    inside = placed_foot(foot, last)
     return Comparison(
         foot=foot,
         last=last.record,
         mirrored=last.record.side.side != foot.aligned.alignment.side.side,
-        docking=found.way,
-        vertices_mm=found.inside.vertices_mm,
-        faces=found.inside.faces,
-        last_vertices_mm=found.around.vertices_mm,
-        last_faces=found.around.faces,
-        room_mm=found.room_mm,
-        zones=found.zones,
-        sections=tuple(_section(pair) for pair in section_pairs(found.inside, found.around)),
+        placement=inside.placement,
+        vertices_mm=inside.foot.vertices_mm,
+        faces=inside.foot.faces,
+        last_vertices_mm=inside.last.vertices_mm,
+        last_faces=inside.last.faces,
+        clearance_mm=inside.clearance_mm,
+        zones=inside.zones,
+        sections=tuple(_section(pair) for pair in section_pairs(inside.foot, inside.last)),
         warnings=_warnings(foot, last.record),
     )
 
@@ -151,21 +153,15 @@ def best_comparison(path: Path, match: Match, foot: int = 0) -> Comparison | Non
 def _warnings(foot: Profiled, last: LastRecord) -> tuple[Notice, ...]:
     notices = list(foot.aligned.alignment.warnings)
     if not foot.aligned.alignment.pose.sole:
-        words = (
-            "the foot's scan has no sole: the room under it and its height are not to be trusted"
-        )
+        words = "the foot's scan has no sole: do not trust the clearance under it, nor its height"
         notices.append(Notice("no_sole", words))
     longer = last.extent_mm - foot.aligned.alignment.extent_mm
     if foot.length_mm is not None and last.length_mm is not None:
         longer = last.length_mm - foot.length_mm
     if abs(longer) > FAR_MM:
         words = f"the last is {abs(longer):.0f} mm {'longer' if longer > 0 else 'shorter'}"
-        notices.append(Notice("far_size", f"{words} than the foot: no shoe for it in any zone"))
+        notices.append(Notice("far_size", f"{words} than the foot: it fits in no zone"))
     return tuple(notices)
-
-
-FAR_MM = 40.0
-"""Six sizes: what is compared then says nothing of a fit."""
 
 
 # ---------------------------------------------------------------- sections
@@ -187,19 +183,15 @@ def _size(name: str, foot: SectionSizes, last: SectionSizes) -> SizeDifference:
     if here.value is None or there.value is None:
         reason = here.reason if here.value is None else there.reason
         return SizeDifference(name, here, there, Measured(None, reason=reason))
-    room = there.value - here.value
-    if name == "lateral":  # + is room here too: the last's edge lies further out, at -Y
-        room = -room
-    return SizeDifference(name, here, there, Measured(room, math.hypot(sd, sd)))
+    more = there.value - here.value
+    outward = -more if name == "lateral" else more  # the lateral edge looks towards -Y
+    return SizeDifference(name, here, there, Measured(outward, math.hypot(sd, sd)))
 
 
 def _measured(reading: Reading, sd: float) -> Measured:
-    if reading.value is None:
-        return Measured(None, reason=reading.reason)
-    return Measured(reading.value, sd)
+    return Measured(reading.value, None if reading.value is None else sd, reading.reason)
 
 
 def repeatability_mm(size: str) -> float:
     """The standard deviation of a section's size between two scans of one shape."""
-    known = {measure.name: measure.sd for measure in measure_table.MEASURES}
-    return known[SD_FROM[size]]
+    return measure_named(SD_FROM[size]).sd

@@ -48,8 +48,8 @@ WORSE_VERDICT = 1e6
 
 @dataclass(frozen=True, slots=True)
 class Question:
-    """What is asked of the catalogue; ``top`` 0 is all, no ``profile`` is walking. ``surfaces_in``
-    is the catalogue whose meshes the feet are laid into; None: that is not asked.
+    """What is asked of the catalogue. ``top`` 0 asks for all lasts; the default ``profile`` is
+    walking. ``surfaces_in`` is the catalogue whose meshes the feet are placed in, if that is asked.
     """
 
     by: SearchBy = "fit"
@@ -139,9 +139,9 @@ def _answered(
     except HalfScan as error:
         return Outcome(source, None, error)
     if question.surfaces_in is not None:
-        from footfit.pipeline.fit.surface_clearance import with_surfaces
+        from footfit.pipeline.fit.surface_clearance import with_surface_clearance
 
-        answer = with_surfaces(answer, question.surfaces_in)
+        answer = with_surface_clearance(answer, question.surfaces_in)
     return Outcome(source, answer, None)
 
 

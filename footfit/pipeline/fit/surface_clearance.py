@@ -1,7 +1,7 @@
-"""The room between a customer's feet and the lasts of an answer, surface against surface.
+"""The clearance between a customer's feet and the lasts of an answer, surface against surface.
 
-It needs the lasts' meshes, which ranking does not read: so it is taken when it is asked for, and
-of the lasts that are shown. It judges nothing.
+It needs the lasts' meshes, which ranking does not read. So it is taken only if it is asked for, and
+only of the lasts that are shown. It judges nothing.
 """
 
 from __future__ import annotations
@@ -10,38 +10,38 @@ from dataclasses import replace
 from pathlib import Path
 
 from footfit.errors import CatalogueDamaged, NoSole, UnknownLast
-from footfit.pipeline.fit.compare import LastShape, laid, stored_last
-from footfit.results import Candidate, Match, Profiled, SurfaceRoom
+from footfit.pipeline.fit.compare import LastShape, placed_foot, stored_last
+from footfit.results import Candidate, Match, Profiled, SurfaceClearance
 
 
-def with_surfaces(match: Match, path: Path) -> Match:
-    """The same answer with the room in each shown last, or in the nearest where none fits."""
+def with_surface_clearance(match: Match, path: Path) -> Match:
+    """The same answer with the clearance in each last that it shows."""
     return replace(
         match,
-        candidates=tuple(_with_room(one, match.feet, path) for one in match.candidates),
-        nearest=tuple(_with_room(one, match.feet, path) for one in match.nearest),
+        candidates=tuple(_with_clearance(last, match.feet, path) for last in match.candidates),
+        nearest=tuple(_with_clearance(last, match.feet, path) for last in match.nearest),
     )
 
 
-def _with_room(candidate: Candidate, feet: tuple[Profiled, ...], path: Path) -> Candidate:
+def _with_clearance(candidate: Candidate, feet: tuple[Profiled, ...], path: Path) -> Candidate:
     try:
         last = stored_last(path, candidate.last)
     except (CatalogueDamaged, UnknownLast) as error:
-        rooms = tuple(_none(foot, str(error)) for foot in feet)
+        surfaces = tuple(_unknown(foot, str(error)) for foot in feet)
     else:
-        rooms = tuple(surface_room(foot, last) for foot in feet)
-    return replace(candidate, surfaces=rooms)
+        surfaces = tuple(surface_clearance(foot, last) for foot in feet)
+    return replace(candidate, surfaces=surfaces)
 
 
-def surface_room(foot: Profiled, last: LastShape) -> SurfaceRoom:
-    """The room by zone of one foot in one last: what ``compare`` says of the two."""
+def surface_clearance(foot: Profiled, last: LastShape) -> SurfaceClearance:
+    """The clearance by zone of one foot in one last, as ``compare`` says it."""
     try:
-        found = laid(foot, last)
+        inside = placed_foot(foot, last)
     except NoSole as error:
-        return _none(foot, str(error))
+        return _unknown(foot, str(error))
     side = foot.aligned.alignment.side.side
-    return SurfaceRoom(side, found.way.swing_mm, found.zones)
+    return SurfaceClearance(side, inside.placement.swing_mm, inside.zones)
 
 
-def _none(foot: Profiled, reason: str) -> SurfaceRoom:
-    return SurfaceRoom(foot.aligned.alignment.side.side, None, (), reason)
+def _unknown(foot: Profiled, reason: str) -> SurfaceClearance:
+    return SurfaceClearance(foot.aligned.alignment.side.side, None, (), reason)

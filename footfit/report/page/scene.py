@@ -86,7 +86,7 @@ def _scene_data(
     turn, lean = np.radians(START[side])
     deep = length * abs(np.cos(turn)) * np.sin(lean)
     scene = {
-        "foot": packed_mesh(*foot) | {"room": packed_room(comparison.room_mm)},
+        "foot": packed_mesh(*foot) | {"room": packed_room(comparison.clearance_mm)},
         "last": packed_mesh(*last),
         "breaks": BREAKS_MM,
         "colours": COLOURS,

@@ -27,8 +27,10 @@ def heat_bytes(comparison: Comparison, kind: str) -> bytes:
     if kind != "ply":
         return picture_bytes(heat_figure(comparison), kind)
     (vertices, faces), _ = own_side(comparison)
-    colours = np.rint(255.0 * heat_colours(comparison.room_mm)).astype(np.uint8)
-    return encoded_mesh(vertices, faces, "ply", {"room_mm": comparison.room_mm, COLOUR: colours})
+    colours = np.rint(255.0 * heat_colours(comparison.clearance_mm)).astype(np.uint8)
+    return encoded_mesh(
+        vertices, faces, "ply", {"room_mm": comparison.clearance_mm, COLOUR: colours}
+    )
 
 
 def sections_plot(comparison: Comparison, kind: str) -> bytes:

@@ -42,7 +42,7 @@ def heat_figure(comparison: Comparison, *, titled: bool = True) -> Figure:
         grid = figure.add_gridspec(2, 3, width_ratios=(1.0, 1.0, 0.16))
         for index, (title, view) in enumerate(_views(comparison).items()):
             axes = figure.add_subplot(grid[index // 2, index % 2])
-            _panel(axes, (foot, last), VIEWS[view], comparison.room_mm)
+            _panel(axes, (foot, last), VIEWS[view], comparison.clearance_mm)
             axes.set_title(title)
         _legend(figure.add_subplot(grid[:, 2]))
         if titled:

@@ -10,7 +10,7 @@ from footfit.report.wording.text import length_text, plain, signed, visible
 if TYPE_CHECKING:
     from collections.abc import Iterable, Sequence
 
-    from footfit.results import Comparison, SurfaceRoom
+    from footfit.results import Comparison, SurfaceClearance
 
 SIZE_HEADS = {
     "width": "width",
@@ -37,7 +37,7 @@ def lengths_words(comparison: Comparison) -> str:
 
 def swing_words(comparison: Comparison) -> str:
     """How far the foot's tread was moved sideways to lie on the last's."""
-    swing = comparison.docking.swing_mm
+    swing = comparison.placement.swing_mm
     side = "medial" if swing > 0 else "lateral"
     return (
         f"heel on heel, the foot's tread had to go {plain(abs(swing))} mm to {side} to lie on the "
@@ -45,7 +45,7 @@ def swing_words(comparison: Comparison) -> str:
     )
 
 
-def surfaces_words(rooms: Sequence[SurfaceRoom]) -> list[str]:
+def surfaces_words(rooms: Sequence[SurfaceClearance]) -> list[str]:
     """Where each foot is tight and where it is loose in one last, a line a foot."""
     named = len(rooms) > 1
     return [
@@ -54,7 +54,7 @@ def surfaces_words(rooms: Sequence[SurfaceRoom]) -> list[str]:
     ]
 
 
-def surface_words(room: SurfaceRoom) -> str:
+def surface_words(room: SurfaceClearance) -> str:
     """Where a foot is tight in a last and where it is loose.
 
     The zone with the largest such area comes first, with the 5 or 95 % quantile of its clearance.
@@ -62,12 +62,12 @@ def surface_words(room: SurfaceRoom) -> str:
     Examples
     --------
     >>> from footfit.geometry.fit.clearance import ZoneClearance
-    >>> from footfit.results import SurfaceRoom
+    >>> from footfit.results import SurfaceClearance
     >>> tight = ZoneClearance("medial", 0.6, -6.15, 9.2, 91.0, 26.4, 5.2)
     >>> loose = ZoneClearance("toe", 5.6, -1.1, 12.31, 47.0, 1.5, 17.6)
-    >>> surface_words(SurfaceRoom("right", 2.9, (tight, loose)))
+    >>> surface_words(SurfaceClearance("right", 2.9, (tight, loose)))
     'tight: medial -6.2 mm (26 cm2); loose: toe +12.3 mm (18 cm2)'
-    >>> surface_words(SurfaceRoom("right", None, (), "the sole is open"))
+    >>> surface_words(SurfaceClearance("right", None, (), "the sole is open"))
     'no room between the surfaces: the sole is open'
     """
     if room.reason is not None:
