@@ -212,7 +212,8 @@ def compare(arguments: argparse.Namespace) -> int:
         sys.exit(f"{arguments.before} holds no such answers: collect them again")
     items = list(answer_differences(before, after, arguments.tolerance))
     lines, failures = report(items, arguments.expect, words=arguments.words, every=arguments.all)
-    print(*lines, sep="\n")
+    for line in lines:
+        print(line)
     for kind, count in sorted(Counter(item.kind for _, item in items).items()):
         print(f"{count:7,} {kind}")
     print(f"compared {len(before):,} answers with {value_count(list(before.values())):,} values")

@@ -164,7 +164,8 @@ class Checkout:
     """A checkout's command line, run in a folder of its own."""
 
     def __init__(self, python: str, root: Path, folder: Path) -> None:
-        self.python, self.root, self.folder = python, root.resolve(), folder
+        self.python = str(Path(shutil.which(python) or python).absolute())
+        self.root, self.folder = root.resolve(), folder
         places = ("HOME", "XDG_CONFIG_HOME", "XDG_DATA_HOME", "MPLCONFIGDIR")
         self.environment = {
             **os.environ,
