@@ -290,7 +290,7 @@ def curve_rows(shapes: list[Shape], seed: int) -> Iterator[list[str]]:
 
 def seconds(shapes: list[Shape]) -> tuple[float, float]:
     """One core's time of the profile and, in turn with it, of a weld: read the ratio."""
-    from footfit.geometry.mesh.topology import welded
+    from footfit.geometry.mesh.welding import welded
 
     times: tuple[list[float], list[float]] = ([], [])
     for shape in shapes[:6]:

@@ -16,7 +16,8 @@ from footfit.geometry.curvature.surface_curvature import (
     one_ring_curvature,
     pooled_curvature,
 )
-from footfit.geometry.mesh.topology import boundary_loops, boundary_vertices, welded
+from footfit.geometry.mesh.topology import boundary_loops, boundary_vertices
+from footfit.geometry.mesh.welding import welded
 from footfit.geometry.numeric.angles import angle_between
 from footfit.geometry.numeric.polylines import curvature_density
 from tests import implicit, shapes

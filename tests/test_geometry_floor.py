@@ -8,7 +8,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from footfit.geometry.mesh.samples import quadrature
-from footfit.geometry.mesh.topology import welded
+from footfit.geometry.mesh.welding import welded
 from footfit.geometry.numeric.planes import LEVEL, Plane, fitted_plane
 from footfit.geometry.pose.floor_plate import is_flat, without_plate
 from footfit.geometry.pose.sole_plane import sole_plane, support

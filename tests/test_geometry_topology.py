@@ -8,8 +8,9 @@ import trimesh
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from footfit.geometry.mesh import topology
+from footfit.geometry.mesh import topology, welding
 from footfit.geometry.mesh.surface import signed_volume
+from footfit.geometry.mesh.welding import welded
 from tests import shapes
 from tests.distortions import joined, plane_cut, shuffled, soup
 from tests.strategies import seeds, surfaces
@@ -20,7 +21,7 @@ from tests.strategies import seeds, surfaces
 def test_welding_a_soup_gives_the_mesh_back(mesh, seed):
     vertices, faces = shuffled(*mesh, np.random.default_rng(seed))
     loose, corners = soup(vertices, faces)
-    found, welded_faces, source = topology.welded(loose, corners)
+    found, welded_faces, source = welded(loose, corners)
     assert len(found) == len(np.unique(vertices, axis=0))
     np.testing.assert_array_equal(found[source], loose)
     np.testing.assert_array_equal(found[welded_faces], vertices[faces])
@@ -29,22 +30,22 @@ def test_welding_a_soup_gives_the_mesh_back(mesh, seed):
 
 def test_welding_keeps_first_occurrences_in_order_and_minus_zero_is_zero():
     points = np.array([[3.0, 0, 0], [0.0, 1, 0], [3.0, -0.0, 0], [0.0, 1, 5e-324], [-0.0, 1, 0]])
-    found, _, source = topology.welded(points, np.array([[0, 1, 3]]))
+    found, _, source = welded(points, np.array([[0, 1, 3]]))
     assert source.tolist() == [0, 1, 0, 2, 1]
     np.testing.assert_array_equal(found, points[[0, 1, 3]])
 
 
 def test_welding_survives_equal_hashes(monkeypatch):
-    monkeypatch.setattr(topology, "_MIX", np.zeros(3, dtype=np.uint64))
+    monkeypatch.setattr(welding, "_MIX", np.zeros(3, dtype=np.uint64))
     vertices, faces = soup(*shapes.sphere(50.0, 1))
-    found, _, source = topology.welded(vertices, faces)
+    found, _, source = welded(vertices, faces)
     assert len(found) == 42
     np.testing.assert_array_equal(found[source], vertices)
 
 
 def test_nothing_at_all_is_no_accident():
     none, points = np.empty((0, 3), dtype=np.int64), np.empty((0, 3))
-    assert len(topology.welded(points, none)[0]) == 0
+    assert len(welded(points, none)[0]) == 0
     assert len(topology.edges(none)) == len(topology.boundary_edges(none)) == 0
     assert topology.boundary_loops(none) == []
     assert len(topology.face_components(none, 0)) == 0

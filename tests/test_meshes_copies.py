@@ -12,10 +12,11 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from footfit.errors import CatalogueDamaged
+from footfit.geometry.mesh.nearest import nearest_on_triangles
 from footfit.geometry.mesh.surface import signed_volume
 from footfit.geometry.mesh.topology import is_closed
 from footfit.meshes.copies.compact_copy import COPY_SETTINGS, compact_copy, expanded
-from footfit.meshes.copies.deviation import largest_deviation_mm, point_triangle_distances
+from footfit.meshes.copies.deviation import largest_deviation_mm
 from tests import distortions, shapes
 
 FOOT = shapes.ellipsoid((125.0, 50.0, 40.0), subdivisions=4)  # 5,120 faces
@@ -26,8 +27,8 @@ def nearest(points, vertices, faces):
     best = np.full(len(points), np.inf)
     for corners in vertices[faces]:
         repeated = np.broadcast_to(corners, (len(points), 3, 3))
-        best = np.minimum(best, point_triangle_distances(points, repeated))
-    return best
+        best = np.minimum(best, nearest_on_triangles(points, repeated)[2])
+    return np.sqrt(best)
 
 
 def test_a_copy_without_decimation_differs_by_the_step_alone():
@@ -108,7 +109,7 @@ def test_point_to_triangle_is_the_nearest_of_many_points(point, corners):
     steps = np.linspace(0.0, 1.0, 41)
     grid = np.array([(u, v, 1.0 - u - v) for u in steps for v in steps if u + v <= 1.0 + 1e-9])
     dense = np.linalg.norm(grid @ corners - point, axis=1).min()
-    found = point_triangle_distances(point[None], corners[None])[0]
+    found = np.sqrt(nearest_on_triangles(point[None], corners[None])[2][0])
     longest = np.linalg.norm(corners - np.roll(corners, 1, axis=0), axis=1).max()
     assert found <= dense + 1e-6
     assert found >= dense - 0.03 * longest - 1e-6

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from footfit.errors import BadOption
-from footfit.geometry.mesh.topology import welded
+from footfit.geometry.mesh.welding import welded
 from footfit.meshes.read import read_scan
 from footfit.pipeline.scan.curvature import surface_curvature
 from footfit.results import MeshInfo, Scan

@@ -16,6 +16,7 @@ from footfit.geometry.mesh.sections import (
     sections_across,
 )
 from footfit.geometry.mesh.surface import area_vectors
+from footfit.geometry.mesh.welding import without_unused_vertices
 from footfit.geometry.numeric.arrays import Bools, Floats, Ints
 
 # What may be left out without any value changing (a test holds it); the rest is in the definition.
@@ -79,14 +80,11 @@ def bottom_shape(vertices_mm: Floats, faces: Ints, definition: FlareDefinition) 
     keep = low[a] | low[b] | low[c]
     for start, end in ((a, b), (b, c), (c, a)):
         keep |= np.abs(vertices[end, 0] - vertices[start, 0]) > _NEIGHBOURHOOD
-    all_faces, faces = faces, faces[keep]
-    used = np.zeros(len(vertices), dtype=np.bool_)
-    used[faces] = True
-    numbers = np.cumsum(used) - 1
     tip = np.abs(vertices[:, 0] - 0.5) > 0.5 - _NEIGHBOURHOOD
     tip &= vertices[:, 2] < definition.length_height
-    tips = vertices[all_faces[tip[all_faces].any(axis=1)]]
-    return BottomShape(vertices[used], numbers[faces], tips, origin, length)
+    tips = vertices[faces[tip[faces].any(axis=1)]]
+    vertices, faces, _ = without_unused_vertices(vertices, faces[keep])
+    return BottomShape(vertices, faces, tips, origin, length)
 
 
 def _levelling(down: Floats, across: Segments, x: Floats, definition: FlareDefinition) -> Floats:

@@ -18,6 +18,7 @@ from footfit.geometry.flare.bottom_curves import extended_stations
 from footfit.geometry.flare.centre_line import CentreLine
 from footfit.geometry.flare.definition import FlareDefinition
 from footfit.geometry.flare.levelled_bottom import BottomShape
+from footfit.geometry.mesh.samples import short_triangles
 from footfit.geometry.mesh.surface import area_vectors
 from footfit.geometry.numeric.arrays import Floats
 from footfit.geometry.numeric.smoothing import local_quadratic
@@ -74,34 +75,14 @@ def _sole(
 ) -> tuple[Floats, Floats]:
     """Centres and area vectors, (k, 3) each, of the band's facets that look down."""
     down = area_vectors(shape.vertices, shape.faces)[:, 2] < 0.0
-    corners = _short(shape.vertices[shape.faces[down]], definition)
+    whole = shape.vertices[shape.faces[down]]
+    corners, _, _ = short_triangles(whole, definition.surface_piece, definition.surface_halvings)
     points = corners.mean(axis=1)
     ceiling = np.interp(points[:, 0], line.bands.x, _filled(line.bands.floor))
     low = points[:, 2] <= ceiling + definition.band_height
     corners = corners[low]
     flat = np.arange(3 * len(corners)).reshape(-1, 3)
     return points[low], area_vectors(corners.reshape(-1, 3), flat)
-
-
-def _short(corners: Floats, definition: FlareDefinition) -> Floats:
-    """Triangles (k, 3, 3), those with a side over ``surface_piece`` cut into pieces."""
-    longest = definition.surface_piece
-    done = []
-    for _ in range(definition.surface_halvings):
-        sides = corners - corners[:, [2, 0, 1]]
-        long = (np.einsum("ijk,ijk->ij", sides, sides) > longest**2).any(axis=1)
-        done.append(corners[~long])
-        corners = _quarters(corners[long])
-    return np.concatenate([*done, corners])
-
-
-def _quarters(corners: Floats) -> Floats:
-    """Triangles (k, 3, 3) cut in four at the middles of their sides, (4 k, 3, 3)."""
-    middles = 0.5 * (corners + corners[:, [1, 2, 0]])
-    at_corners = [
-        np.stack([corners[:, i], middles[:, i], middles[:, i - 1]], axis=1) for i in range(3)
-    ]
-    return np.concatenate([middles, *at_corners])
 
 
 @dataclass(frozen=True, slots=True)

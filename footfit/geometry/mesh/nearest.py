@@ -15,10 +15,15 @@ from footfit.geometry.numeric.arrays import Bools, Floats, Ints
 class NearestSettings:
     """How the nearest triangle is looked for.
 
-    A triangle stands in the tree as the middles of its parts, ``spacing`` apart (of the longest
-    extent) and at most ``most_splits`` to an edge. The triangles of each point's ``candidates``
-    nearest samples are tried exactly, ``points_at_once`` points at a time. Too few samples can
-    only make a distance come out too large.
+    Attributes
+    ----------
+    spacing, most_splits : float, int
+        For :func:`triangle_samples`; the spacing is a share of the longest extent.
+    candidates : int
+        The triangles of so many nearest samples are tried exactly. With too few, a distance can
+        come out too large, never too small.
+    points_at_once : int
+        How many points are worked on together, which bounds the memory.
     """
 
     spacing: float = 0.02
@@ -32,8 +37,9 @@ NEAREST = NearestSettings()
 
 @dataclass(frozen=True, slots=True)
 class Nearest:
-    """For each of p points: the ``face`` (p,) that is nearest, the ``place`` (p, 3) on it, its
-    barycentric ``weights`` (p, 3), and the ``distance`` (p,) to it.
+    """The nearest ``face`` (p,) of each point, and the nearest ``place`` (p, 3) on that face.
+
+    ``weights`` (p, 3) are the place's barycentric coordinates, ``distance`` (p,) is its distance.
     """
 
     face: Ints
@@ -63,42 +69,58 @@ def nearest_on_surface(
     """
     from scipy.spatial import KDTree
 
-    samples, owners = surface_samples(vertices, faces, settings)
-    tree = KDTree(samples)
-    pieces = [
-        _nearest_of(points[start : start + settings.points_at_once], tree, owners, vertices[faces])
-        for start in range(0, len(points), settings.points_at_once)
-    ]
-    if not pieces:
-        return Nearest(np.empty(0, dtype=np.int64), np.empty((0, 3)), np.empty((0, 3)), np.empty(0))
-    fields = zip(*((one.face, one.place, one.weights, one.distance) for one in pieces), strict=True)
-    face, place, weights, distance = (np.concatenate(field) for field in fields)
+    corner, first = np.unique(faces.ravel(), return_index=True)
+    spacing = settings.spacing * float(np.ptp(vertices[corner], axis=0).max()) or 1.0
+    middles, owners = triangle_samples(vertices, faces, spacing, settings.most_splits)
+    owners = np.append(first // 3, owners)  # a needle's middle is far from its tip
+    tree = KDTree(np.concatenate([vertices[corner], middles]))
+    count = min(settings.candidates, len(owners))
+    parts = []
+    for start in range(0, max(len(points), 1), settings.points_at_once):
+        batch = points[start : start + settings.points_at_once]
+        sample = tree.query(batch, k=count)[1].reshape(len(batch), count)
+        parts.append(_nearest_of(batch, owners[sample], vertices[faces]))
+    face, place, weights, distance = (np.concatenate(field) for field in zip(*parts, strict=True))
     return Nearest(face, place, weights, distance)
 
 
-def _nearest_of(points: Floats, tree: object, owners: Ints, corners: Floats) -> Nearest:
-    count = min(NEAREST.candidates, len(owners))
-    sample = tree.query(points, k=count)[1].reshape(len(points), count)  # type: ignore[attr-defined]
-    tried = np.sort(owners[sample], axis=1)  # equal distances: the lowest face, on any machine
-    row, column = np.nonzero(np.diff(tried, axis=1, prepend=-1))
-    face = tried[row, column]
-    weights = nearest_weights(points[row], corners[face])
-    place = np.einsum("pj,pjk->pk", weights, corners[face])
-    away = place - points[row]
-    squared = np.einsum("ij,ij->i", away, away)
+def _nearest_of(
+    points: Floats, candidates: Ints, corners: Floats
+) -> tuple[Ints, Floats, Floats, Floats]:
+    """The face, place, weights and distance of the nearest of the candidates (p, k) of a point."""
+    candidates = np.sort(candidates, axis=1)  # at equal distances the lowest face, on any machine
+    row, column = np.nonzero(np.diff(candidates, axis=1, prepend=-1))
+    face = candidates[row, column]
+    weights, place, squared = nearest_on_triangles(points[row], corners[face])
     order = np.lexsort((face, squared, row))
     best = order[np.flatnonzero(np.diff(row[order], prepend=-1))]
-    return Nearest(face[best], place[best], weights[best], np.sqrt(squared[best]))
+    return face[best], place[best], weights[best], np.sqrt(squared[best])
 
 
-def nearest_weights(points: Floats, corners: Floats) -> Floats:
-    """The barycentric weights (p, 3) of the nearest point of each point's own triangle.
+def nearest_on_triangles(points: Floats, corners: Floats) -> tuple[Floats, Floats, Floats]:
+    """The nearest point of each point's own triangle.
 
     Parameters
     ----------
     points : (p, 3)
     corners : (p, 3, 3)
         A triangle without area is taken as its longest edge.
+
+    Returns
+    -------
+    weights : (p, 3)
+        Barycentric.
+    place : (p, 3)
+    squared : (p,)
+        The square of its distance.
+
+    Examples
+    --------
+    >>> triangle = np.array([[[0.0, 0, 0], [4, 0, 0], [0, 4, 0]]])
+    >>> nearest_on_triangles(np.array([[1.0, 1, 7]]), triangle)[2].tolist()
+    [49.0]
+    >>> nearest_on_triangles(np.array([[-3.0, -4, 0]]), triangle)[2].tolist()
+    [25.0]
     """
     a, b, c = corners[:, 0], corners[:, 1], corners[:, 2]
     u, v, w = b - a, c - a, points - a
@@ -110,7 +132,9 @@ def nearest_weights(points: Floats, corners: Floats) -> Floats:
     weights = np.stack([1.0 - s - t, s, t], axis=1)
     outside = np.flatnonzero(~inside)
     weights[outside] = _on_edges(points[outside], corners[outside])
-    return weights
+    place = np.einsum("pj,pjk->pk", weights, corners)
+    away = place - points
+    return weights, place, _dot(away, away)
 
 
 def _on_edges(points: Floats, corners: Floats) -> Floats:
@@ -136,19 +160,30 @@ def _dot(one: Floats, other: Floats) -> Floats:
     return products
 
 
-def surface_samples(
-    vertices: Floats, faces: Ints, settings: NearestSettings = NEAREST
+def triangle_samples(
+    vertices: Floats, faces: Ints, spacing: float, most_splits: int
 ) -> tuple[Floats, Ints]:
-    """Points of a surface (s, 3) and each one's face (s,): the middles of all triangles, of large
-    ones those of their parts, and the corners (a needle's middle is far from its tip).
+    """Points of a surface: the middle of each triangle, and of a large one those of its parts.
+
+    Parameters
+    ----------
+    vertices : (n, 3)
+    faces : (m, 3)
+    spacing : float
+        A triangle with a longer edge is cut into parts about so long, in the vertices' unit.
+    most_splits : int
+        An edge is split into this many parts at most.
+
+    Returns
+    -------
+    points : (s, 3)
+    owners : (s,)
+        The face of each.
     """
     corners = vertices[faces]
-    spacing = settings.spacing * float(np.ptp(corners.reshape(-1, 3), axis=0).max())
     longest = np.linalg.norm(corners - corners[:, [1, 2, 0]], axis=2).max(axis=1)
-    wanted = np.ceil(longest / (spacing if spacing > 0.0 else 1.0))
-    splits = np.clip(wanted, 1, settings.most_splits).astype(np.int64)
-    at, owner = np.unique(faces.ravel(), return_index=True)
-    points, owners = [vertices[at]], [owner // 3]
+    splits = np.clip(np.ceil(longest / spacing), 1, most_splits).astype(np.int64)
+    points, owners = [], []
     for split in np.unique(splits).tolist():
         chosen = np.flatnonzero(splits == split)
         points.append((part_middles(split) @ corners[chosen]).reshape(-1, 3))

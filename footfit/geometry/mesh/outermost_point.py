@@ -11,16 +11,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from footfit.geometry.mesh.nearest import part_middles
 from footfit.geometry.numeric.arrays import Floats, Ints
 
-_SPLIT = np.array(  # the middles of 16 equal parts of a triangle, barycentric
-    [
-        [(3 * i + k) / 12, (3 * j + k) / 12, 1 - (3 * i + 3 * j + 2 * k) / 12]
-        for k in (1, 2)
-        for i in range(4)
-        for j in range(5 - k - i)
-    ]
-)
+_PARTS = part_middles(4)
 
 
 @dataclass(frozen=True, slots=True)
@@ -87,8 +81,8 @@ def tip(
     beyond = area @ share_over(corner, top - depth)
     slope, start = np.polyfit(depth, beyond, 1)
     inward = -start / slope if slope > 0.0 else 0.0
-    weight = np.maximum(corner @ _SPLIT.T - (top - settings.cap * length), 0.0) * area[:, None]
-    place = np.einsum("ts,sk,tkj->j", weight, _SPLIT, triangles) / max(weight.sum(), 1e-300)
+    weight = np.maximum(corner @ _PARTS.T - (top - settings.cap * length), 0.0) * area[:, None]
+    place = np.einsum("ts,sk,tkj->j", weight, _PARTS, triangles) / max(weight.sum(), 1e-300)
     if not weight.any():  # a spike so thin that none of its parts' middles counts
         place = vertices[faces].reshape(-1, 3)[np.argmax(values[faces])]
     return Tip(top - float(np.clip(inward, 0.0, depth[0])), place)

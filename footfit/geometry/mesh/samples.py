@@ -77,22 +77,62 @@ def quadrature(vertices: Floats, faces: Ints, edge: float, rounds: int = 5) -> S
     plain = area_vectors(vertices, faces)
     small = longest < CALMED_EDGE * edge
     vectors = np.where(small[:, None], calmed(plain, faces, len(vertices)), plain)
-    finished: list[tuple[Floats, Floats]] = []
-    for _ in range(rounds):
-        large = longest > edge
-        if not large.any():
-            break
-        finished.append((_middles(corners[~large]), vectors[~large]))
-        corners, vectors = _quartered(corners[large]), np.tile(vectors[large] / 4, (4, 1))
-        longest = np.tile(longest[large] / 2, 4)
-    finished.append((_middles(corners), vectors))
-    vectors = np.concatenate([part for _, part in finished])
+    pieces, owners, shares = short_triangles(corners, edge, rounds)
+    vectors = vectors[owners] * shares[:, None]
     areas = np.sqrt(np.einsum("ij,ij->i", vectors, vectors))
     return SurfaceSample(
-        points=np.concatenate([part for part, _ in finished]),
+        points=_middles(pieces),
         normals=vectors / np.maximum(areas, np.finfo(np.float64).tiny)[:, None],
         areas=areas,
     )
+
+
+def short_triangles(corners: Floats, longest: float, rounds: int) -> tuple[Floats, Ints, Floats]:
+    """Triangles cut in four at the middles of their sides until no side is too long.
+
+    Parameters
+    ----------
+    corners : (m, 3, 3)
+    longest : float
+        What is too long, in the corners' unit.
+    rounds : int
+        How often a triangle is cut at most.
+
+    Returns
+    -------
+    pieces : (k, 3, 3)
+    owners : (k,)
+        The triangle each was cut from.
+    shares : (k,)
+        The share of its area that each has.
+
+    Examples
+    --------
+    >>> triangle = np.array([[[0.0, 0, 0], [2, 0, 0], [0, 2, 0]]])
+    >>> [len(short_triangles(triangle, longest, 5)[0]) for longest in (3.0, 2.0, 1.0)]
+    [1, 4, 16]
+    """
+    sides, owners, share = _longest_sides(corners), np.arange(len(corners)), 1.0
+    finished = []
+    for _ in range(rounds):
+        large = sides > longest
+        if not large.any():
+            break
+        finished.append((corners[~large], owners[~large], np.full((~large).sum(), share)))
+        corners, share = _quartered(corners[large]), share / 4
+        sides, owners = np.tile(sides[large] / 2, 4), np.tile(owners[large], 4)
+    finished.append((corners, owners, np.full(len(corners), share)))
+    pieces, owners, shares = (np.concatenate(part) for part in zip(*finished, strict=True))
+    return pieces, owners, shares
+
+
+def _quartered(corners: Floats) -> Floats:
+    """The four triangles (4 k, 3, 3) that the middles of the sides cut out of each, k of a kind."""
+    middles = 0.5 * (corners + corners[:, [1, 2, 0]])
+    a, b, c = (corners[:, i] for i in range(3))
+    ab, bc, ca = (middles[:, i] for i in range(3))
+    parts = ((a, ab, ca), (ab, b, bc), (ca, bc, c), (ab, bc, ca))
+    return np.concatenate([np.stack(part, axis=1) for part in parts])
 
 
 def gathered(sample: SurfaceSample, edge: float) -> SurfaceSample:
@@ -139,12 +179,3 @@ def _longest_sides(corners: Floats) -> Floats:
 def _middles(corners: Floats) -> Floats:
     middles: Floats = (corners[:, 0] + corners[:, 1] + corners[:, 2]) / 3.0
     return middles
-
-
-def _quartered(corners: Floats) -> Floats:
-    """The four triangles (4 k, 3, 3) that the middles of the sides cut out of each, k of a kind."""
-    middles = 0.5 * (corners + corners[:, [1, 2, 0]])
-    a, b, c = (corners[:, i] for i in range(3))
-    ab, bc, ca = (middles[:, i] for i in range(3))
-    parts = ((a, ab, ca), (ab, b, bc), (ca, bc, c), (ab, bc, ca))
-    return np.concatenate([np.stack(part, axis=1) for part in parts])

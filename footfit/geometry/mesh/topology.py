@@ -1,7 +1,7 @@
 """Which vertices, edges and faces of a triangle mesh belong together; NumPy only.
 
-Faces are (m, 3) int64 indices into ``n`` vertices. Nothing here looks at coordinates but
-:func:`welded`, and nothing drops a face: cleaning is the reader's business.
+Faces are (m, 3) int64 indices into ``n`` vertices. Nothing here looks at coordinates, and nothing
+drops a face.
 """
 
 from __future__ import annotations
@@ -9,83 +9,8 @@ from __future__ import annotations
 from functools import reduce
 
 import numpy as np
-from numpy.typing import NDArray
 
-from footfit.geometry.numeric.arrays import Bools, Floats, Ints
-
-# Odd constants of the splitmix64 generator: they spread the bits of a coordinate over the key.
-_MIX = np.array([0x9E3779B97F4A7C15, 0xBF58476D1CE4E5B9, 0x94D049BB133111EB], dtype=np.uint64)
-
-
-def welded(vertices: Floats, faces: Ints) -> tuple[Floats, Ints, Ints]:
-    """Merge vertices with exactly equal coordinates (-0.0 equals 0.0).
-
-    Parameters
-    ----------
-    vertices : (n, 3) float64
-        Finite coordinates, any unit.
-    faces : (m, 3) int64
-
-    Returns
-    -------
-    vertices : (k, 3) float64
-        In the order of their first occurrence; unreferenced ones are kept.
-    faces : (m, 3) int64
-        The same faces in the same order; one that has collapsed is kept too.
-    source_to_vertex : (n,) int64
-        The merged vertex of each vertex given.
-
-    Examples
-    --------
-    >>> corners = np.array([[0.0, 0, 0], [1, 0, 0], [0, 1, 0], [1, 0, -0.0], [1, 1, 0], [0, 1, 0]])
-    >>> _, faces, source = welded(corners, np.array([[0, 1, 2], [3, 4, 5]]))
-    >>> source.tolist(), faces.tolist()
-    ([0, 1, 2, 1, 3, 2], [[0, 1, 2], [1, 3, 2]])
-    """
-    if len(vertices) == 0:
-        return vertices.copy(), faces.copy(), np.empty(0, dtype=np.int64)
-    points = np.ascontiguousarray(vertices, dtype=np.float64) + 0.0  # + 0.0 makes -0.0 a 0.0
-    order, starts = _runs_of_equals(points)
-    group = np.cumsum(starts) - 1
-    first = np.minimum.reduceat(order, np.flatnonzero(starts))
-    rank = np.empty(len(first), dtype=np.int64)
-    by_first = np.argsort(first)
-    rank[by_first] = np.arange(len(first))
-    source_to_vertex = np.empty(len(points), dtype=np.int64)
-    source_to_vertex[order] = rank[group]
-    return points[first[by_first]], source_to_vertex[faces], source_to_vertex
-
-
-def _runs_of_equals(points: Floats) -> tuple[Ints, Bools]:
-    """Return an order with equal points side by side, and where in it a new point starts.
-
-    Sorting one word that holds a hash and the index is several times as fast as a lexical sort
-    of three columns; where two different points share a hash, the lexical sort is done after all.
-    """
-    bits = points.view(np.uint64)
-    hashed = np.zeros(len(points), dtype=np.uint64)
-    for column in range(3):
-        hashed = (hashed ^ bits[:, column]) * _MIX[column]
-        hashed ^= hashed >> np.uint64(29)
-    index_bits = np.uint64(max(1, int(len(points) - 1).bit_length()))
-    word = (hashed << index_bits) | np.arange(len(points), dtype=np.uint64)
-    word.sort()
-    order = (word & ((np.uint64(1) << index_bits) - np.uint64(1))).astype(np.int64)
-    starts = _starts(points[order])
-    if int(np.count_nonzero(starts)) != _distinct(word >> index_bits):
-        order = np.lexsort(points.T).astype(np.int64)
-        starts = _starts(points[order])
-    return order, starts
-
-
-def _starts(ordered: Floats) -> Bools:
-    starts = np.ones(len(ordered), dtype=bool)
-    starts[1:] = np.any(ordered[1:] != ordered[:-1], axis=1)
-    return starts
-
-
-def _distinct(ordered: NDArray[np.uint64]) -> int:
-    return 1 + int(np.count_nonzero(ordered[1:] != ordered[:-1]))
+from footfit.geometry.numeric.arrays import Bools, Ints
 
 
 def half_edges(faces: Ints) -> Ints:

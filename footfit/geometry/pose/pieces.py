@@ -8,6 +8,7 @@ import numpy as np
 
 from footfit.geometry.mesh.surface import area_vectors, face_areas, unit
 from footfit.geometry.mesh.topology import face_components
+from footfit.geometry.mesh.welding import without_unused_vertices
 from footfit.geometry.numeric.arrays import Bools, Floats, Ints
 
 
@@ -118,7 +119,5 @@ def lacks_its_sole(
 
 def part_of(vertices: Floats, faces: Ints, kept: Ints | Bools) -> tuple[Floats, Ints]:
     """The mesh of some of the faces, without the vertices that no face uses."""
-    faces = faces[kept]
-    used = np.zeros(len(vertices), dtype=bool)
-    used[faces] = True
-    return vertices[used], (np.cumsum(used) - 1)[faces]
+    vertices, faces, _ = without_unused_vertices(vertices, faces[kept])
+    return vertices, faces

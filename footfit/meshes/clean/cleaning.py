@@ -13,8 +13,8 @@ from footfit.geometry.mesh.topology import (
     consistently_wound,
     edges,
     face_components,
-    welded,
 )
+from footfit.geometry.mesh.welding import has_distinct_corners, welded, without_unused_vertices
 from footfit.geometry.numeric.arrays import Bools, Floats, Ints
 from footfit.meshes.clean.loose_pieces import kept_faces
 from footfit.meshes.clean.spikes import pressed_spikes
@@ -109,8 +109,8 @@ def cleaned(vertices: Floats, faces: Ints, settings: CleanSettings = CLEAN_SETTI
     watertight, found = _closure(faces)
     removed = collapsed + int(flat.sum())
     notices += _counted("degenerate_removed", removed, "faces without an area were removed")
-    vertices, faces, source = compact(vertices, faces[~flat], source)
-    return Cleaned(vertices, faces, source, watertight, notices + found)
+    vertices, faces, new_number = without_unused_vertices(vertices, faces[~flat])
+    return Cleaned(vertices, faces, new_number[source], watertight, notices + found)
 
 
 def _each_once(faces: Ints) -> tuple[Ints, int, tuple[Notice, ...]]:
@@ -156,12 +156,6 @@ def _nearly_welded(vertices: Floats, faces: Ints, tolerance: float) -> tuple[Flo
         first = np.unique(group, return_index=True)[1]
         vertices, source = vertices[first], group[source]
     return vertices, faces, source
-
-
-def has_distinct_corners(faces: Ints) -> Bools:
-    """False for every face that names a vertex twice, (m,)."""
-    a, b, c = faces.T
-    return np.asarray((a != b) & (b != c) & (c != a))
 
 
 def _first_of_equals(faces: Ints) -> Bools:
@@ -225,24 +219,3 @@ def _closure(faces: Ints) -> tuple[bool, tuple[Notice, ...]]:
     notices = _counted("non_manifold", crowded, "times more than two faces share an edge")
     notices += _counted("open_mesh", rims, "edges have one face only: the surface is open")
     return not notices, notices
-
-
-def compact(vertices: Floats, faces: Ints, source: Ints) -> tuple[Floats, Ints, Ints]:
-    """The mesh without the vertices that no face uses, and where each source vertex went.
-
-    Parameters
-    ----------
-    vertices : (n, 3) float64
-    faces : (m, 3) int64
-    source : (k,) int64
-        Rows of ``vertices``.
-
-    Returns
-    -------
-    (vertices, faces, source)
-        ``source`` is -1 where the vertex was dropped.
-    """
-    used = np.zeros(len(vertices), dtype=bool)
-    used[faces] = True
-    row = np.where(used, np.cumsum(used) - 1, -1)
-    return vertices[used], row[faces], row[source]

@@ -16,10 +16,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from footfit.errors import CatalogueDamaged
-from footfit.geometry.mesh.topology import welded
+from footfit.geometry.mesh.welding import has_distinct_corners, welded, without_unused_vertices
 from footfit.geometry.numeric.arrays import Floats, Ints
-from footfit.meshes.clean.cleaning import compact, has_distinct_corners
 from footfit.meshes.copies.deviation import largest_deviation_mm
+from footfit.meshes.copies.lighter import lighter_mesh
 from footfit.results import MeshCopy
 
 _HEADER = struct.Struct("<4sBxxxIId3d")
@@ -38,8 +38,6 @@ class CopySettings:
         Coordinates are whole multiples of it: off by half of it at most.
     error_mm : float
         A decimation that deviates further is done again with twice the faces.
-    aggression : float
-        fast_simplification's ``agg``; lower is slower and truer.
     most_faces, most_vertices : int
         What an expansion accepts; a copy is never decimated to more than these.
     zlib_level : int
@@ -47,7 +45,6 @@ class CopySettings:
 
     step_mm: float = 0.005
     error_mm: float = 0.25
-    aggression: float = 5.0
     most_faces: int = 3_000_000
     most_vertices: int = 9_000_000
     zlib_level: int = 9
@@ -82,7 +79,7 @@ def compact_copy(
     """
     vertices_mm, faces, _ = welded(vertices_mm, faces)
     while True:
-        lighter, fewer = _decimated(vertices_mm, faces, target_faces, settings)
+        lighter, fewer = lighter_mesh(vertices_mm, faces, target_faces)
         data = _encoded(lighter, fewer, settings)
         copy_vertices, copy_faces = expanded(data, settings)
         error = largest_deviation_mm(vertices_mm, faces, copy_vertices, copy_faces)
@@ -134,28 +131,13 @@ def _damaged(reason: str) -> CatalogueDamaged:
     )
 
 
-def _decimated(
-    vertices: Floats, faces: Ints, target_faces: int, settings: CopySettings
-) -> tuple[Floats, Ints]:
-    if len(faces) <= target_faces:
-        return vertices, faces
-    import fast_simplification
-
-    lighter, fewer = fast_simplification.simplify(
-        vertices, faces.astype(np.int32), target_count=target_faces, agg=settings.aggression
-    )
-    lighter, fewer = np.asarray(lighter, dtype=np.float64), np.asarray(fewer, dtype=np.int64)
-    kept = fewer[has_distinct_corners(fewer)] if len(fewer) else faces
-    return (lighter, kept) if len(fewer) and len(kept) else (vertices, faces)
-
-
 def _encoded(vertices: Floats, faces: Ints, settings: CopySettings) -> bytes:
     """Quantised, put into an order in which neighbours follow each other, packed."""
     origin = vertices.min(axis=0)
     steps = np.rint((vertices - origin) / settings.step_mm)
     steps, faces, _ = welded(steps, faces)
     faces = faces[has_distinct_corners(faces)]
-    steps, faces, _ = compact(steps, faces, np.empty(0, dtype=np.int64))
+    steps, faces, _ = without_unused_vertices(steps, faces)
     order = np.argsort(_interleaved(steps.astype(np.int64)), kind="stable")
     rank = np.empty(len(order), dtype=np.int64)
     rank[order] = np.arange(len(order))

@@ -1,4 +1,4 @@
-"""How far two surfaces are apart: sampled points of one against the triangles of the other."""
+"""How far two surfaces are apart: sampled points of one, exact triangles of the other."""
 
 from __future__ import annotations
 
@@ -6,24 +6,23 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from footfit.geometry.mesh.nearest import nearest_on_triangles, triangle_samples
 from footfit.geometry.numeric.arrays import Floats, Ints
 
 
 @dataclass(frozen=True, slots=True)
 class DeviationSettings:
-    """How closely the surfaces are looked at.
+    """How closely the surfaces are compared.
 
     Attributes
     ----------
-    spacing_mm : float
-        A triangle with a longer edge is looked at in several places, about so far apart.
-    most_splits : int
-        A triangle's edges are split at most so often.
+    spacing_mm, most_splits : float, int
+        For :func:`footfit.geometry.mesh.nearest.triangle_samples`.
     candidates, most_candidates : int
-        How many samples' triangles are tried for each point at first, and for the farthest points
-        at last. Too few can only make a distance come out too large.
+        The triangles of how many samples are tried: first for every point, at last for the
+        farthest points. With too few, a distance can come out too large, never too small.
     trials : int
-        How many points times triangles each of those later rounds may try.
+        How many pairs of a point and a triangle each later round may try.
     """
 
     spacing_mm: float = 5.0
@@ -59,8 +58,9 @@ def largest_deviation_mm(
     float
         mm.
     """
-    here, owners = _middles(vertices_mm, faces, settings)
-    there, copy_owners = _middles(copy_vertices_mm, copy_faces, settings)
+    lattice = (settings.spacing_mm, settings.most_splits)
+    here, owners = triangle_samples(vertices_mm, faces, *lattice)
+    there, copy_owners = triangle_samples(copy_vertices_mm, copy_faces, *lattice)
     large = (np.bincount(owners) > 1)[owners]
     points = np.concatenate([vertices_mm, here[large]])
     copy_points = np.concatenate([copy_vertices_mm, there])
@@ -68,27 +68,6 @@ def largest_deviation_mm(
         _farthest(points, there, copy_vertices_mm[copy_faces[copy_owners]], settings),
         _farthest(copy_points, here, vertices_mm[faces[owners]], settings),
     )
-
-
-def _middles(vertices: Floats, faces: Ints, settings: DeviationSettings) -> tuple[Floats, Ints]:
-    """The middles of all triangles or their parts, (s, 3), and the face of each, (s,)."""
-    corners = vertices[faces]
-    edges = np.linalg.norm(corners - corners[:, [1, 2, 0]], axis=2).max(axis=1)
-    splits = np.clip(np.ceil(edges / settings.spacing_mm), 1, settings.most_splits)
-    points, owners = [], []
-    for split in np.unique(splits).astype(int).tolist():
-        chosen = np.flatnonzero(splits == split)
-        points.append((_lattice(split) @ corners[chosen]).reshape(-1, 3))
-        owners.append(np.repeat(chosen, split * split))
-    return np.concatenate(points), np.concatenate(owners).astype(np.int64)
-
-
-def _lattice(split: int) -> Floats:
-    """Barycentric coordinates of the middles of a triangle's split * split parts."""
-    upright = [(3 * i + 1, 3 * j + 1) for i in range(split) for j in range(split - i)]
-    turned = [(3 * i + 2, 3 * j + 2) for i in range(split - 1) for j in range(split - 1 - i)]
-    rows = [(i, j, 3 * split - i - j) for i, j in upright + turned]
-    return np.array(rows, dtype=np.float64) / (3 * split)
 
 
 def _farthest(
@@ -106,51 +85,13 @@ def _farthest(
     while True:
         count = min(count, len(samples))
         nearest = tree.query(points[chosen], k=count)[1].reshape(len(chosen), -1)
-        for column in nearest.T:
-            distances = point_triangle_distances(points[chosen], corners[column])
-            best[chosen] = np.minimum(best[chosen], distances)
+        at_once = max(1, settings.trials // len(chosen))
+        for start in range(0, count, at_once):
+            tried = nearest[:, start : start + at_once]
+            repeated = np.repeat(points[chosen], tried.shape[1], axis=0)
+            squared = nearest_on_triangles(repeated, corners[tried.ravel()])[2]
+            best[chosen] = np.minimum(best[chosen], squared.reshape(tried.shape).min(axis=1))
         if count >= min(settings.most_candidates, len(samples)):
-            return float(best.max())
+            return float(np.sqrt(best.max()))
         count *= 4
         chosen = np.argsort(best)[-(settings.trials // count) :]
-
-
-def point_triangle_distances(points: Floats, corners: Floats) -> Floats:
-    """From each point to its own triangle: (p, 3) and (p, 3, 3) in, (p,) out.
-
-    The nearest point lies on one of the edges, or inside, where the foot of the perpendicular has
-    three non-negative barycentric coordinates.
-
-    Examples
-    --------
-    >>> triangle = np.array([[[0.0, 0, 0], [4, 0, 0], [0, 4, 0]]])
-    >>> point_triangle_distances(np.array([[1.0, 1, 7]]), triangle).tolist()
-    [7.0]
-    >>> point_triangle_distances(np.array([[-3.0, -4, 0]]), triangle).tolist()
-    [5.0]
-    """
-    a, b, c = corners[:, 0], corners[:, 1], corners[:, 2]
-    on_edges = np.minimum(_edge_squared(points, a, b), _edge_squared(points, b, c))
-    squared = np.minimum(on_edges, _edge_squared(points, c, a))
-    u, v, w = b - a, c - a, points - a
-    uu, uv, vv, wu, wv = (_dot(p, q) for p, q in ((u, u), (u, v), (v, v), (w, u), (w, v)))
-    determinant = uu * vv - uv * uv
-    safe = np.where(determinant > 0.0, determinant, 1.0)
-    s, t = (vv * wu - uv * wv) / safe, (uu * wv - uv * wu) / safe
-    inside = (determinant > 0.0) & (s >= 0.0) & (t >= 0.0) & (s + t <= 1.0)
-    offset = w - s[:, None] * u - t[:, None] * v
-    return np.sqrt(np.where(inside, np.minimum(_dot(offset, offset), squared), squared))
-
-
-def _edge_squared(points: Floats, start: Floats, end: Floats) -> Floats:
-    """Squared distances from points to segments, (p,)."""
-    along, offset = end - start, points - start
-    length = _dot(along, along)
-    share = np.clip(_dot(offset, along) / np.where(length > 0.0, length, 1.0), 0.0, 1.0)
-    rest = offset - share[:, None] * along
-    return _dot(rest, rest)
-
-
-def _dot(one: Floats, other: Floats) -> Floats:
-    products: Floats = np.einsum("ij,ij->i", one, other)
-    return products

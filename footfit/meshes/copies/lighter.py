@@ -1,13 +1,14 @@
-"""A mesh with fewer faces, for a picture."""
+"""A mesh with fewer faces, by quadric edge collapse."""
 
 from __future__ import annotations
 
 import numpy as np
 
-from footfit.geometry.mesh.topology import welded
+from footfit.geometry.mesh.welding import has_distinct_corners, welded
 from footfit.geometry.numeric.arrays import Floats, Ints
-from footfit.meshes.clean.cleaning import has_distinct_corners
-from footfit.meshes.copies.compact_copy import COPY_SETTINGS
+
+AGGRESSION = 5.0
+"""fast_simplification's ``agg``: lower is slower and closer to the surface."""
 
 
 def lighter_mesh(vertices: Floats, faces: Ints, target_faces: int) -> tuple[Floats, Ints]:
@@ -23,6 +24,7 @@ def lighter_mesh(vertices: Floats, faces: Ints, target_faces: int) -> tuple[Floa
     -------
     vertices : (k, 3)
     faces : (l, 3)
+        None of them names a vertex twice. Where simplifying leaves no face, the mesh itself.
     """
     if len(faces) <= target_faces:
         return vertices, faces
@@ -30,7 +32,10 @@ def lighter_mesh(vertices: Floats, faces: Ints, target_faces: int) -> tuple[Floa
 
     vertices, faces, _ = welded(vertices, faces)
     fewer_vertices, fewer = fast_simplification.simplify(
-        vertices, faces.astype(np.int32), target_count=target_faces, agg=COPY_SETTINGS.aggression
+        vertices, faces.astype(np.int32), target_count=target_faces, agg=AGGRESSION
     )
-    kept = np.asarray(fewer, dtype=np.int64)
-    return np.asarray(fewer_vertices, dtype=np.float64), kept[has_distinct_corners(kept)]
+    fewer = np.asarray(fewer, dtype=np.int64).reshape(-1, 3)
+    fewer = fewer[has_distinct_corners(fewer)]
+    return (
+        (np.asarray(fewer_vertices, dtype=np.float64), fewer) if len(fewer) else (vertices, faces)
+    )

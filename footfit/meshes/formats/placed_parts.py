@@ -13,7 +13,8 @@ from typing import TypeVar
 import numpy as np
 
 from footfit.errors import DamagedMesh
-from footfit.geometry.mesh.topology import boundary_edges, lowest_connected, welded
+from footfit.geometry.mesh.topology import boundary_edges
+from footfit.geometry.mesh.welding import nearby_vertices, welded
 from footfit.geometry.numeric.arrays import Floats, Ints
 from footfit.geometry.numeric.rotations import applied
 from footfit.meshes.formats.raw import RawMesh
@@ -21,8 +22,6 @@ from footfit.meshes.read_limits import Limits
 from footfit.results import Notice
 
 _Key = TypeVar("_Key")
-_NO_FACES = np.empty((0, 3), dtype=np.int64)
-_GRIDS = 4  # one more than there are axes: a close pair shares a cell in at least one of them
 
 
 @dataclass(frozen=True, slots=True)
@@ -151,20 +150,5 @@ def _with_equal_seams(vertices: Floats, faces: Ints, settings: SeamSettings) -> 
     near = max(settings.extent * diagonal, settings.coordinate * float(np.abs(points).max()))
     if not len(rim) or not near > 0.0:
         return vertices
-    points[rim] = points[rim][_lowest_near(points[rim], near)]
+    points[rim] = points[rim][nearby_vertices(points[rim], near)]
     return points[source]
-
-
-def _lowest_near(points: Floats, near: float) -> Ints:
-    """For each point (k, 3) the lowest index of its cluster, (k,).
-
-    Points closer than ``near`` along every axis are in one cluster. They share a cell in one of
-    four grids that are shifted against each other by a quarter of a cell: each axis can part them
-    in one grid only.
-    """
-    links = []
-    for shift in np.arange(_GRIDS) / _GRIDS:
-        cell = welded(np.floor(points / (_GRIDS * near) + shift), _NO_FACES)[2]
-        first = np.unique(cell, return_index=True)[1]
-        links.append(np.stack([first[cell], np.arange(len(points))], axis=1))
-    return lowest_connected(np.concatenate(links), len(points))
