@@ -1,0 +1,561 @@
+"""What a result says, as one list of facts: each a name, its values, and the outputs that show it.
+
+`problems` compares the list with what a reader of ``readers.py`` found in an output. It wants every
+number and word of a fact there, in order, with no other number between them; it wants every fact
+of that output, and nothing with a number in it that is no fact. Words around them are free.
+
+A new number of an output is a new line in one of the ``..._facts``, and where the output is new a
+reader for it.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from footfit import __version__
+from footfit.geometry.fit.sizes import foot_size, foot_sizes, system_named
+from footfit.results import (
+    Candidate,
+    Comparison,
+    LastRecord,
+    Match,
+    Measured,
+    MeasuredScan,
+    Profiled,
+    SurfaceRoom,
+    ZoneFit,
+)
+
+PAGE, CSV, TERMINAL = "page", "csv", "terminal"
+MARKS = {"good": "●", "acceptable": "▲", "poor": "■", "reject": "✕", None: "–"}
+"""The shape that stands for a verdict, for whom the colours say nothing."""
+
+SAID = "said"
+"""Begins the name of a fact that stands somewhere in a sentence of its own."""
+
+FIT_NAMES = ("length", "ball_width", "ball_girth", "heel_width", "instep_girth")
+SYSTEMS = ("eu", "uk", "us-men", "us-women", "mondopoint")
+_NUMBER = re.compile(r"[+-]?\d")
+
+
+@dataclass(frozen=True)
+class Fact:
+    """``values`` are texts as they must stand; of a CSV cell the one text is the whole cell."""
+
+    what: str
+    values: tuple[str, ...]
+    where: frozenset[str]
+
+
+@dataclass
+class Reading:
+    """What a reader found: cells by name, and the sentences that belong to no cell."""
+
+    cells: dict[str, str] = field(default_factory=dict)
+    said: list[str] = field(default_factory=list)
+
+
+def fact(what: str, values: object, *where: str) -> Fact:
+    """A fact; None among its values is left out."""
+    listed = values if isinstance(values, list | tuple) else [values]
+    texts = tuple(str(value) for value in listed if value is not None)
+    return Fact(what, texts, frozenset(where))
+
+
+def problems(output: str, reading: Reading, facts: Iterable[Fact]) -> list[str]:
+    """Where an output and the result that it shows differ; nothing where they agree."""
+    cells, said = dict(reading.cells), list(reading.said)
+    found = []
+    for known in facts:
+        if output not in known.where:
+            continue
+        if known.what.startswith(SAID):
+            sentence = next((text for text in said if holds(text, known.values)), None)
+            if sentence is None:
+                found.append(f"{known.what}: nowhere are {known.values}, but {said}")
+            else:
+                said.remove(sentence)
+        elif known.what not in cells:
+            found.append(f"{known.what}: not there, {known.values} expected")
+        else:
+            text = cells.pop(known.what)
+            same = (text,) == known.values if output == CSV else holds(text, known.values)
+            if not same:
+                found.append(f"{known.what}: {text!r} shows not {known.values}")
+    found += [f"{what}: {text!r} is no fact" for what, text in cells.items()]
+    return found + [f"{text!r} is no fact" for text in said if _NUMBER.search(text)]
+
+
+def holds(text: str, values: Sequence[str]) -> bool:
+    """Whether ``text`` shows these values in this order, and no number besides."""
+    place = 0
+    for value in values:
+        at = text.find(value, place)
+        while at > 0 and _NUMBER.match(value) and text[at - 1] in "+-.0123456789":
+            at = text.find(value, at + 1)
+        if at < 0 or _NUMBER.search(text[place:at]):
+            return False
+        place = at + len(value)
+        if _NUMBER.match(value) and re.match(r"[.,]?\d", text[place:]):
+            return False
+    return not _NUMBER.search(text[place:])
+
+
+# ------------------------------------------------------------------ numbers as they are shown
+
+
+def signed(value: float | None, digits: int = 1) -> str:
+    """With a sign, also where it is +0.0."""
+    return "-" if value is None else format(_rounded(value, digits), f"+.{digits}f")
+
+
+def plain(value: float | None, digits: int = 1) -> str:
+    """Without a plus."""
+    return "-" if value is None else format(_rounded(value, digits), f".{digits}f")
+
+
+def csv_number(value: float | None, digits: int) -> str:
+    """The shortest text of the rounded number."""
+    return "" if value is None or not np.isfinite(value) else str(_rounded(value, digits))
+
+
+def _rounded(value: float, digits: int) -> float:
+    return round(float(value), digits) + 0.0
+
+
+def mm(value: float | None) -> str:
+    """A length in a CSV."""
+    return csv_number(value, 3)
+
+
+# ------------------------------------------------------------------ a match
+
+
+def match_facts(match: Match, comparisons: Sequence[Comparison] = ()) -> Iterator[Fact]:
+    """Everything that the page, the terminal and the CSV of a match show."""
+    both, files = (PAGE, TERMINAL), [_file(foot) for foot in match.feet]
+    profile = match.profile if match.by == "fit" else None
+    lead = [*files, match.catalogue_lasts, match.by, profile, __version__]
+    yield fact("lead", lead, PAGE)
+    left_out = [text for why, count in match.rejected for text in (count, why.replace("_", " "))]
+    yield fact(f"{SAID} left out", left_out or ["No last was left out"], PAGE)
+    searched = [len(match.candidates), match.catalogue_lasts, match.by, profile, *left_out]
+    yield fact(f"{SAID} searched", searched, TERMINAL)
+    if match.candidates and match.by == "fit":
+        yield fact(f"{SAID} scale", ["distance", 0, 1], TERMINAL)
+    elif match.candidates:
+        yield fact(f"{SAID} scale", ["distance", 0], TERMINAL)
+    for number, notice in enumerate(match.warnings, 1):
+        yield fact(f"note {number}", notice.message, PAGE)
+    for number, foot in enumerate(match.feet, 1):
+        yield from foot_facts(match, foot, f"foot {number}")
+    if len(match.feet) > 1 and not any("differ" in known.code for known in match.warnings):
+        lengths = [foot.length_mm for foot in match.feet]
+        yield fact(f"{SAID} pair", plain(abs(lengths[0] - lengths[1])), PAGE)
+    yield from best_facts(match)
+    shown = match.candidates or match.nearest
+    judged = any(candidate.verdict for candidate in shown)
+    for candidate in shown:
+        yield from candidate_facts(candidate, judged=judged)
+    yield from zone_facts(shown, best=match.candidates[:1])
+    for candidate in match.candidates:
+        for number, foot in enumerate(match.feet):
+            yield from match_csv_facts(match, candidate, number, foot)
+    names = [candidate.last for candidate in shown[:3]]
+    for name in files:
+        yield fact(f"{SAID} under the flare of {name}", [name, *names], PAGE)
+    yield fact("reference", match.reference, *([PAGE] * bool(match.reference)))
+    yield fact("definition", match.feet[0].flare.definition.version, PAGE)
+    for number, comparison in enumerate(comparisons, 1):
+        yield from room_facts(comparison, f"room {number}", area=len(comparisons) == 1, where=PAGE)
+        known = [_file(comparison.foot), comparison.last.labels.name]
+        yield fact(f"{SAID} under the room", known, PAGE)
+        yield fact(f"{SAID} under the sections", known, PAGE)
+    if comparisons:
+        yield fact(f"{SAID} room in", comparisons[0].last.labels.name, PAGE)
+
+
+def foot_facts(match: Match, foot: Profiled, name: str) -> Iterator[Fact]:
+    """A foot's card on the page, and its two lines in a terminal."""
+    alignment, flare = foot.aligned.alignment, foot.flare
+    side, pose = alignment.side, alignment.pose
+    is_last = match.by == "shape" and pose.kind == "last"
+    word, turn = side.side or "undecided", [signed(flare.angle_deg), plain(flare.angle_sd_deg)]
+    yield fact(f"{name} title", ["last" if is_last else "foot", _file(foot)], PAGE)
+    sure = "given" if side.source == "given" else side.confidence
+    yield fact(f"{name} side", [word, sure], PAGE)
+    yield fact(f"{name} flare", [*turn, flare.flare_class], PAGE)
+    yield fact(f"{name} scan", [f"{alignment.info.faces:,}", alignment.info.units], PAGE)
+    line = [_file(foot), word, "last" if is_last else "foot", plain(foot.length_mm), *turn]
+    yield fact(f"{SAID} of {name}", [*line, flare.flare_class], TERMINAL)
+    system, sizes = system_named(match.size_system), foot_sizes(foot.length_mm)
+    words = {size.system: size.words for size in sizes}
+    usual = [words[known] for known in SYSTEMS]
+    if system is not None:
+        size = foot_size(foot.length_mm, system)
+        rest = [words[known] for known in SYSTEMS if known != system.name]
+        yield fact(f"{name} sizes", [size.words, *size.beside, *rest], PAGE)
+        yield fact(f"{SAID} sizes of {name}", [size.words, *size.beside], TERMINAL)
+    elif not is_last:
+        yield fact(f"{name} sizes", usual, PAGE)
+        yield fact(f"{SAID} sizes of {name}", usual, TERMINAL)
+    taken = {row.name: row.measured for row in foot.measures}
+    for measure in {"length": Measured(foot.length_mm)} | taken:
+        measured = taken.get(measure, Measured(foot.length_mm))
+        if measured.value is not None:
+            yield fact(f"{name} {measure.replace('_', ' ')}", _measured(measured), PAGE)
+    lacking = {row: known.reason for row, known in taken.items() if known.value is None}
+    if lacking:
+        said = [text for row, why in lacking.items() for text in (_title(row), why)]
+        yield fact(f"{name} lacking", said, PAGE)
+    for number, notice in enumerate(alignment.warnings, 1):
+        yield fact(f"{name} note {number}", notice.message, PAGE)
+
+
+def best_facts(match: Match) -> Iterator[Fact]:
+    """The headline: the first candidate, or that nothing fits."""
+    if not match.candidates:
+        yield fact("best last", "No last fits.", PAGE)
+        yield fact("best", "No last fits.", PAGE)
+        yield fact(f"{SAID} that nothing fits", "No last fits.", TERMINAL)
+        return
+    best = match.candidates[0]
+    yield fact("best last", best.last, PAGE)
+    verdict = [MARKS[best.verdict], best.verdict] if best.verdict else []
+    ties = _ties(best, named=3)
+    yield fact("best", [*verdict, best.last, *_labels(best), best.why, *ties], PAGE)
+
+
+def candidate_facts(candidate: Candidate, *, judged: bool) -> Iterator[Fact]:
+    """A last's row, and in a terminal the sentence under it."""
+    name, both = f"last {candidate.rank}", (PAGE, TERMINAL)
+    room = dict(candidate.clearance_mm).get("length", Measured(None))
+    yield fact(f"{name} rank", candidate.rank, *both)
+    yield fact(f"{name} name", [candidate.last, *_labels(candidate)], PAGE)
+    yield fact(f"{name} name", candidate.last, TERMINAL)
+    yield fact(f"{name} labels", ", ".join(_labels(candidate)[:2]) or "-", TERMINAL)
+    if judged:
+        verdict = candidate.verdict
+        mark = [MARKS[verdict], verdict] if verdict else ["not judged"]
+        yield fact(f"{name} verdict", mark, PAGE)
+        yield fact(f"{name} verdict", verdict or "-", TERMINAL)
+    spread = None if room.sd is None else plain(room.sd)
+    yield fact(f"{name} room", [signed(room.value), spread], PAGE)
+    yield fact(f"{name} room", signed(room.value), TERMINAL)
+    yield fact(f"{name} flare", signed(candidate.flare.delta_deg), *both)
+    yield fact(f"{name} distance", plain(candidate.distance, 2), *both)
+    yield fact(f"{name} why", [candidate.why, *_ties(candidate, named=1)], PAGE)
+    mirrored = "mirrored" if candidate.mirrored else None
+    sentence = [candidate.why, mirrored, *_ties(candidate, named=3)]
+    yield fact(f"{name} why", sentence, TERMINAL)
+    for number, room_there in enumerate(candidate.surfaces, 1):
+        side = room_there.side if len(candidate.surfaces) > 1 else None
+        words = [side, *_surface(room_there)]
+        yield fact(f"{name} surface {number}", words, *both)
+
+
+def zone_facts(shown: Sequence[Candidate], best: Sequence[Candidate]) -> Iterator[Fact]:
+    """The zones of every last shown on the page; of the best one in a terminal."""
+    judged = [candidate for candidate in shown if candidate.fits]
+    for index, zone in enumerate(judged[0].fits[0].zones if judged else ()):
+        name = f"zone {zone.zone.replace('_', ' ')}"
+        yield fact(f"{name} asked", signed(zone.target), PAGE)
+        for candidate in judged:
+            feet = [fit.zones[index] for fit in candidate.fits]
+            yield fact(f"{name} {candidate.last}", _page_zones(feet), PAGE)
+        if not (best and best[0].fits):
+            continue
+        feet = [fit.zones[index] for fit in best[0].fits]
+        yield fact(f"{name} asked", signed(zone.target), TERMINAL)
+        for number, foot in enumerate(feet, 1):
+            digits = 2 if foot.unit == "ratio" else 1
+            yield fact(f"{name} foot {number}", signed(foot.clearance.value, digits), TERMINAL)
+        yield fact(f"{name} verdict", _worst(feet), TERMINAL)
+    if best and best[0].fits:
+        yield fact(f"{SAID} zones of", best[0].last, TERMINAL)
+
+
+def match_csv_facts(
+    match: Match, candidate: Candidate, number: int, foot: Profiled
+) -> Iterator[Fact]:
+    """One row of the CSV: this last for this foot, with the foot's own zones."""
+    fit = candidate.fits[number] if candidate.fits else None
+    clearances = dict(candidate.clearance_mm)
+    if fit is not None:
+        clearances = {row.zone: row.clearance for row in fit.zones if row.unit == "mm"}
+    cells: dict[str, object] = {
+        "path": foot.aligned.alignment.info.path,
+        "foot_side": foot.aligned.alignment.side.side,
+        "by": match.by,
+        "rank": candidate.rank,
+        "last": candidate.last,
+        "style": candidate.style,
+        "size": candidate.size,
+        "size_system": candidate.size_system,
+        "width_label": candidate.width_label,
+        "side": candidate.side,
+        "mirrored": str(candidate.mirrored).lower(),
+        "distance": csv_number(candidate.distance, 6),
+        "distance_sd": csv_number(candidate.distance_sd, 6),
+        "flare_distance": csv_number(candidate.flare.distance, 6),
+        "flare_delta_deg": csv_number(candidate.flare.delta_deg, 3),
+        "foot_verdict": None if fit is None else fit.verdict,
+        "verdict": candidate.verdict,
+        "why": candidate.why,
+        "tied_with": " ".join(candidate.tied_with),
+        "not_judged": " ".join(candidate.not_judged),
+        "profile": match.profile,
+        "profile_sha256": None if match.fit_profile is None else match.fit_profile.sha256,
+    }
+    for name in FIT_NAMES:
+        measured = clearances.get(name, Measured(None))
+        cells[f"clearance_{name}_mm"] = mm(measured.value)
+        cells[f"clearance_{name}_sd_mm"] = mm(measured.sd)
+    for column, value in cells.items():
+        text = "" if value is None else value
+        yield fact(f"foot {number + 1} last {candidate.rank} {column}", text, CSV)
+
+
+def _labels(candidate: Candidate) -> list[str]:
+    system = candidate.size_system.upper() if candidate.size_system else None
+    size = " ".join(part for part in (system, candidate.size, candidate.width_label) if part)
+    side = f"{candidate.side} last" if candidate.mirrored else ""
+    return [part for part in (candidate.style or "", size, side) if part]
+
+
+def _ties(candidate: Candidate, named: int) -> list[object]:
+    names: list[object] = list(candidate.tied_with[:named])
+    more = len(candidate.tied_with) - named
+    return [*names, more] if more > 0 else names
+
+
+def _page_zones(feet: Sequence[ZoneFit]) -> list[str]:
+    texts = []
+    for zone in feet:
+        known = zone.clearance.value is not None
+        verdict = zone.verdict if known else None
+        number = [signed(zone.clearance.value)] if known else []
+        texts += [*number, f"{MARKS[verdict]} ({verdict or 'not judged'})"]
+    return texts
+
+
+def _worst(feet: Sequence[ZoneFit]) -> str:
+    order = ["good", "acceptable", "poor", "reject"]
+    verdicts = [zone.verdict for zone in feet if zone.counts and zone.verdict is not None]
+    if verdicts:
+        return max(verdicts, key=order.index)
+    reasons = [zone.clearance.reason for zone in feet if zone.clearance.reason]
+    return reasons[0] if reasons else "counts nothing"
+
+
+def _surface(room: SurfaceRoom) -> list[str]:
+    """Where more than a tenth of a zone is tight, and where it is loose: the two largest each."""
+    if room.reason is not None:
+        return [room.reason]
+    texts = []
+    for word, area, edge in (("tight", "tight_cm2", "p05_mm"), ("loose", "loose_cm2", "p95_mm")):
+        zones = [
+            zone
+            for zone in room.zones
+            if getattr(zone, edge) is not None and getattr(zone, area) > 0.1 * zone.area_cm2
+        ]
+        zones.sort(key=lambda zone: -getattr(zone, area))
+        for zone in zones[:2]:
+            texts += [zone.zone, signed(getattr(zone, edge)), plain(getattr(zone, area), 0)]
+        if zones:
+            texts.insert(len(texts) - 3 * len(zones[:2]), word)
+    return texts or ["nowhere tight", "2", "8"]
+
+
+def _measured(measured: Measured) -> list[str | None]:
+    return [plain(measured.value), None if measured.sd is None else plain(measured.sd)]
+
+
+def _title(name: str) -> str:
+    return name.replace("_", " ").capitalize()
+
+
+def _file(foot: Profiled) -> str:
+    return re.split(r"[/\\]", foot.aligned.alignment.info.path)[-1]
+
+
+# ------------------------------------------------------------------ one foot in one last
+
+
+def comparison_facts(comparison: Comparison) -> Iterator[Fact]:
+    """Everything that the page, the terminal and the CSV of a comparison show."""
+    foot, last = comparison.foot.aligned.alignment, comparison.last
+    delta = last.flare.angle_deg - comparison.foot.flare.angle_deg
+    mirrored = "mirrored" if comparison.mirrored else None
+    lengths = [plain(foot.length_mm), plain(last.length_mm)]
+    lengths += [signed(last.length_mm - foot.length_mm), signed(delta)]
+    names = [_file(comparison.foot), last.labels.name]
+    side = foot.side.side
+    yield fact("title", names, PAGE)
+    yield fact("lead", [side, mirrored, *lengths], PAGE)
+    yield fact(f"{SAID} title", [names[0], side, names[1], mirrored], TERMINAL)
+    yield fact(f"{SAID} lengths", lengths, TERMINAL)
+    for number, notice in enumerate(comparison.warnings, 1):
+        yield fact(f"note {number}", notice.message, PAGE)
+    yield from room_facts(comparison, "room 1", area=True, where=PAGE)
+    yield from room_facts(comparison, "room 1", area=True, where=TERMINAL)
+    for picture in ("room", "sections", "flare"):
+        yield fact(f"{SAID} under the {picture}", names, PAGE)
+    for section in comparison.sections:
+        name = f"section {section.station}"
+        yield fact(f"{name} at", plain(section.x_mm, 0), PAGE, TERMINAL)
+        for size in section.sizes:
+            room = size.difference
+            texts = ["-"] if room.value is None else [signed(room.value), plain(room.sd)]
+            yield fact(f"{name} {size.name}", texts, PAGE, TERMINAL)
+            numbers = [size.foot.value, size.last.value, room.value, room.sd]
+            cells = ["mm", *(mm(value) for value in numbers), room.reason or ""]
+            yield from _compare_csv(comparison, ("section", section.station, size.name), cells)
+    for zone in comparison.zones:
+        lengths_there = {name: mm(getattr(zone, f"{name}_mm")) for name in ("mean", "p05", "p95")}
+        areas = {name: getattr(zone, f"{name}_cm2") for name in ("area", "tight", "loose")}
+        for name, text in lengths_there.items():
+            cells = ["mm", "", "", text, "", ""]
+            yield from _compare_csv(comparison, ("zone", zone.zone, name), cells)
+        for name, value in areas.items():
+            cells = ["cm2", "", "", csv_number(value, 1), "", ""]
+            yield from _compare_csv(comparison, ("zone", zone.zone, name), cells)
+
+
+def _compare_csv(
+    comparison: Comparison, key: tuple[str, str, str], cells: Sequence[str]
+) -> Iterator[Fact]:
+    columns = ("unit", "foot", "last_value", "difference", "sd", "reason")
+    place = " ".join(key)
+    path = comparison.foot.aligned.alignment.info.path
+    yield fact(f"{place} path", path, CSV)
+    yield fact(f"{place} last", comparison.last.labels.name, CSV)
+    for column, text in zip(columns, cells, strict=True):
+        yield fact(f"{place} {column}", text, CSV)
+
+
+def room_facts(comparison: Comparison, name: str, *, area: bool, where: str) -> Iterator[Fact]:
+    """The room by zone as a table; the area only where there is place for it."""
+    swing = comparison.docking.swing_mm
+    way = "medial" if swing > 0 else "lateral"
+    yield fact(f"{SAID} swing of {name}", [plain(abs(swing)), way], where)
+    for zone in comparison.zones:
+        place = f"{name} {zone.zone}"
+        known = zone.mean_mm is not None
+        tight, loose = (plain(value, 0) for value in (zone.tight_cm2, zone.loose_cm2))
+        whole = plain(zone.area_cm2, 0)
+        yield fact(f"{place} mean", signed(zone.mean_mm), where)
+        edges = [signed(zone.p05_mm), signed(zone.p95_mm)]
+        if where == PAGE:
+            yield fact(f"{place} from 5 to 95 %", edges if known else "-", where)
+        else:
+            yield fact(f"{place} 5 %", edges[0], where)
+            yield fact(f"{place} 95 %", edges[1], where)
+        yield fact(f"{place} tight", tight if known else "-", where)
+        yield fact(f"{place} loose", loose if known else "-", where)
+        if area:
+            yield fact(f"{place} area", whole if known else "-", where)
+
+
+# ------------------------------------------------------------------ measures, flare, the library
+
+
+def measured_facts(scan: MeasuredScan) -> Iterator[Fact]:
+    """Everything that ``footfit measure`` shows of one mesh."""
+    alignment = scan.alignment
+    side, path = alignment.side, alignment.info.path
+    said = [side.side or "undecided", *_said_side(alignment), alignment.pose.kind]
+    yield fact("title", path, TERMINAL)
+    yield fact("side", said, TERMINAL)
+    for row in scan.measures:
+        known, name = row.measured, row.name.replace("_", " ")
+        words = [known.reason] if known.value is None else _measured(known)
+        yield fact(name, words, TERMINAL)
+        cells = {
+            "path": path,
+            "side": side.side or "",
+            "kind": alignment.pose.kind,
+            "value_mm": mm(known.value),
+            "sd_mm": mm(known.sd),
+            "reason": known.reason or "",
+            "definition": row.definition,
+        }
+        for column, text in cells.items():
+            yield fact(f"{path} {row.name} {column}", text, CSV)
+
+
+def flare_facts(shape: Profiled) -> Iterator[Fact]:
+    """Everything that ``footfit flare`` shows of one mesh."""
+    alignment, flare = shape.aligned.alignment, shape.flare
+    yield fact("title", alignment.info.path, TERMINAL)
+    yield fact("side", [alignment.side.side, *_said_side(alignment)], TERMINAL)
+    turn = [signed(flare.angle_deg), plain(flare.angle_sd_deg), flare.flare_class]
+    yield fact("flare", turn, TERMINAL)
+    yield fact("length", plain(shape.length_mm), TERMINAL)
+    yield fact("definition", flare.definition.version, TERMINAL)
+    for channel, values in flare.curvature.items():
+        known = np.array([]) if values is None else values[np.isfinite(values)]
+        texts = [signed(known.min()), signed(known.max())] if len(known) else ["not measurable"]
+        yield fact(channel, texts, TERMINAL)
+    for index, station in enumerate(flare.stations):
+        cells = {
+            "path": alignment.info.path,
+            "side": alignment.side.side or "",
+            "flare_angle_deg": csv_number(flare.angle_deg, 3),
+            "flare_angle_sd_deg": csv_number(flare.angle_sd_deg, 3),
+            "class": flare.flare_class,
+            "definition": flare.definition.version,
+            "station": csv_number(station, 6),
+            "heading_deg": csv_number(flare.heading_deg[index], 3),
+        }
+        for channel, values in flare.curvature.items():
+            cells[channel] = "" if values is None else csv_number(values[index], 6)
+        for column, text in cells.items():
+            yield fact(f"station {index + 1} {column}", text, CSV)
+
+
+def library_facts(records: Sequence[LastRecord], reference: str | None) -> Iterator[Fact]:
+    """Everything that ``footfit list-lasts`` shows; labels that are off are not among them."""
+    for record in records:
+        labels, flare, name = record.labels, record.flare, record.labels.name
+        system = labels.size_system.upper() if labels.size_system else None
+        size = " ".join(part for part in (system, labels.size, labels.width_label) if part)
+        star = "*" if name == reference else None
+        yield fact(f"{name} last", [name, star], TERMINAL)
+        yield fact(f"{name} style", labels.style or "-", TERMINAL)
+        yield fact(f"{name} size", size or "-", TERMINAL)
+        yield fact(f"{name} side", record.side.side or "undecided", TERMINAL)
+        yield fact(f"{name} length", plain(record.length_mm), TERMINAL)
+        yield fact(f"{name} flare", signed(flare.angle_deg), TERMINAL)
+        yield fact(f"{name} class", flare.flare_class, TERMINAL)
+        yield fact(f"{name} heel", plain(labels.heel_height_mm, 0), TERMINAL)
+        cells = {
+            "last": name,
+            "style": labels.style,
+            "size": labels.size,
+            "size_system": labels.size_system,
+            "width_label": labels.width_label,
+            "heel_height_mm": mm(labels.heel_height_mm),
+            "family": labels.family,
+            "parent": labels.parent,
+            "side": record.side.side,
+            "length_mm": mm(record.length_mm),
+            "flare_angle_deg": csv_number(flare.angle_deg, 3),
+            "class": flare.flare_class,
+            "reference": str(name == reference).lower(),
+        }
+        for column, text in cells.items():
+            yield fact(f"{name} {column}", text or "", CSV)
+    yield fact(f"{SAID} count", [len(records), reference], TERMINAL)
+
+
+def _said_side(alignment: object) -> list[str | None]:
+    side = alignment.side  # type: ignore[attr-defined]
+    if side.side is not None and side.source == "given":
+        return ["given"]
+    said = None if side.side is None else side.source
+    return [said, side.confidence if said else None, signed(side.score)]

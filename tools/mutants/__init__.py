@@ -1,0 +1,1 @@
+"""Small changes to footfit's code that a test should notice: ``make mutants``."""
