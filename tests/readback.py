@@ -17,7 +17,7 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from footfit import __version__
-from footfit.geometry.fit.sizes import foot_size, foot_sizes, system_named
+from footfit.geometry.fit.sizes import foot_size, foot_sizes, label_check, system_named
 from footfit.results import (
     Candidate,
     Comparison,
@@ -40,6 +40,8 @@ SAID = "said"
 FIT_NAMES = ("length", "ball_width", "ball_girth", "heel_width", "instep_girth")
 SYSTEMS = ("eu", "uk", "us-men", "us-women", "mondopoint")
 _NUMBER = re.compile(r"[+-]?\d")
+_SQUARE = re.compile(r"(?<=[cm]m)2\b")
+"""The digit of cm2, which is no number."""
 
 
 @dataclass(frozen=True)
@@ -92,7 +94,7 @@ def problems(output: str, reading: Reading, facts: Iterable[Fact]) -> list[str]:
 
 def holds(text: str, values: Sequence[str]) -> bool:
     """Whether ``text`` shows these values in this order, and no number besides."""
-    place = 0
+    text, place = _SQUARE.sub("²", text), 0
     for value in values:
         at = text.find(value, place)
         while at > 0 and _NUMBER.match(value) and text[at - 1] in "+-.0123456789":
@@ -137,7 +139,7 @@ def mm(value: float | None) -> str:
 
 def match_facts(match: Match, comparisons: Sequence[Comparison] = ()) -> Iterator[Fact]:
     """Everything that the page, the terminal and the CSV of a match show."""
-    both, files = (PAGE, TERMINAL), [_file(foot) for foot in match.feet]
+    files = [_file(foot) for foot in match.feet]
     profile = match.profile if match.by == "fit" else None
     lead = [*files, match.catalogue_lasts, match.by, profile, __version__]
     yield fact("lead", lead, PAGE)
@@ -476,7 +478,6 @@ def measured_facts(scan: MeasuredScan) -> Iterator[Fact]:
         words = [known.reason] if known.value is None else _measured(known)
         yield fact(name, words, TERMINAL)
         cells = {
-            "path": path,
             "side": side.side or "",
             "kind": alignment.pose.kind,
             "value_mm": mm(known.value),
@@ -519,7 +520,7 @@ def flare_facts(shape: Profiled) -> Iterator[Fact]:
 
 
 def library_facts(records: Sequence[LastRecord], reference: str | None) -> Iterator[Fact]:
-    """Everything that ``footfit list-lasts`` shows; labels that are off are not among them."""
+    """Everything that ``footfit list-lasts`` shows."""
     for record in records:
         labels, flare, name = record.labels, record.flare, record.labels.name
         system = labels.size_system.upper() if labels.size_system else None
@@ -534,7 +535,6 @@ def library_facts(records: Sequence[LastRecord], reference: str | None) -> Itera
         yield fact(f"{name} class", flare.flare_class, TERMINAL)
         yield fact(f"{name} heel", plain(labels.heel_height_mm, 0), TERMINAL)
         cells = {
-            "last": name,
             "style": labels.style,
             "size": labels.size,
             "size_system": labels.size_system,
@@ -548,6 +548,13 @@ def library_facts(records: Sequence[LastRecord], reference: str | None) -> Itera
             "class": flare.flare_class,
             "reference": str(name == reference).lower(),
         }
+        check = label_check(labels.size, labels.size_system, record.length_mm)
+        cells["size_by_length"] = "" if check is None else csv_number(check.by_length, 6)
+        cells["label_flagged"] = "" if check is None else str(check.flagged).lower()
+        if check is not None and check.flagged:
+            by_length = f"{system} {round(check.by_length)}"  # a system of whole sizes
+            said = [name, plain(abs(check.off)), by_length]
+            yield fact(f"{SAID} label of {name}", said, TERMINAL)
         for column, text in cells.items():
             yield fact(f"{name} {column}", text or "", CSV)
     yield fact(f"{SAID} count", [len(records), reference], TERMINAL)

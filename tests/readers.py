@@ -150,7 +150,11 @@ def _headline(body: Node, reading: Reading, taken: list[Node]) -> None:
 def _cards(body: Node) -> list[Node]:
     """The blocks of the feet: the smallest ones with a heading and a list of terms."""
     blocks = [node for node in body.every("section", "div") if node.every("dl")]
-    return [node for node in blocks if not any(other in node.walk() for other in blocks if other is not node)]
+    return [
+        node
+        for node in blocks
+        if not any(other in node.walk() for other in blocks if other is not node)
+    ]
 
 
 def _card(card: Node, name: str, reading: Reading) -> None:
@@ -209,7 +213,9 @@ def _rooms(table: Node, heads: list[str], name: str, reading: Reading) -> None:
 
 def _surfaces(table: Node, reading: Reading) -> None:
     """The lines of each last, in the order of the lasts' ranks: a line a foot."""
-    names = {text: key for key, text in reading.cells.items() if re.fullmatch(r"last \d+ name", key)}
+    names = {
+        text: key for key, text in reading.cells.items() if re.fullmatch(r"last \d+ name", key)
+    }
     for row in table.one("tbody").every("tr"):
         name, lines = row.every("th", "td")
         place = next(key for text, key in names.items() if text.startswith(f"{name.text} "))

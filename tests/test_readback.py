@@ -1,0 +1,409 @@
+"""Every number and verdict of the page, the CSVs and the tables is the one of the result.
+
+The planted answers have no two numbers alike, so that a value in another's place is seen.
+"""
+
+from __future__ import annotations
+
+import sqlite3
+from contextlib import closing
+from dataclasses import replace
+from itertools import count
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from footfit.geometry.fit.clearance import ZoneClearance
+from footfit.pipeline.batch.sources import ReadingOptions, Source
+from footfit.pipeline.drawables import best_comparisons
+from footfit.pipeline.fit.candidates import choice
+from footfit.pipeline.fit.match import Question, customers
+from footfit.report.csv.answers_csv import flare_csv, lasts_csv, match_csv
+from footfit.report.csv.measure_csv import measures_csv
+from footfit.report.page.compare_page import compare_report
+from footfit.report.page.match_page import match_report
+from footfit.report.terminal.comparison_tables import compare_csv, compare_table
+from footfit.report.terminal.last_tables import list_lasts_table
+from footfit.report.terminal.match_tables import match_table
+from footfit.report.terminal.measure_tables import measure_table
+from footfit.report.terminal.scan_tables import flare_table, terminal_text
+from footfit.results import (
+    Comparison,
+    FootFit,
+    Match,
+    Measure,
+    Measured,
+    Notice,
+    SurfaceRoom,
+    ZoneFit,
+)
+from tests import answers, readers
+from tests.comparisons import comparison
+from tests.conftest import SAMPLES, Footfit
+from tests.readback import (
+    CSV,
+    PAGE,
+    TERMINAL,
+    Reading,
+    comparison_facts,
+    fact,
+    flare_facts,
+    holds,
+    library_facts,
+    match_facts,
+    measured_facts,
+    problems,
+)
+
+WIDE = 400
+ZONES = (("length", "mm"), ("ball_girth", "mm"), ("ball_line", "percent"), ("flare", "deg"))
+ZONES += (("heel_width", "mm"), ("plan", "ratio"))
+VERDICTS = ("good", "acceptable", "poor", "reject")
+LAST_NAMES = ("oxford", "derby", "loafer", "boot", "pump")
+
+
+class _Drawn:
+    """Stands for a figure: the words under it are read, its drawing is another test's."""
+
+
+@pytest.fixture(autouse=True)
+def undrawn(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Pages with empty pictures."""
+    from footfit.report.pictures import figures, heat_figure, match_figure, section_figure
+
+    monkeypatch.setattr(figures, "svg_text", lambda _figure: "<svg/>")
+    for module, name in (
+        (heat_figure, "heat_figure"),
+        (match_figure, "match_figure"),
+        (section_figure, "section_figure"),
+    ):
+        monkeypatch.setattr(module, name, lambda *_, **__: _Drawn())
+
+
+# ------------------------------------------------------------------ planted answers
+
+
+def planted_feet(pair: bool) -> tuple:
+    """A left and a right foot, or the right one, with what could be measured and what not."""
+    feet = []
+    for number, (path, left) in enumerate((("l.stl", True), ("r.stl", False))[1 - pair :]):
+        foot = answers.foot(path, left=left, length_mm=258.3 + 2.9 * number, turn_deg=9.4 + number)
+        note = Notice("holes_closed", f"{number + 4} holes were closed")
+        alignment = replace(foot.aligned.alignment, warnings=(note,))
+        info = replace(alignment.info, faces=7_680 + 1_211 * number)
+        aligned = replace(foot.aligned, alignment=replace(alignment, info=info))
+        rows = (
+            Measure("ball_girth", Measured(241.7 + 3.1 * number, 1.3 + number), "ball_girth/1"),
+            Measure("heel_width", Measured(63.4 + 1.7 * number), "heel_width/1"),
+            Measure("instep_girth", Measured(None, None, "the leg is cut"), "instep_girth/1"),
+        )
+        feet.append(replace(foot, aligned=aligned, measures=(*foot.measures, *rows)))
+    return tuple(feet)
+
+
+def planted_fits(number: int, feet: int) -> tuple[FootFit, ...]:
+    """Each foot in each zone of a last: another clearance, score and verdict everywhere."""
+    fits = []
+    for foot, side in zip(range(feet), ("left", "right")[2 - feet :], strict=True):
+        zones = []
+        for place, (zone, unit) in enumerate(ZONES):
+            value = round(-7.63 + 3.17 * place + 1.23 * number - 0.41 * foot, 2)
+            lacking = zone == "ball_line" and number == 0
+            known = Measured(None, None, "no joint") if lacking else Measured(value, 0.3 + foot)
+            verdict = None if lacking else VERDICTS[(place + number + foot) % 4]
+            counts = not (foot and zone == "heel_width")
+            zones.append(ZoneFit(zone, unit, known, -4.5 + 1.5 * place, value / 7, verdict, counts))
+        fits.append(FootFit(side, VERDICTS[(number + foot) % 4], tuple(zones)))
+    return tuple(fits)
+
+
+def planted_surfaces(number: int, feet: int) -> tuple[SurfaceRoom, ...]:
+    """Where each foot is tight and loose in a last; the last foot could not be laid into one."""
+    rooms = []
+    for foot, side in zip(range(feet), ("left", "right")[2 - feet :], strict=True):
+        step = 0.7 * number + 0.3 * foot
+        zones = (
+            ZoneClearance("medial", 0.63, -6.15 - step, 9.19, 91.1, 26.4 + 9 * step, 5.2),
+            ZoneClearance("lateral", 1.21, -3.05 - step, 8.3, 88.4, 31.7 + 9 * step, 2.1),
+            ZoneClearance("dorsal", 2.34, -2.45 - step, 10.9, 44.0, 12.3, 14.9 + 9 * step),
+            ZoneClearance("toe", 5.61, -1.08, 12.31 + step, 47.3, 1.5, 17.6 + 9 * step),
+            ZoneClearance("bottom", None, None, None, 0.0, 0.0, 0.0),
+        )
+        bad = number == 2 and foot == feet - 1
+        room = (None, (), "the sole is open") if bad else (2.9 + step, zones, None)
+        rooms.append(SurfaceRoom(side, *room))
+    return tuple(rooms)
+
+
+def planted(feet: int = 1, lasts: int = 5, *, judged: bool = True, **more: object) -> Match:
+    """An answer that shows everything that an answer can show."""
+    shapes = planted_feet(feet == 2)
+    many = []
+    for number, name in zip(range(lasts), LAST_NAMES, strict=False):
+        record = answers.record(f"{name}-4{number}", 4.3 + 1.9 * number, 269.4 + 1.7 * number)
+        labels = {"style": name, "size": f"4{number}", "width_label": "GHKLM"[number]}
+        record = replace(record, labels=replace(record.labels, **labels))
+        one = answers.candidate(
+            number + 1,
+            record,
+            verdict=VERDICTS[number % 4] if judged else None,
+            why=f"tight at the {name}'s ball by {1.1 + number:.1f} mm",
+            mirrored=number == 3,
+        )
+        spread = None if number == 4 else 0.61 + 0.1 * number
+        many.append(
+            replace(
+                one,
+                distance=0.834 + 0.373 * number,
+                distance_sd=0.1234567 + 0.1 * number if judged else None,
+                flare=replace(one.flare, distance=0.4321987 + number),
+                clearance_mm=(
+                    ("length", Measured(11.2 + 1.4 * number, spread)),
+                    ("ball_girth", Measured(-3.7 + number, 1.5)),
+                ),
+                fits=planted_fits(number, feet) if judged else (),
+                not_judged=("ball_line", "toe_height") if number == 0 else (),
+                surfaces=planted_surfaces(number, feet),
+            )
+        )
+    values: dict[str, object] = {
+        "candidates": tuple(many),
+        "catalogue_lasts": 17,
+        "reference": "derby-41",
+        "rejected": (("too_long", 3), ("too_short", 4)),
+        "warnings": (Notice("damaged_last", "pump-39 was left out: it is damaged"),),
+    }
+    return answers.match(shapes, **(values | more))
+
+
+def as_nearest(match: Match) -> Match:
+    """The same lasts where none of them fits: three are named."""
+    notice = Notice("nothing_fits", "no last fits this foot")
+    return replace(
+        match, candidates=(), nearest=match.candidates[:3], warnings=(*match.warnings, notice)
+    )
+
+
+def tied(match: Match) -> Match:
+    """Lasts that the distance does not tell apart, one of them from four others."""
+    names = [candidate.last for candidate in match.candidates]
+    ties = [tuple(names[1:5]), (names[0],), (names[0], names[3]), (names[2], names[0]), ()]
+    lasts = zip(match.candidates, ties, strict=False)
+    return replace(match, candidates=tuple(replace(one, tied_with=tie) for one, tie in lasts))
+
+
+CASES = {
+    "one foot": planted(),
+    "a pair": planted(2),
+    "a pair that differs by a notice": planted(
+        2, warnings=(Notice("pair_difference", "the feet differ by 2.9 mm"),)
+    ),
+    "one last": planted(lasts=1),
+    "nothing fits": as_nearest(planted()),
+    "nothing fits a pair": as_nearest(planted(2)),
+    "nothing is near": replace(as_nearest(planted()), nearest=(), rejected=()),
+    "ties": tied(planted()),
+    "ties of a pair": tied(planted(2)),
+    "by flare": planted(judged=False, by="flare"),
+    "by shape": planted(judged=False, by="shape", rejected=(), reference=None),
+    "UK sizes": planted(size_system="uk"),
+    "no surface was asked for": replace(
+        planted(), candidates=tuple(replace(c, surfaces=()) for c in planted().candidates)
+    ),
+}
+
+
+@pytest.fixture(params=list(CASES))
+def match(request: pytest.FixtureRequest) -> Match:
+    """Each kind of answer."""
+    return CASES[request.param]
+
+
+# ------------------------------------------------------------------ what they show
+
+
+def test_the_page_shows_the_match(match: Match) -> None:
+    reading = readers.read_match_page(match_report(match))
+    assert problems(PAGE, reading, match_facts(match)) == []
+
+
+def test_the_csv_shows_the_match(match: Match) -> None:
+    assert problems(CSV, readers.read_match_csv(match_csv([match])), match_facts(match)) == []
+
+
+def test_the_terminal_shows_the_match(match: Match) -> None:
+    reading = readers.read_match_terminal(terminal_text(match_table(match), WIDE))
+    assert problems(TERMINAL, reading, match_facts(match)) == []
+
+
+@pytest.mark.parametrize("pair", [False, True])
+def test_the_page_shows_the_room_in_the_best_last(pair: bool) -> None:
+    match = planted(1 + pair)
+    rooms = [comparison(True, True, "l.stl"), moved(comparison(path="r.stl"))][1 - pair :]
+    reading = readers.read_match_page(match_report(match, None, rooms))
+    assert problems(PAGE, reading, match_facts(match, rooms)) == []
+
+
+def moved(known: Comparison) -> Comparison:
+    """A comparison whose every number differs from the one it is made from."""
+    steps = count(1)
+    zones = tuple(
+        replace(
+            zone,
+            mean_mm=zone.mean_mm + 0.3 * step,
+            p05_mm=zone.p05_mm - 0.2 * step,
+            p95_mm=zone.p95_mm + 0.7 * step,
+            area_cm2=zone.area_cm2 + 30.0 * step,
+            tight_cm2=zone.tight_cm2 + 2.0 * step,
+            loose_cm2=zone.loose_cm2 + 3.0 * step,
+        )
+        for zone, step in zip(known.zones, steps, strict=False)
+    )
+    empty = ZoneClearance("toe", None, None, None, 0.0, 0.0, 0.0)
+    return replace(
+        known,
+        zones=(*zones[:-1], empty),
+        docking=replace(known.docking, swing_mm=2.34),
+        warnings=(Notice("toes_apart", "the toes are 3 mm apart"),),
+    )
+
+
+COMPARISONS = {
+    "right in right": lambda: comparison(path="r.stl"),
+    "left in right": lambda: comparison(True, False, "l.stl"),
+    "moved": lambda: moved(comparison(path="r.stl")),
+}
+
+
+@pytest.mark.parametrize("name", list(COMPARISONS))
+def test_the_outputs_show_the_comparison(name: str) -> None:
+    known = COMPARISONS[name]()
+    facts = list(comparison_facts(known))
+    page = readers.read_compare_page(compare_report(known))
+    assert problems(PAGE, page, facts) == []
+    table = readers.read_compare_terminal(terminal_text(compare_table(known), WIDE))
+    assert problems(TERMINAL, table, facts) == []
+    cells = readers.read_keyed_csv(compare_csv([known]), "part", "place", "quantity")
+    assert problems(CSV, cells, facts) == []
+
+
+def test_the_outputs_show_the_measures() -> None:
+    scan = answers.measured_scan("feet/anna.stl")
+    more = Measure("heel_width", Measured(63.4321, 0.0), "heel_width/2")
+    many = [replace(scan, measures=(*scan.measures, more)), answers.measured_scan("b.stl")]
+    facts = [known for one in many for known in measured_facts(one)]
+    cells = readers.read_keyed_csv(measures_csv(many), "path", "measure")
+    assert problems(CSV, cells, facts) == []
+    table = readers.read_terms(terminal_text(measure_table(many[0]), WIDE))
+    assert problems(TERMINAL, table, measured_facts(many[0])) == []
+
+
+@pytest.mark.parametrize("spoilt", [(), ("bottom_20",)])
+def test_the_outputs_show_the_flare(spoilt: tuple[str, ...]) -> None:
+    foot = answers.foot("feet/left.stl", left=True, turn_deg=-3.4)
+    shape = replace(foot, flare=answers.profile(-3.4, spoilt))
+    holed = shape.flare.curvature["plan"].copy()
+    holed[7] = np.nan
+    shape = replace(
+        shape, flare=replace(shape.flare, curvature=shape.flare.curvature | {"plan": holed})
+    )
+    table = readers.read_terms(terminal_text(flare_table(shape), WIDE))
+    assert problems(TERMINAL, table, flare_facts(shape)) == []
+    assert problems(CSV, readers.read_stations_csv(flare_csv([shape])), flare_facts(shape)) == []
+
+
+def test_the_outputs_show_the_library() -> None:
+    lasts = [
+        answers.record("boot-42", 9.6, 271.3, left=True, heel_height_mm=34.6, family="boots"),
+        answers.record("derby-41", 8.1, 265.7, size="41", parent="derby-40", width_label=None),
+        answers.record("pump", -2.2, 259.9, style=None, size=None, size_system=None),
+    ]
+    table = readers.read_lasts_terminal(terminal_text(list_lasts_table(lasts, "boot-42"), WIDE))
+    assert problems(TERMINAL, table, library_facts(lasts, "boot-42")) == []
+    cells = readers.read_keyed_csv(lasts_csv(lasts[::-1], "boot-42"), "last")
+    assert problems(CSV, cells, library_facts(lasts, "boot-42")) == []
+
+
+# ------------------------------------------------------------------ as the command line makes them
+
+
+@pytest.mark.parametrize("pair", [False, True], ids=["one foot", "a pair"])
+def test_the_command_writes_what_the_search_answered(
+    footfit: Footfit,
+    catalogue: Path,
+    tmp_path: Path,
+    pair: bool,
+) -> None:
+    damage(catalogue)
+    feet = [str(path) for path in sorted((SAMPLES / "feet").iterdir())[: 1 + pair]]
+    question = Question(surfaces_in=catalogue)
+    sources = [Source(path) for path in feet]
+    (outcome,) = customers(
+        sources, ReadingOptions(), choice(catalogue, None, None), question, pair=pair
+    )
+    match = outcome.value
+    assert match is not None
+    assert "damaged_last" in [notice.code for notice in match.warnings]
+    page, rows = tmp_path / "page.html", tmp_path / "rows.csv"
+    command = ("match", *feet, *["--pair"] * pair, "--catalogue", catalogue, "--clearance")
+    run = footfit(*command, "--html", page, "--csv", rows)
+    assert run.code == 0
+    facts = list(match_facts(match, best_comparisons(catalogue, match)))
+    assert problems(PAGE, readers.read_match_page(page.read_text("utf-8")), facts) == []
+    assert problems(CSV, readers.read_match_csv(rows.read_text("utf-8")), facts) == []
+    assert run.out == terminal_text(match_table(match))
+
+
+def damage(catalogue: Path) -> None:
+    """One last whose length is not what was stored."""
+    with closing(sqlite3.connect(catalogue)) as connection, connection:
+        connection.execute("UPDATE frame SET length_mm = 262.5 WHERE last_id = 2")
+
+
+# ------------------------------------------------------------------ the harness itself
+
+
+@pytest.mark.parametrize(
+    ("text", "values", "shown"),
+    [
+        ("260.0 ± 0.4 mm", ("260.0", "0.4"), True),
+        ("260.0 ± 0.4 mm", ("0.4", "260.0"), False),
+        ("260.0 ± 0.4 mm", ("260.0",), False),
+        ("260.0 mm", ("60.0",), False),
+        ("-3.2 mm", ("3.2",), False),
+        ("+13.5 ● (good)", ("+13.5", "● (good)"), True),
+        ("+13.52 ● (good)", ("+13.5", "● (good)"), False),
+        ("derby-42, EU 42", ("derby-42", "EU 42"), True),
+        ("derby-42, EU 42, 7", ("derby-42", "EU 42"), False),
+    ],
+)
+def test_a_text_holds_its_values_in_order_and_no_other_number(text, values, shown) -> None:
+    assert holds(text, values) == shown
+
+
+def test_what_is_missing_wrong_or_too_much_is_a_problem() -> None:
+    facts = [fact("room", "+3.2", PAGE), fact("said so", "7", PAGE), fact("row", "9", CSV)]
+    sound = Reading({"room": "+3.2 mm"}, ["after 7 days", "words"])
+    assert problems(PAGE, sound, facts) == []
+    for bad in (
+        Reading({}, sound.said),
+        Reading({"room": "+3.1 mm"}, sound.said),
+        Reading(sound.cells, ["words"]),
+        Reading(sound.cells, [*sound.said, "and 8 more"]),
+        Reading(sound.cells | {"width": "4"}, sound.said),
+    ):
+        assert len(problems(PAGE, bad, facts)) == 1
+    assert problems(CSV, Reading({"row": "9 "}), facts) != []
+
+
+def test_a_planted_answer_has_no_two_numbers_alike() -> None:
+    match = planted(2)
+    clearances = [
+        zone.clearance.value
+        for candidate in match.candidates
+        for fit in candidate.fits
+        for zone in fit.zones
+        if zone.clearance.value is not None
+    ]
+    assert len({round(value, 1) for value in clearances}) == len(clearances)
