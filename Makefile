@@ -5,7 +5,7 @@ BIN := $(VENV)/bin
 STAMP := $(VENV)/.ready
 BENCHMARKS := alignment flare curvature measures fit population speed
 
-.PHONY: demo test check format lint types contracts tests bench torture clean help
+.PHONY: demo test check format lint types contracts tests bench torture coverage mutants clean help
 
 help:            ## this list
 	@grep -E '^[a-z]+:.*##' $(MAKEFILE_LIST) | sed 's/:.*##/\t/'
@@ -48,6 +48,19 @@ torture: $(STAMP)  ## the long trials of docs/reliability.md (make torture SCALE
 	$(BIN)/python -m tests.torture --seed $(or $(SEED),1) --scale $(or $(SCALE),1)
 	$(BIN)/python -m tools.fuzz --count 20000 --seed $(or $(SEED),1)
 
+$(VENV)/.quality: $(STAMP)
+	$(BIN)/python -m pip install --quiet --editable '.[quality]'
+	@touch $@
+
+coverage: $(VENV)/.quality  ## branch coverage of footfit/ by all tests; fails under 95 %
+	$(BIN)/python -m coverage erase
+	$(BIN)/python -m coverage run -m pytest -n 2 -q
+	$(BIN)/python -m coverage combine --quiet
+	$(BIN)/python -m coverage report
+
+mutants: $(VENV)/.quality  ## does a test notice? (make mutants SEED=1 COUNT=200 PATHS=footfit/geometry)
+	$(BIN)/python -m tools.mutants --seed $(or $(SEED),1) --count $(or $(COUNT),200) $(PATHS)
+
 clean:           ## remove what make made
-	rm -rf $(VENV) demo dist build .pytest_cache .mypy_cache .ruff_cache .hypothesis .import_linter_cache
+	rm -rf $(VENV) .mutants .coverage .coverage.* demo dist build .pytest_cache .mypy_cache .ruff_cache .hypothesis .import_linter_cache
 	find . -name __pycache__ -type d -prune -exec rm -rf {} +

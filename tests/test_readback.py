@@ -19,11 +19,10 @@ from footfit.pipeline.batch.sources import ReadingOptions, Source
 from footfit.pipeline.drawables import best_comparisons
 from footfit.pipeline.fit.candidates import choice
 from footfit.pipeline.fit.match import Question, customers
-from footfit.report.csv.answers_csv import flare_csv, lasts_csv, match_csv
-from footfit.report.csv.measure_csv import measures_csv
+from footfit.report.csv import csv_text
 from footfit.report.page.compare_page import compare_report
 from footfit.report.page.match_page import match_report
-from footfit.report.terminal.comparison_tables import compare_csv, compare_table
+from footfit.report.terminal.comparison_tables import compare_table
 from footfit.report.terminal.last_tables import list_lasts_table
 from footfit.report.terminal.match_tables import match_table
 from footfit.report.terminal.measure_tables import measure_table
@@ -31,10 +30,13 @@ from footfit.report.terminal.scan_tables import flare_table, terminal_text
 from footfit.results import (
     Comparison,
     FootFit,
+    Library,
     Match,
     Measure,
     Measured,
+    MeasuredScan,
     Notice,
+    Profiled,
     SurfaceRoom,
     ZoneFit,
 )
@@ -229,7 +231,7 @@ def test_the_page_shows_the_match(match: Match) -> None:
 
 
 def test_the_csv_shows_the_match(match: Match) -> None:
-    assert problems(CSV, readers.read_match_csv(match_csv([match])), match_facts(match)) == []
+    assert problems(CSV, readers.read_match_csv(csv_text(Match, [match])), match_facts(match)) == []
 
 
 def test_the_terminal_shows_the_match(match: Match) -> None:
@@ -284,7 +286,7 @@ def test_the_outputs_show_the_comparison(name: str) -> None:
     assert problems(PAGE, page, facts) == []
     table = readers.read_compare_terminal(terminal_text(compare_table(known), WIDE))
     assert problems(TERMINAL, table, facts) == []
-    cells = readers.read_keyed_csv(compare_csv([known]), "part", "place", "quantity")
+    cells = readers.read_keyed_csv(csv_text(Comparison, [known]), "part", "place", "quantity")
     assert problems(CSV, cells, facts) == []
 
 
@@ -293,7 +295,7 @@ def test_the_outputs_show_the_measures() -> None:
     more = Measure("heel_width", Measured(63.4321, 0.0), "heel_width/2")
     many = [replace(scan, measures=(*scan.measures, more)), answers.measured_scan("b.stl")]
     facts = [known for one in many for known in measured_facts(one)]
-    cells = readers.read_keyed_csv(measures_csv(many), "path", "measure")
+    cells = readers.read_keyed_csv(csv_text(MeasuredScan, many), "path", "measure")
     assert problems(CSV, cells, facts) == []
     table = readers.read_terms(terminal_text(measure_table(many[0]), WIDE))
     assert problems(TERMINAL, table, measured_facts(many[0])) == []
@@ -310,7 +312,10 @@ def test_the_outputs_show_the_flare(spoilt: tuple[str, ...]) -> None:
     )
     table = readers.read_terms(terminal_text(flare_table(shape), WIDE))
     assert problems(TERMINAL, table, flare_facts(shape)) == []
-    assert problems(CSV, readers.read_stations_csv(flare_csv([shape])), flare_facts(shape)) == []
+    assert (
+        problems(CSV, readers.read_stations_csv(csv_text(Profiled, [shape])), flare_facts(shape))
+        == []
+    )
 
 
 def test_the_outputs_show_the_library() -> None:
@@ -319,9 +324,12 @@ def test_the_outputs_show_the_library() -> None:
         answers.record("derby-41", 8.1, 265.7, size="41", parent="derby-40", width_label=None),
         answers.record("pump", -2.2, 259.9, style=None, size=None, size_system=None),
     ]
-    table = readers.read_lasts_terminal(terminal_text(list_lasts_table(lasts, "boot-42"), WIDE))
+    library = Library(tuple(lasts), 3, "boot-42")
+    table = readers.read_lasts_terminal(terminal_text(list_lasts_table(library), WIDE))
     assert problems(TERMINAL, table, library_facts(lasts, "boot-42")) == []
-    cells = readers.read_keyed_csv(lasts_csv(lasts[::-1], "boot-42"), "last")
+    cells = readers.read_keyed_csv(
+        csv_text(Library, [replace(library, lasts=tuple(lasts[::-1]))]), "last"
+    )
     assert problems(CSV, cells, library_facts(lasts, "boot-42")) == []
 
 

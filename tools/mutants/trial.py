@@ -57,8 +57,7 @@ def _first_failure(
     """The first test of the plan that fails, and "caught" or "survived"."""
     copy = scratch.copied(tree, folder)
     if mutant is not None:
-        path = copy / mutant.path
-        path.write_text(mutant.mutation.applied(path.read_text(encoding="utf-8")), encoding="utf-8")
+        _change(copy / mutant.path, mutant)
     limits = {test: TEST_SECONDS + TEST_TIMES * seconds for test, seconds in plan.items()}
     listed, log = folder / "plan.json", folder / "log.jsonl"
     listed.write_text(json.dumps(limits), encoding="utf-8")
@@ -74,6 +73,13 @@ def _first_failure(
     failed = [event["failed"] for event in events if "failed" in event]
     begun = [event["began"] for event in events if "began" in event]
     return next(iter(failed), begun[-1] if begun else None), "caught"
+
+
+def _change(path: Path, mutant: Mutant) -> None:
+    """Write the mutated module, and remove the compiled one: it may look as new."""
+    path.write_text(mutant.mutation.applied(path.read_text(encoding="utf-8")), encoding="utf-8")
+    for compiled in (path.parent / "__pycache__").glob(f"{path.stem}.*.pyc"):
+        compiled.unlink()
 
 
 def _run(command: list[str], tree: Path, known: dict[str, str], seconds: float) -> int:
