@@ -26,7 +26,7 @@ from footfit.results import (
     Measured,
     MeasuredScan,
     Profiled,
-    SurfaceRoom,
+    SurfaceClearance,
     ZoneFit,
 )
 
@@ -354,7 +354,7 @@ def _worst(feet: Sequence[ZoneFit]) -> str:
     return reasons[0] if reasons else "counts nothing"
 
 
-def _surface(room: SurfaceRoom) -> list[str]:
+def _surface(room: SurfaceClearance) -> list[str]:
     """Where more than a tenth of a zone is tight, and where it is loose: the two largest each."""
     if room.reason is not None:
         return [room.reason]
@@ -442,7 +442,7 @@ def _compare_csv(
 
 def room_facts(comparison: Comparison, name: str, *, area: bool, where: str) -> Iterator[Fact]:
     """The room by zone as a table; the area only where there is place for it."""
-    swing = comparison.docking.swing_mm
+    swing = comparison.placement.swing_mm
     way = "medial" if swing > 0 else "lateral"
     yield fact(f"{SAID} swing of {name}", [plain(abs(swing)), way], where)
     for zone in comparison.zones:

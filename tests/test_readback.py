@@ -37,7 +37,7 @@ from footfit.results import (
     MeasuredScan,
     Notice,
     Profiled,
-    SurfaceRoom,
+    SurfaceClearance,
     ZoneFit,
 )
 from tests import answers, readers
@@ -120,7 +120,7 @@ def planted_fits(number: int, feet: int) -> tuple[FootFit, ...]:
     return tuple(fits)
 
 
-def planted_surfaces(number: int, feet: int) -> tuple[SurfaceRoom, ...]:
+def planted_surfaces(number: int, feet: int) -> tuple[SurfaceClearance, ...]:
     """Where each foot is tight and loose in a last; the last foot could not be laid into one."""
     rooms = []
     for foot, side in zip(range(feet), ("left", "right")[2 - feet :], strict=True):
@@ -134,7 +134,7 @@ def planted_surfaces(number: int, feet: int) -> tuple[SurfaceRoom, ...]:
         )
         bad = number == 2 and foot == feet - 1
         room = (None, (), "the sole is open") if bad else (2.9 + step, zones, None)
-        rooms.append(SurfaceRoom(side, *room))
+        rooms.append(SurfaceClearance(side, *room))
     return tuple(rooms)
 
 
@@ -266,7 +266,7 @@ def moved(known: Comparison) -> Comparison:
     return replace(
         known,
         zones=(*zones[:-1], empty),
-        docking=replace(known.docking, swing_mm=2.34),
+        placement=replace(known.placement, swing_mm=2.34),
         warnings=(Notice("toes_apart", "the toes are 3 mm apart"),),
     )
 
