@@ -128,12 +128,12 @@ def main() -> None:
                 ]
             )
 
-        bare = [sys.executable, "-c", "pass"]
+        bare = [sys.executable, "-c", "import typer, rich"]
         ours, peer = in_turn([*footfit, "-h"], bare, options.runs)
         rows.append(
             [
                 "`footfit -h`",
-                "`python -c pass`",
+                "`python -c 'import typer, rich'`",
                 spread([a.seconds / b.seconds for a, b in zip(ours, peer, strict=True)]),
                 spread([a.seconds for a in ours]),
                 f"{max(a.megabytes for a in ours):.0f} MB",

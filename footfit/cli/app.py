@@ -9,6 +9,7 @@ import typer
 
 from footfit import __version__
 from footfit.cli.boundary import guarded
+from footfit.cli.command_group import LazyGroup
 from footfit.cli.commands.align import align
 from footfit.cli.commands.backup_catalogue import backup_catalogue
 from footfit.cli.commands.catalogue_info import catalogue_info
@@ -75,17 +76,22 @@ def _root(
     """
 
 
+class Commands(LazyGroup):
+    """The commands of footfit."""
+
+    table = COMMANDS
+
+
 def application() -> typer.Typer:
     """The Typer application with every command of `COMMANDS`."""
     app = typer.Typer(
+        cls=Commands,
         no_args_is_help=True,
         pretty_exceptions_enable=False,
         context_settings={"help_option_names": ["-h", "--help"]},
-        rich_markup_mode="rich",
+        rich_markup_mode=None,
     )
     app.callback()(_root)
-    for name, function, panel in COMMANDS:
-        app.command(name, rich_help_panel=panel)(function)
     return app
 
 

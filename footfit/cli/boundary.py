@@ -7,7 +7,7 @@ import sys
 from collections.abc import Callable, Sequence
 from typing import Any
 
-from footfit.cli.console import ReaderGone, error_line, say
+from footfit.cli.console import ReaderGone, answer, error_line, say
 from footfit.cli.signals import CODES, LISTENER, Stopped
 from footfit.errors import BadOption, ExitCode, FootfitError
 
@@ -48,7 +48,11 @@ def _unexpected(error: Exception, *, as_json: bool, verbose: bool) -> int:
     if words is not None and getattr(error, "exit_code", None) == int(ExitCode.USAGE):
         context = getattr(error, "ctx", None)
         command = context.command_path if context is not None else "footfit"
-        message = " ".join(str(words()).split()) or "a command is missing"
+        message = str(words())
+        if type(error).__name__ == "NoArgsIsHelpError":  # its message is the help
+            answer(message)
+            message = "no command was given."
+        message = " ".join(message.split())
         say(error_line(BadOption(f"{message} See {command} -h"), as_json=as_json))
         return int(ExitCode.USAGE)
     if verbose:
