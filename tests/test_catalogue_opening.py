@@ -12,7 +12,7 @@ from pathlib import Path
 
 import pytest
 
-from footfit.catalogue.file.engine import connected
+from footfit.catalogue.file.engine import connect
 from footfit.catalogue.store import open_catalogue
 from footfit.errors import (
     CatalogueDamaged,
@@ -145,7 +145,7 @@ def test_a_catalogue_without_its_tables_is_damaged(path: Path, write: bool) -> N
 
 
 def test_a_held_catalogue_is_locked_after_the_timeout(path: Path) -> None:
-    other = connected(path, "rw")
+    other = connect(path, "rw")
     other.execute("BEGIN IMMEDIATE")
     with open_catalogue(path, busy_timeout_s=0.05) as catalogue:
         assert len(catalogue.records()) == 2, "readers go on while another one writes"
@@ -171,7 +171,7 @@ def test_a_held_catalogue_is_locked_after_the_timeout(path: Path) -> None:
 
 def test_a_reader_that_stays_does_not_lose_a_writer_its_last(path: Path) -> None:
     """The commit itself may meet a reader: it is refused whole, and can be tried again."""
-    reader = connected(path, "ro")
+    reader = connect(path, "ro")
     reader.execute("BEGIN")
     reader.execute("SELECT count(*) FROM last").fetchone()
     with open_catalogue(path, write=True, busy_timeout_s=0.05) as catalogue:

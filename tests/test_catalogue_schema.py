@@ -9,8 +9,8 @@ from pathlib import Path
 
 import pytest
 
-from footfit.catalogue.file.engine import connected, engine_on
-from footfit.catalogue.file.file_signature import MARKS
+from footfit.catalogue.file.engine import connect, engine_on
+from footfit.catalogue.file.file_signature import SIGNATURE
 from footfit.catalogue.file.migrate import Revisions, Schema, copy_path, create, migrations_folder
 from footfit.catalogue.rows.columns import TABLES, Column, Table
 from footfit.catalogue.rows.schema import METADATA
@@ -55,7 +55,7 @@ def test_the_migrations_make_what_the_models_say(path: Path) -> None:
     from alembic.autogenerate import compare_metadata
     from alembic.migration import MigrationContext
 
-    engine = engine_on(connected(path, "ro"))
+    engine = engine_on(connect(path, "ro"))
     with engine.connect() as connection:
         context = MigrationContext.configure(connection, opts={"compare_type": True})
         assert compare_metadata(context, METADATA) == []
@@ -116,13 +116,13 @@ def test_the_known_revisions_are_the_scripts() -> None:
     config = Config()
     config.set_main_option("script_location", str(migrations_folder()))
     scripts = ScriptDirectory.from_config(config).walk_revisions()
-    assert tuple(reversed([script.revision for script in scripts])) == MARKS.revisions
+    assert tuple(reversed([script.revision for script in scripts])) == SIGNATURE.revisions
 
 
 def test_the_marks_are_in_the_file(path: Path) -> None:
     header = path.read_bytes()[:100]
     assert header[68:72] == b"Foot"
-    assert int.from_bytes(header[60:64], "big") == int(MARKS.revisions[-1])
+    assert int.from_bytes(header[60:64], "big") == int(SIGNATURE.revisions[-1])
     assert header[18:20] == b"\x01\x01", "a rollback journal: a WAL file cannot be copied alone"
 
 
@@ -137,7 +137,7 @@ def test_the_settings_are_on(path: Path) -> None:
         ):
             assert connection.exec_driver_sql(f"PRAGMA {pragma}").scalar() == value
         # BEGIN IMMEDIATE: nobody else can begin to write meanwhile.
-        other = connected(path, "rw", busy_timeout_s=0)
+        other = connect(path, "rw", busy_timeout_s=0)
         with pytest.raises(sqlite3.OperationalError, match="locked"):
             other.execute("BEGIN IMMEDIATE")
         other.close()
@@ -164,10 +164,10 @@ def test_an_older_schema_is_upgraded_with_a_copy_beside(path: Path, tmp_path: Pa
     assert path.read_bytes() == before
     with open_catalogue(path, write=True, schema=newer) as catalogue:
         assert catalogue.revisions == Revisions("0001", "0002", str(copy_path(path, "0001")))
-        assert catalogue.facts().schema_revision == "0002"
+        assert catalogue.summary().schema_revision == "0002"
         assert catalogue.findings() == [], "a column more leaves every hash as it was"
         assert [str(record) for record in catalogue.records()] == old
-        assert catalogue.facts().mesh_copies == 3, "foreign keys on would have deleted them"
+        assert catalogue.summary().mesh_copies == 3, "foreign keys on would have deleted them"
     with open_catalogue(copy_path(path, "0001")) as copy:
         assert [str(record) for record in copy.records()] == old
         assert copy.findings() == []
@@ -206,7 +206,7 @@ def test_a_newer_catalogue_is_refused_untouched(path: Path, write: bool, edit: s
     with pytest.raises(NewerCatalogue) as caught, open_catalogue(path, write=write):
         pass
     assert "0007" in str(caught.value)
-    assert MARKS.revisions[-1] in str(caught.value)
+    assert SIGNATURE.revisions[-1] in str(caught.value)
     assert path.read_bytes() == before
     assert list(path.parent.iterdir()) == [path]
 
@@ -228,7 +228,7 @@ def test_a_catalogue_that_another_process_made_meanwhile_is_left_as_it_is(
     with open_catalogue(path, write=True, schema=newer):
         pass
     before = path.read_bytes()
-    connection = connected(path, "rwc")
+    connection = connect(path, "rwc")
     create(connection, Schema())
     connection.close()
     assert path.read_bytes() == before

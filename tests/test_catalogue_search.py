@@ -98,7 +98,7 @@ def test_a_profile_of_another_definition_is_set_apart(path: Path, tmp_path: Path
         assert rows.outdated == ("last-03",)
         assert len(rows.records) == LASTS - 1
         assert catalogue.record("last-03").flare.definition.version == "flare/0"
-        assert dict(catalogue.facts().definitions)["flare/0"] == 1
+        assert dict(catalogue.summary().definitions)["flare/0"] == 1
 
 
 def test_a_definition_comes_back_equal_from_its_text() -> None:

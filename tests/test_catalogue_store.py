@@ -323,7 +323,7 @@ def test_a_mesh_that_was_not_stored_is_said(catalogue: Catalogue) -> None:
 
 def test_facts_count_what_is_there(catalogue: Catalogue, path: Path) -> None:
     catalogue.add(records.last("bare", 9, style=None))
-    facts = catalogue.facts()
+    facts = catalogue.summary()
     assert facts.path == str(path)
     assert facts.bytes == path.stat().st_size
     assert (facts.lasts, facts.reference, facts.schema_revision) == (5, "last-0", "0001")
@@ -338,14 +338,14 @@ def test_facts_count_the_rows_of_every_table_also_of_a_strange_one(
     catalogue: Catalogue, path: Path
 ) -> None:
     tables = {table.name for table in METADATA.sorted_tables}
-    kept = dict(catalogue.facts().kept)
+    kept = dict(catalogue.summary().kept)
     assert set(kept) == tables
     assert (kept["last"], kept["reference"], kept["mesh_copy"]) == (4, 1, 4)
     with closing(sqlite3.connect(path)) as connection:
         connection.execute('CREATE TABLE "customer""s feet" (name TEXT)')
         connection.execute("""INSERT INTO "customer""s feet" VALUES ('somebody')""")
         connection.commit()
-    assert dict(catalogue.facts().kept)['customer"s feet'] == 1
+    assert dict(catalogue.summary().kept)['customer"s feet'] == 1
 
 
 def test_no_folder_and_no_user_is_in_the_file(catalogue: Catalogue, path: Path) -> None:

@@ -160,7 +160,7 @@ def test_a_restore_writes_over_no_foreign_file(
     place.write_text("years of work")
     run = footfit("restore-catalogue", stocked, "--catalogue", place)
     assert run.code == 6
-    assert "move it away" in run.err
+    assert "move the file away" in run.err
     assert place.read_text() == "years of work"
     assert list(tmp_path.iterdir()) == [place]
 

@@ -1,4 +1,4 @@
-"""The catalogue as other layers see it: results in, results out, a transaction per verb."""
+"""The catalogue as other layers see it: results go in and come out, one transaction a call."""
 
 from __future__ import annotations
 
@@ -8,15 +8,15 @@ from pathlib import Path
 
 from footfit.catalogue.checks.damage import findings
 from footfit.catalogue.file.copying import copy_into
-from footfit.catalogue.file.engine import SETTINGS, CatalogueFile, worded
+from footfit.catalogue.file.engine import SETTINGS, CatalogueFile, sqlite_errors_in_words
 from footfit.catalogue.file.migrate import Revisions, Schema
-from footfit.catalogue.file.opening import opened_for_reading, opened_for_writing
+from footfit.catalogue.file.opening import open_for_reading, open_for_writing
 from footfit.catalogue.rows import editing
 from footfit.catalogue.rows.columns import MESH_COPY
 from footfit.catalogue.rows.records import mesh_copy_of, record_of
 from footfit.catalogue.rows.reference_last import make_reference, reference_of, stored_reference
 from footfit.catalogue.rows.search import Filters, SearchRows, all_records, search_rows
-from footfit.catalogue.rows.summary import facts
+from footfit.catalogue.rows.summary import summary
 from footfit.catalogue.rows.verified_rows import (
     intact_last,
     last_id,
@@ -40,25 +40,25 @@ def open_catalogue(
     busy_timeout_s: float = SETTINGS.busy_timeout_s,
     schema: Schema | None = None,
 ) -> Iterator[Catalogue]:
-    """A catalogue for the length of a ``with`` block.
+    """Open a catalogue for a ``with`` block.
 
-    For reading nothing is ever made or changed; ``older`` also takes one of an older schema, as
-    far as :meth:`Catalogue.findings` and :meth:`Catalogue.copy_to` go. For writing a missing
-    catalogue is made, with its folder, unless ``create`` is False; an older one is upgraded
-    after a copy was laid beside it (``Catalogue.revisions``).
+    Opened for reading, nothing is made or changed; ``older`` also accepts an older schema, which
+    only :meth:`Catalogue.findings` and :meth:`Catalogue.copy_to` can read. Opened for writing, a
+    missing catalogue is made with its folder, unless ``create`` is False, and an older one is
+    upgraded after a copy was put beside it (``Catalogue.revisions``).
 
     Raises
     ------
     NoCatalogue
-        There is none, and none is to be made.
+        There is no catalogue, and none may be made.
     NotACatalogue, NewerCatalogue, CatalogueDamaged, CatalogueLocked, CatalogueNotWritable
-        The file is something else, of a later footfit, broken, held or read-only.
+        The file is something else, from a later footfit, damaged, held or read-only.
     """
     place, schema = Path(path), schema or Schema()
     if write:
-        file, revisions = opened_for_writing(place, schema, busy_timeout_s, may_create=create)
+        file, revisions = open_for_writing(place, schema, busy_timeout_s, may_create=create)
     else:
-        file, revisions = opened_for_reading(place, schema, busy_timeout_s, older=older)
+        file, revisions = open_for_reading(place, schema, busy_timeout_s, older=older)
     try:
         yield Catalogue(file, revisions, schema.up_to(revisions.after), busy_timeout_s)
     finally:
@@ -66,9 +66,10 @@ def open_catalogue(
 
 
 class Catalogue:
-    """An open catalogue. Reading verbs see one snapshot each; each writing verb is all or nothing.
+    """An open catalogue. Each reading method sees one snapshot; each writing one does all or
+    nothing.
 
-    Every verb may raise ``CatalogueUnusable``'s leaves (locked, not writable, damaged).
+    Every method may raise the leaves of ``CatalogueUnusable`` (locked, not writable, damaged).
     """
 
     def __init__(
@@ -92,7 +93,7 @@ class Catalogue:
         Raises
         ------
         UnknownLast, CatalogueDamaged
-            There is none of that name, or its rows are not what was stored.
+            There is no last of that name, or its rows are not what was stored.
         """
         with self.file.reading() as connection:
             stored = intact_last(connection, last_id(connection, name))
@@ -128,7 +129,7 @@ class Catalogue:
         Raises
         ------
         UnknownLast, CatalogueDamaged
-            There is none of that name, or its rows are not what was stored.
+            There is no last of that name, or its rows are not what was stored.
         """
         with self.file.reading() as connection:
             stored = intact_last(connection, last_id(connection, name))
@@ -140,15 +141,15 @@ class Catalogue:
         Raises
         ------
         UnknownLast, CatalogueDamaged
-            There is no such last or it was stored without a mesh; the copy is damaged.
+            There is no such last, or it was stored without a mesh; the copy is damaged.
         """
         with self.file.reading() as connection:
             copies = rows(connection, MESH_COPY, last_id(connection, name))
         if not copies:
-            raise UnknownLast(f"{name!r} was stored without its mesh; ingest it with --replace")
+            raise UnknownLast(f"{name!r} was stored without its mesh; use ingest-last --replace")
         if copies[0].get("sha256") != row_digest(MESH_COPY, copies[0]):
             raise CatalogueDamaged(
-                f"the mesh of {name!r} is damaged in it; ingest it again with --replace",
+                f"the mesh of {name!r} is damaged; ingest the last again with --replace",
                 str(self.file.path),
             )
         return mesh_copy_of(copies[0])
@@ -160,10 +161,10 @@ class Catalogue:
             owners = connection.execute("SELECT last_id FROM mesh_copy").fetchall()
             return tuple(sorted(str(names.get(owner, "?")) for (owner,) in owners))
 
-    def facts(self) -> CatalogueFacts:
-        """What the catalogue is and holds."""
+    def summary(self) -> CatalogueFacts:
+        """What the catalogue is, and counts of what it holds."""
         with self.file.reading() as connection:
-            return facts(connection, self.file.path)
+            return summary(connection, self.file.path)
 
     def findings(self) -> list[Finding]:
         """Everything that is not as it was stored."""
@@ -176,9 +177,9 @@ class Catalogue:
         Raises
         ------
         CatalogueDamaged, CatalogueNotWritable, CatalogueLocked
-            The catalogue cannot be read, or the copy not be written.
+            The catalogue cannot be read, or the copy cannot be written.
         """
-        with worded(self.file.path):
+        with sqlite_errors_in_words(self.file.path):
             copy_into(self.file.path, target, self._busy_timeout_s)
 
     # ------------------------------------------------------------ writing
@@ -189,31 +190,31 @@ class Catalogue:
         Raises
         ------
         NameTaken
-            The name, or the file's content under another name, is in the catalogue.
+            The catalogue has a last of that name, or the same file under another name.
         UnknownLast, BadOption
-            Its parent is not there; its name cannot be stored.
+            Its parent is not in the catalogue; its name cannot be stored.
         """
         with self.file.atomic() as connection:
             editing.place(connection, record, copy, replace=False)
 
     def replace(self, record: LastRecord, copy: MeshCopy | None = None) -> None:
-        """Store a last over the one of its name, or as a new one where there is none.
+        """Store a last in place of the one of its name, or as a new one if there is none.
 
         Raises
         ------
         NameTaken, UnknownLast, BadOption
-            As for :meth:`add`, but for the name.
+            The same as for :meth:`add`, except that the name may be taken.
         """
         with self.file.atomic() as connection:
             editing.place(connection, record, copy, replace=True)
 
     def remove(self, name: str) -> None:
-        """Remove a last with all that is kept of it.
+        """Remove a last with everything that the catalogue holds of it.
 
         Raises
         ------
         UnknownLast, BadOption
-            There is none; it is the reference, or the parent of another last.
+            There is no such last; it is the reference, or the parent of another last.
         """
         with self.file.atomic() as connection:
             editing.remove(connection, name)
@@ -224,18 +225,18 @@ class Catalogue:
         Raises
         ------
         UnknownLast, NameTaken, BadOption
-            There is none; the new name is taken, or cannot be stored.
+            There is no such last; the new name is taken, or cannot be stored.
         """
         with self.file.atomic() as connection:
             editing.rename(connection, name, new_name)
 
     def set_reference(self, name: str) -> Reference:
-        """Make a last the reference; every ``paper_transform`` is rewritten with it, or none.
+        """Make a last the reference, and rewrite the ``paper_transform`` of every last.
 
         Raises
         ------
         UnknownLast, CatalogueDamaged
-            There is none of that name; a last is damaged.
+            There is no last of that name; a last is damaged.
         """
         with self.file.atomic() as connection:
             return make_reference(connection, last_id(driver_of(connection), name))
@@ -247,12 +248,13 @@ class Catalogue:
         upgraded_from: str | None = None,
         measures: Sequence[Measure] | None = None,
     ) -> None:
-        """Store a profile made anew, with the version it replaces; measures where some are given.
+        """Replace a last's flare profile, and its measures if some are given; ``upgraded_from``
+        is the version of the definition that the profile replaces.
 
         Raises
         ------
         UnknownLast, CatalogueDamaged
-            There is none of that name, or its rows are not what was stored.
+            There is no last of that name, or its rows are not what was stored.
         """
         with self.file.atomic() as connection:
             editing.update_profile(connection, name, flare, measures, upgraded_from)

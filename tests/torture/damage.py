@@ -9,7 +9,7 @@ from collections.abc import Callable
 from contextlib import closing
 from pathlib import Path
 
-from footfit.catalogue.file.engine import connected
+from footfit.catalogue.file.engine import connect
 from footfit.errors import ExitCode, FootfitError
 from footfit.pipeline.library import lasts
 from footfit.pipeline.library.check import checked
@@ -129,7 +129,7 @@ MARKS = ("application_id", "user_version")
 def _sqlite_is_content(path: Path) -> bool:
     """Do SQLite's own checks find nothing?"""
     try:
-        with closing(connected(path, "ro")) as connection:
+        with closing(connect(path, "ro")) as connection:
             ok = connection.execute("PRAGMA integrity_check").fetchall() == [("ok",)]
             return ok and not connection.execute("PRAGMA foreign_key_check").fetchall()
     except (sqlite3.Error, UnicodeDecodeError):

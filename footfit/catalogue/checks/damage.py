@@ -1,9 +1,10 @@
-"""Every way in which a stored value can be told from what was stored."""
+"""Every check that can tell whether a catalogue holds what was stored."""
 
 from __future__ import annotations
 
 import sqlite3
 from collections.abc import Callable, Iterator
+from functools import partial
 
 import numpy as np
 
@@ -21,26 +22,26 @@ from footfit.geometry.numeric.arrays import Floats
 from footfit.results import Finding
 
 TRANSFORM_TOLERANCE = 1e-9
-"""Relative; a paper transform computed on another machine may differ in its last bits."""
-
+"""Relative: on another machine, the last bits of a computed paper transform may differ."""
 
 Check = Callable[[sqlite3.Connection], Iterator[Finding]]
 
 
 def findings(connection: sqlite3.Connection, schema: Schema) -> list[Finding]:
-    """What all checks find; empty for a sound catalogue whose tables are those of ``schema``.
+    """What all checks report; empty for a sound catalogue whose tables are those of ``schema``.
 
-    A check that SQLite cannot carry out, because a page is unreadable, is a finding itself.
+    If SQLite cannot carry out a check, because a page is unreadable, that is a finding too.
     """
-    found: list[Finding] = []
-    for check in (_objects(schema), *CHECKS):
+    reports: list[Finding] = []
+    checks: tuple[Check, ...] = (partial(_objects, schema=schema), *CHECKS)
+    for check in checks:
         try:
-            found.extend(check(connection))
+            reports.extend(check(connection))
         except (sqlite3.DatabaseError, UnicodeDecodeError) as error:
-            found.append(Finding("unreadable", f"a part cannot be read: {error}"))
+            reports.append(Finding("unreadable", f"a part cannot be read: {error}"))
         except CatalogueDamaged as error:
-            found.append(Finding("damaged", error.message))
-    return found
+            reports.append(Finding("damaged", error.message))
+    return reports
 
 
 def _marks(connection: sqlite3.Connection) -> Iterator[Finding]:
@@ -51,7 +52,7 @@ def _marks(connection: sqlite3.Connection) -> Iterator[Finding]:
     (mode,) = connection.execute("PRAGMA journal_mode").fetchone()
     if mode != "delete":
         words = (
-            f"the journal is {mode!r}: a copy of the file may lack data; the next write mends it"
+            f"the journal is {mode!r}: a copy of the file may lack data; the next write repairs it"
         )
         yield Finding("journal_mode", words, damage=False)
 
@@ -62,26 +63,22 @@ def _pages(connection: sqlite3.Connection) -> Iterator[Finding]:
             yield Finding("integrity", " ".join(str(line).split()))
 
 
-def _objects(schema: Schema) -> Check:
-    """The text of the schema is bytes of the file too, and what it says is obeyed."""
-
-    def check(connection: sqlite3.Connection) -> Iterator[Finding]:
-        stored, expected = stored_objects(connection), expected_objects(schema)
-        for key in sorted(stored.keys() | expected.keys()):
-            kind, name = key
-            if key not in stored:
-                yield Finding("schema", f"the {kind} {name} is missing")
-            elif key not in expected:
-                yield Finding("schema", f"the {kind} {name} is not footfit's")
-            elif stored[key] != expected[key]:
-                yield Finding("schema", f"the {kind} {name} is not as footfit makes it")
-
-    return check
+def _objects(connection: sqlite3.Connection, schema: Schema) -> Iterator[Finding]:
+    """Compare tables, indexes and triggers: their text lies in the file too, and is obeyed."""
+    stored, expected = stored_objects(connection), expected_objects(schema)
+    for key in sorted(stored.keys() | expected.keys()):
+        kind, name = key
+        if key not in stored:
+            yield Finding("schema", f"the {kind} {name} is missing")
+        elif key not in expected:
+            yield Finding("schema", f"footfit did not make the {kind} {name}")
+        elif stored[key] != expected[key]:
+            yield Finding("schema", f"the {kind} {name} is not as footfit made it")
 
 
 def _keys(connection: sqlite3.Connection) -> Iterator[Finding]:
     for table, rowid, parent, _ in connection.execute("PRAGMA foreign_key_check"):
-        yield Finding("foreign_key", f"row {rowid} of {table} points to no row of {parent}")
+        yield Finding("foreign_key", f"row {rowid} of {table} belongs to no row of {parent}")
 
 
 def _lasts(connection: sqlite3.Connection) -> Iterator[Finding]:
@@ -94,7 +91,7 @@ def _lasts(connection: sqlite3.Connection) -> Iterator[Finding]:
 
 
 def _definitions(connection: sqlite3.Connection) -> Iterator[Finding]:
-    """A profile of another definition is whole, and cannot be ranked."""
+    """A profile of another definition is not damaged, but it cannot be ranked."""
     current = definition_text(FlareDefinition())
     for stored in stored_lasts(connection):
         if stored.flare is not None and stored.definition != current:
@@ -118,18 +115,19 @@ def _reference(connection: sqlite3.Connection) -> Iterator[Finding]:
     reference, lasts = stored_reference(connection), stored_lasts(connection)
     if reference is None:
         if lasts:
-            words = "there are lasts and no reference; see footfit set-reference"
+            words = "there are lasts but no reference; type: footfit set-reference LAST"
             yield Finding("reference", words)
         return
     for row in rows(connection, REFERENCE):
         for words in implausible_values(REFERENCE, row):
             yield Finding("range", words)
     names = last_names(connection)
+    words = "its paper transform does not follow the reference"
     for stored in lasts:
         if stored.intact:
             record = record_of(stored, names)
             if not _agree(record.paper_transform, transform_by(reference[1], record)):
-                yield Finding("paper_transform", "is not expressed by the reference", stored.name)
+                yield Finding("paper_transform", words, stored.name)
 
 
 def _agree(transform: Floats | None, expected: Floats) -> bool:
@@ -148,6 +146,4 @@ CHECKS: tuple[Check, ...] = (
     _mesh_copies,
     _reference,
 )
-"""All checks but that of the schema, in the order of their findings; a new one is one more
-function here.
-"""
+"""All checks but the one of the schema, in the order of their findings."""

@@ -1,4 +1,4 @@
-"""The tables, keys and rules that a catalogue of some revision has: what its migrations make."""
+"""The tables, keys and rules that a catalogue of some revision must have."""
 
 from __future__ import annotations
 
@@ -11,13 +11,13 @@ from functools import lru_cache
 from footfit.catalogue.file.migrate import Schema, create
 
 Objects = Mapping[tuple[str, str], str]
-"""By (type, name): the table it belongs to and its SQL in the plain form of :func:`_plain`."""
+"""By (type, name): the table that it belongs to, and its SQL in the form of :func:`_plain`."""
 
 
 def stored_objects(connection: sqlite3.Connection) -> Objects:
     """Every table, index, view and trigger of an open file.
 
-    Of SQLite's own those that keep a constraint of a table; what ANALYZE makes is left out.
+    Of SQLite's own objects it has the indexes behind constraints, but not what ANALYZE makes.
     """
     select = "SELECT type, name, tbl_name, sql FROM sqlite_schema"
     return {
@@ -29,17 +29,17 @@ def stored_objects(connection: sqlite3.Connection) -> Objects:
 
 @lru_cache(maxsize=8)
 def expected_objects(schema: Schema) -> Objects:
-    """What the migrations of a schema make, run in memory."""
+    """What the migrations of a schema make; they are run in memory."""
     with closing(sqlite3.connect(":memory:", isolation_level=None)) as connection:
         create(connection, schema)
         return stored_objects(connection)
 
 
 def _plain(sql: object) -> str:
-    r"""SQL as its words and, for a table, its clauses sorted.
+    r"""SQL as its words; the clauses of a table are sorted.
 
-    How they are spaced and quoted differs between releases of SQLAlchemy, and the order of the
-    constraints of a table that Alembic made anew from one process to the next.
+    Spaces and quotes differ between releases of SQLAlchemy. When Alembic makes a table anew, the
+    order of its constraints differs from one process to the next.
 
     Examples
     --------

@@ -1,4 +1,4 @@
-"""Whole copies of a catalogue, named once they are complete and on the disk."""
+"""Whole copies of a catalogue: a copy gets its name once it is complete and on the disk."""
 
 from __future__ import annotations
 
@@ -8,43 +8,44 @@ from collections.abc import Iterator
 from contextlib import closing, contextmanager
 from pathlib import Path
 
-from footfit.catalogue.file.descriptors import HANDLES
-from footfit.catalogue.file.engine import connected
+from footfit.catalogue.file.descriptors import DESCRIPTORS
+from footfit.catalogue.file.engine import connect
 from footfit.errors import CatalogueNotWritable, OutputExists
 
 
 def copy_into(path: Path, target: Path, busy_timeout_s: float) -> None:
-    """A whole, defragmented copy of one moment; ``target`` must be missing or empty.
+    """Write a whole, defragmented copy of one moment; ``target`` must be missing or empty.
 
-    One read transaction: writers go on, and wait with their commit until it is done.
+    The copy is made in one read transaction: other programs can go on writing, and their
+    commits wait until the copy is done.
 
     Raises
     ------
     sqlite3.Error
-        Where SQLite cannot read the one or write the other; see ``engine.worded``.
+        SQLite cannot read the one or write the other; see ``engine.sqlite_errors_in_words``.
     """
-    with closing(connected(path, "ro", busy_timeout_s)) as reader:
+    with closing(connect(path, "ro", busy_timeout_s)) as reader:
         reader.execute("VACUUM INTO ?", (str(target),))
-    synced(target)
+    sync(target)
 
 
-def synced(path: Path) -> None:
-    """Wait until a file, or what a folder lists, is on the disk.
+def sync(path: Path) -> None:
+    """Wait until a file, or the list of names in a folder, is on the disk.
 
     Raises
     ------
     OSError
         The disk does not take it.
     """
-    handle = os.open(path, os.O_RDONLY)
+    descriptor = os.open(path, os.O_RDONLY)
     try:
-        os.fsync(handle)
+        os.fsync(descriptor)
     finally:
-        HANDLES.close(handle)
+        DESCRIPTORS.close(descriptor)
 
 
-def settled(partial: Path, final: Path, *, replace: bool) -> None:
-    """Give a complete file its final name, for good: also after a power cut.
+def give_name(partial: Path, final: Path, *, replace: bool) -> None:
+    """Give a complete file its final name, so that it also has it after a power cut.
 
     Raises
     ------
@@ -56,27 +57,27 @@ def settled(partial: Path, final: Path, *, replace: bool) -> None:
     try:
         if replace:
             partial.replace(final)
-        else:  # link refuses a file that came meanwhile; rename does not
+        else:  # link refuses to replace a file that was made meanwhile; rename does not
             os.link(partial, final)
     except FileExistsError as error:
         raise OutputExists("exists; add --force to replace it", str(final)) from error
-    synced(final.parent)
+    sync(final.parent)
 
 
 @contextmanager
 def partial_beside(final: Path) -> Iterator[Path]:
-    """An empty file of a name of its own beside ``final``; gone with its journal afterwards.
+    """Make an empty file with a name of its own beside ``final``; remove it after the block.
 
     Raises
     ------
     CatalogueNotWritable
-        The folder is not there or takes no file, or the disk is full.
+        The folder is missing or takes no file, or the disk is full; also in the block.
     """
-    with said_of(final):
-        handle, name = tempfile.mkstemp(
+    with system_errors_in_words(final):
+        descriptor, name = tempfile.mkstemp(
             dir=final.parent, prefix=f".{final.name}.", suffix=".partial"
         )
-        os.close(handle)
+        os.close(descriptor)
         partial = Path(name)
         try:
             partial.chmod(0o666 & ~_umask())
@@ -87,8 +88,8 @@ def partial_beside(final: Path) -> Iterator[Path]:
 
 
 @contextmanager
-def said_of(path: Path) -> Iterator[None]:
-    """Say the system's refusals in footfit's words, naming ``path``.
+def system_errors_in_words(path: Path) -> Iterator[None]:
+    """Turn the operating system's errors into footfit's, naming ``path``.
 
     Raises
     ------
@@ -103,7 +104,7 @@ def said_of(path: Path) -> Iterator[None]:
 
 
 def _umask() -> int:
-    """The process's umask, which can only be read by setting it."""
+    """The process's umask; it can only be read by setting it."""
     mask = os.umask(0)
     os.umask(mask)
     return mask

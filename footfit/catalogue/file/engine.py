@@ -1,6 +1,6 @@
 """Connections to a catalogue file: SQLite's settings, transactions, errors in footfit's words.
 
-Reading goes through the driver alone; SQLAlchemy is opened at the first write.
+Reading uses Python's driver alone. SQLAlchemy is imported at the first write.
 """
 
 from __future__ import annotations
@@ -9,11 +9,12 @@ import sqlite3
 from collections.abc import Iterator
 from contextlib import closing, contextmanager
 from dataclasses import dataclass
-from functools import cached_property, partial
+from functools import cached_property
 from pathlib import Path
-from typing import TYPE_CHECKING, Literal
+from typing import TYPE_CHECKING
 
-from footfit.catalogue.file.descriptors import HANDLES, FileConnection
+from footfit.catalogue.file.descriptors import DESCRIPTORS, OpenMode
+from footfit.catalogue.file.file_signature import NOT_A_CATALOGUE
 from footfit.errors import (
     CatalogueDamaged,
     CatalogueLocked,
@@ -44,39 +45,30 @@ class Settings:
 
 SETTINGS = Settings()
 
+HELD = "is held by another program; wait until it is done, then try again"
 LACKS = "lacks a table or a column that it must have; restore it from a backup"
 
-OpenMode = Literal["ro", "rw", "rwc"]
-
+_HELD = (CatalogueLocked, HELD)
 _BY_RESULT_CODE: dict[int, tuple[type[CatalogueUnusable], str]] = {
-    sqlite3.SQLITE_BUSY: (
-        CatalogueLocked,
-        "is held by another program; wait until it is done, then try again",
-    ),
-    sqlite3.SQLITE_LOCKED: (
-        CatalogueLocked,
-        "is held by another program; wait until it is done, then try again",
-    ),
+    sqlite3.SQLITE_BUSY: _HELD,
+    sqlite3.SQLITE_LOCKED: _HELD,
     sqlite3.SQLITE_READONLY: (
         CatalogueNotWritable,
-        "may not be written; check who may write the file and its folder",
+        "cannot be written; check who may write the file and its folder",
     ),
     sqlite3.SQLITE_FULL: (
         CatalogueNotWritable,
-        "could not be written: the disk is full; what was stored before is whole",
+        "could not be written because the disk is full; all that was stored before is still there",
     ),
     sqlite3.SQLITE_IOERR: (
         CatalogueNotWritable,
-        "could not be read or written (disk error); what was stored before is whole",
+        "could not be read or written (disk error); all that was stored before is still there",
     ),
     sqlite3.SQLITE_CANTOPEN: (
         CatalogueNotWritable,
         "or its journal cannot be opened; check who may use the file and its folder",
     ),
-    sqlite3.SQLITE_NOTADB: (
-        NotACatalogue,
-        "is not a footfit catalogue and was left as it is",
-    ),
+    sqlite3.SQLITE_NOTADB: (NotACatalogue, NOT_A_CATALOGUE),
     sqlite3.SQLITE_CORRUPT: (
         CatalogueDamaged,
         "is damaged: restore it from a backup, or see footfit check-catalogue",
@@ -85,9 +77,9 @@ _BY_RESULT_CODE: dict[int, tuple[type[CatalogueUnusable], str]] = {
 
 
 def in_words(error: BaseException, path: Path) -> CatalogueUnusable | None:
-    """SQLite's error as footfit's; None for one that is no fault of the file or the disk."""
+    """SQLite's error as footfit's; None for one that is not the fault of the file or the disk."""
     driver = getattr(error, "orig", error)
-    if isinstance(driver, UnicodeDecodeError):  # a column's name: values are read leniently
+    if isinstance(driver, UnicodeDecodeError):  # in a column's name: values are read leniently
         return CatalogueDamaged("has a damaged schema; restore it from a backup", str(path))
     if not isinstance(driver, sqlite3.Error):
         return None
@@ -102,17 +94,17 @@ def in_words(error: BaseException, path: Path) -> CatalogueUnusable | None:
 
 
 @contextmanager
-def worded(path: Path) -> Iterator[None]:
+def sqlite_errors_in_words(path: Path) -> Iterator[None]:
     """Turn SQLite's errors, bare or wrapped by SQLAlchemy, into footfit's, naming the file."""
     try:
         yield
     except CatalogueUnusable as error:
         raise error.at(str(path)) from error.__cause__
     except Exception as error:
-        words = in_words(error, path)
-        if words is None:
+        translation = in_words(error, path)
+        if translation is None:
             raise
-        raise words from error
+        raise translation from error
 
 
 def lenient_text(data: bytes) -> str:
@@ -120,17 +112,17 @@ def lenient_text(data: bytes) -> str:
     return data.decode("utf-8", "surrogateescape")
 
 
-def connected(
+def connect(
     path: Path, mode: OpenMode, busy_timeout_s: float = SETTINGS.busy_timeout_s
 ) -> sqlite3.Connection:
-    """A connection with footfit's settings, in autocommit: transactions are begun by hand.
+    """A connection with footfit's settings, in autocommit: footfit begins its transactions itself.
 
     Raises
     ------
     sqlite3.Error
-        Where SQLite cannot open the file; see :func:`worded`.
+        SQLite cannot open the file; see :func:`sqlite_errors_in_words`.
     """
-    connection = HANDLES.connect(path, partial(_opened, path, mode, busy_timeout_s))
+    connection = DESCRIPTORS.connect(path, mode, busy_timeout_s)
     connection.text_factory = lenient_text
     try:
         for pragma in SETTINGS.for_all:
@@ -144,49 +136,36 @@ def connected(
     return connection
 
 
-def _opened(path: Path, mode: OpenMode, busy_timeout_s: float) -> FileConnection:
-    return sqlite3.connect(
-        f"{path.absolute().as_uri()}?mode={mode}",
-        uri=True,
-        isolation_level=None,
-        timeout=busy_timeout_s,
-        factory=FileConnection,
-    )
+def connect_for_reading(path: Path, busy_timeout_s: float) -> sqlite3.Connection:
+    """A read-only connection; a write that was killed half way is rolled back first.
 
-
-def connected_for_reading(path: Path, busy_timeout_s: float) -> sqlite3.Connection:
-    """A read-only connection; a write that a kill left half done is rolled back first.
-
-    SQLite cannot roll back through a read-only connection: without this, the first reader
-    after a kill would find the catalogue unreadable until somebody writes.
+    SQLite cannot roll back through a read-only connection. Without this, the first reader after
+    a kill could not read the catalogue until somebody writes to it.
     """
-    connection = connected(path, "ro", busy_timeout_s)
+    connection = connect(path, "ro", busy_timeout_s)
     try:
         connection.execute("PRAGMA user_version").fetchone()
-    except sqlite3.OperationalError as error:
+        return connection
+    except BaseException as error:
         connection.close()
-        if error.sqlite_errorcode != sqlite3.SQLITE_READONLY_ROLLBACK:
+        if getattr(error, "sqlite_errorcode", None) != sqlite3.SQLITE_READONLY_ROLLBACK:
             raise
-        with closing(connected(path, "rw", busy_timeout_s)) as writable:
-            writable.execute("PRAGMA user_version").fetchone()
-        return connected(path, "ro", busy_timeout_s)
-    except BaseException:
-        connection.close()
-        raise
-    return connection
+    with closing(connect(path, "rw", busy_timeout_s)) as writable:
+        writable.execute("PRAGMA user_version").fetchone()
+    return connect(path, "ro", busy_timeout_s)
 
 
 def engine_on(connection: sqlite3.Connection) -> Engine:
     """SQLAlchemy on an open connection; every transaction of it is BEGIN IMMEDIATE.
 
-    A deferred transaction that reads and then writes fails at once where another one wrote in
-    between, whatever the timeout: with 8 writers 35 to 180 of 200 did, with IMMEDIATE none.
+    A deferred transaction that reads and then writes fails at once where another program wrote
+    in between, whatever the timeout: with 8 writers 35 to 180 of 200 failed, with IMMEDIATE none.
     """
     from sqlalchemy import create_engine, event
     from sqlalchemy.pool import StaticPool
 
     engine = create_engine("sqlite://", creator=lambda: connection, poolclass=StaticPool)
-    event.listen(engine, "begin", lambda opened: opened.exec_driver_sql("BEGIN IMMEDIATE"))
+    event.listen(engine, "begin", lambda begun: begun.exec_driver_sql("BEGIN IMMEDIATE"))
     return engine
 
 
@@ -204,23 +183,23 @@ class CatalogueFile:
 
     @contextmanager
     def reading(self) -> Iterator[sqlite3.Connection]:
-        """One snapshot for several SELECTs: a writer's commit cannot fall between them."""
-        with worded(self.path):
+        """One snapshot for several SELECTs: no other program's commit falls between them."""
+        with sqlite_errors_in_words(self.path):
             self.connection.execute("BEGIN")
             try:
                 yield self.connection
             finally:
-                # SQLite ends a transaction by itself on a full disk or an I/O error; a second
-                # ROLLBACK would then raise and hide the first error.
+                # On a full disk or an I/O error SQLite ends the transaction itself. A second
+                # ROLLBACK would then raise, and hide the first error.
                 if self.connection.in_transaction:
                     self.connection.execute("ROLLBACK")
 
     @contextmanager
     def atomic(self) -> Iterator[Connection]:
-        """All of the block or nothing of it, whatever kills it; committed when it ends.
+        """A transaction: all of the block is stored when it ends, or nothing, whatever kills it.
 
-        The lock is taken before the first read, so that what the block read is still true
-        when it writes. On any error nothing is kept: no half last can be seen or ranked.
+        The lock is taken before the first read, so that what the block has read is still true
+        when it writes. On any error nothing is stored: nobody can see or rank half a last.
 
         Raises
         ------
@@ -229,11 +208,11 @@ class CatalogueFile:
         """
         if not self.writable:
             raise CatalogueNotWritable("was opened for reading only", str(self.path))
-        with worded(self.path), self._engine.begin() as connection:
+        with sqlite_errors_in_words(self.path), self._engine.begin() as connection:
             yield connection
 
     def close(self) -> None:
-        """Give the file back; nothing is pending outside of the two blocks above."""
+        """Close the file; nothing is pending outside of the two blocks above."""
         engine = self.__dict__.pop("_engine", None)
         if engine is not None:
             engine.dispose()

@@ -7,18 +7,18 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Literal
 
-from footfit.catalogue.file.descriptors import HANDLES
+from footfit.catalogue.file.descriptors import DESCRIPTORS
 from footfit.errors import CatalogueNotWritable, NotACatalogue
 
 FileKind = Literal["missing", "empty", "catalogue", "interrupted"]
 
 
 @dataclass(frozen=True, slots=True)
-class Marks:
-    """Where SQLite's file format keeps its marks, and footfit's own.
+class Signature:
+    """The marks of SQLite's file format, where they stand, and footfit's own.
 
-    ``application_id`` is "Foot" in ASCII; ``revisions`` are Alembic's, oldest first, and
-    ``user_version`` mirrors the last one as a number for other programs to read.
+    ``application_id`` is "Foot" in ASCII. ``revisions`` are Alembic's, oldest first;
+    ``user_version`` repeats the last one as a number for other programs to read.
     """
 
     magic: bytes = b"SQLite format 3\0"
@@ -29,25 +29,26 @@ class Marks:
     revisions: tuple[str, ...] = ("0001",)
 
 
-MARKS = Marks()
+SIGNATURE = Signature()
+NOT_A_CATALOGUE = "is not a footfit catalogue and was left as it is"
 
 
 def kind_of_file(path: Path) -> FileKind:
     """What lies at ``path``, told from its first 100 bytes: nothing is opened for writing.
 
-    "interrupted" is a file that a live journal beside it has still to settle.
+    "interrupted" is a file whose journal still has to be played back.
 
     Raises
     ------
     NotACatalogue
         A folder, a device, another program's database or any other file.
     CatalogueNotWritable
-        The file is there and may not even be read.
+        The file is there and cannot even be read.
     """
     try:
         if not stat.S_ISREG(path.stat().st_mode):
             raise NotACatalogue("is not a regular file; name a catalogue file", str(path))
-        header = HANDLES.first_bytes(path, MARKS.header_bytes)
+        header = DESCRIPTORS.first_bytes(path, SIGNATURE.header_bytes)
     except FileNotFoundError:
         return "missing"
     except OSError as error:
@@ -57,18 +58,20 @@ def kind_of_file(path: Path) -> FileKind:
         ) from error
     if not header:
         return "empty"
-    if header.startswith(MARKS.magic):
-        if int.from_bytes(header[MARKS.application_id_at :][:4], "big") == MARKS.application_id:
+    if header.startswith(SIGNATURE.magic):
+        mark = header[SIGNATURE.application_id_at :][:4]
+        if int.from_bytes(mark, "big") == SIGNATURE.application_id:
             return "catalogue"
     elif has_live_journal(path):
         return "interrupted"
-    raise NotACatalogue("is not a footfit catalogue and was left as it is", str(path))
+    raise NotACatalogue(NOT_A_CATALOGUE, str(path))
 
 
 def has_live_journal(path: Path) -> bool:
-    """Is there a journal to undo a write that is going on, or that a kill or a power cut ended?"""
+    """Whether a journal lies beside the file: of a write that goes on, or that was cut short."""
     journal = path.with_name(path.name + "-journal")
     try:
-        return HANDLES.first_bytes(journal, len(MARKS.journal_magic)) == MARKS.journal_magic
+        start = DESCRIPTORS.first_bytes(journal, len(SIGNATURE.journal_magic))
     except OSError:
         return False
+    return start == SIGNATURE.journal_magic

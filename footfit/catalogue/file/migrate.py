@@ -1,30 +1,24 @@
-"""New catalogues, and catalogues of an older schema: both by Alembic's migrations."""
+"""New catalogues, and catalogues of an older schema: Alembic's migrations make both."""
 
 from __future__ import annotations
 
 import sqlite3
-from collections.abc import Iterator
-from contextlib import closing, contextmanager
+from contextlib import closing
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from footfit.catalogue.file.copying import copy_into, settled
-from footfit.catalogue.file.engine import connected, engine_on
-from footfit.catalogue.file.file_signature import MARKS
-from footfit.errors import (
-    CatalogueDamaged,
-    CatalogueNotWritable,
-    CatalogueUnusable,
-    NewerCatalogue,
-)
+from footfit.catalogue.file.copying import copy_into, give_name, partial_beside
+from footfit.catalogue.file.engine import connect, engine_on
+from footfit.catalogue.file.file_signature import SIGNATURE
+from footfit.errors import CatalogueDamaged, CatalogueUnusable, NewerCatalogue
 
 if TYPE_CHECKING:
     from sqlalchemy import Connection
 
 
 def migrations_folder() -> Path:
-    """Where the migrations lie: inside an installed footfit, else beside it in the source tree."""
+    """The folder of the migrations: inside an installed footfit, beside it in a source tree."""
     package = Path(__file__).resolve().parents[2]
     shipped = package / "_migrations"
     return shipped if shipped.is_dir() else package.parent / "migrations"
@@ -34,7 +28,7 @@ def migrations_folder() -> Path:
 class Schema:
     """The schema that this footfit writes: its revisions, oldest first, and their scripts."""
 
-    revisions: tuple[str, ...] = MARKS.revisions
+    revisions: tuple[str, ...] = SIGNATURE.revisions
     folder: Path = field(default_factory=migrations_folder)
 
     @property
@@ -49,7 +43,7 @@ class Schema:
 
 @dataclass(frozen=True, slots=True)
 class Revisions:
-    """What an opening did to the schema: the same revision twice and no backup if nothing."""
+    """The schema before and after an opening; ``backup`` is the copy that an upgrade made."""
 
     before: str
     after: str
@@ -64,7 +58,7 @@ def stored_revision(connection: sqlite3.Connection, schema: Schema, path: Path) 
     NewerCatalogue
         A later footfit wrote it.
     CatalogueDamaged
-        It says no revision, or one that never was.
+        It names no revision, or one that never existed.
     """
     (mirror,) = connection.execute("PRAGMA user_version").fetchone()
     rows = connection.execute("SELECT version_num FROM alembic_version").fetchall()
@@ -80,14 +74,14 @@ def stored_revision(connection: sqlite3.Connection, schema: Schema, path: Path) 
         )
     if revision not in schema.revisions:
         raise CatalogueDamaged(
-            f"says it has schema {revision!r}, which never was; restore it from a backup",
+            f"names the schema {revision!r}, which does not exist; restore it from a backup",
             str(path),
         )
     return revision
 
 
 def require_current(connection: sqlite3.Connection, schema: Schema, path: Path) -> None:
-    """Refuse a catalogue that only a writable opening can bring up to date.
+    """Refuse a catalogue that has to be upgraded first, which only a writer can do.
 
     Raises
     ------
@@ -104,28 +98,29 @@ def require_current(connection: sqlite3.Connection, schema: Schema, path: Path) 
 
 
 def create(connection: sqlite3.Connection, schema: Schema) -> None:
-    """Make an empty file a catalogue, in one transaction; nothing where another process did.
+    """Make an empty file a catalogue, in one transaction; do nothing if it is one already.
 
     Raises
     ------
     sqlalchemy.exc.DBAPIError
-        Where SQLite cannot write.
+        SQLite cannot write.
     """
-    with _migrating(connection) as opened:
-        # Several processes may find the same empty file: the first one in makes it, under the
-        # lock, and the others see here that it is made.
-        if _application_id(connection) == MARKS.application_id:
+    with engine_on(connection).begin() as begun:
+        # Several processes may meet the same empty file. The first one makes it a catalogue
+        # under the lock; the others see here that it is one.
+        (application_id,) = connection.execute("PRAGMA application_id").fetchone()
+        if application_id == SIGNATURE.application_id:
             return
-        opened.exec_driver_sql(f"PRAGMA application_id = {MARKS.application_id}")
-        _run_migrations(opened, schema)
+        begun.exec_driver_sql(f"PRAGMA application_id = {SIGNATURE.application_id}")
+        _run_migrations(begun, schema)
 
 
 def upgrade(path: Path, schema: Schema, busy_timeout_s: float) -> Revisions:
-    """Bring a catalogue to the newest schema, after a whole copy was laid beside it.
+    """Bring a catalogue to the newest schema; a whole copy is put beside it first.
 
     The lock is held from before the copy until the commit, so that the copy is what was
-    migrated. Foreign keys are off meanwhile: SQLite alters a table by making it anew, and with
-    them on the drop of the old one would delete every row that depends on it.
+    migrated. Foreign keys are off meanwhile: SQLite changes a table by making a new one, and
+    with them on, dropping the old one would delete every row that depends on it.
 
     Raises
     ------
@@ -134,58 +129,34 @@ def upgrade(path: Path, schema: Schema, busy_timeout_s: float) -> Revisions:
     CatalogueNotWritable
         The copy cannot be written.
     """
-    with closing(connected(path, "rw", busy_timeout_s)) as connection:
+    with closing(connect(path, "rw", busy_timeout_s)) as connection:
         connection.execute("PRAGMA foreign_keys = OFF")
-        with _migrating(connection) as opened:
+        with engine_on(connection).begin() as begun:
             revision = stored_revision(connection, schema, path)
             if revision == schema.head:  # another process upgraded it meanwhile
                 return Revisions(revision, revision)
-            backup = _copy_beside(path, revision, busy_timeout_s)
-            _run_migrations(opened, schema)
+            backup = copy_path(path, revision)
+            with partial_beside(backup) as partial:
+                copy_into(path, partial, busy_timeout_s)
+                give_name(partial, backup, replace=True)
+            _run_migrations(begun, schema)
             if connection.execute("PRAGMA foreign_key_check").fetchone():
                 raise CatalogueDamaged(
-                    "has rows that point to no last; it was not upgraded", str(path)
+                    "has rows that belong to no last; it was not upgraded", str(path)
                 )
     return Revisions(revision, schema.head, str(backup))
 
 
 def copy_path(path: Path, revision: str) -> Path:
-    """Where the copy lies that is made before an upgrade from ``revision``."""
+    """The path of the copy that is made before an upgrade from ``revision``."""
     return path.with_name(f"{path.name}.schema-{revision}")
 
 
-@contextmanager
-def _migrating(connection: sqlite3.Connection) -> Iterator[Connection]:
-    """The connection as SQLAlchemy's, in one BEGIN IMMEDIATE that holds DDL and marks alike."""
-    with engine_on(connection).connect() as opened, opened.begin():
-        yield opened
-
-
-def _run_migrations(opened: Connection, schema: Schema) -> None:
+def _run_migrations(begun: Connection, schema: Schema) -> None:
     from alembic import command
     from alembic.config import Config
 
-    config = Config(attributes={"connection": opened})
+    config = Config(attributes={"connection": begun})
     config.set_main_option("script_location", str(schema.folder).replace("%", "%%"))
     command.upgrade(config, schema.head)
-    opened.exec_driver_sql(f"PRAGMA user_version = {int(schema.head)}")
-
-
-def _copy_beside(path: Path, revision: str, busy_timeout_s: float) -> Path:
-    """A whole, defragmented copy under its final name only once it is complete."""
-    final = copy_path(path, revision)
-    partial = final.with_name(final.name + ".partial")
-    try:
-        partial.unlink(missing_ok=True)
-        copy_into(path, partial, busy_timeout_s)
-        settled(partial, final, replace=True)
-    except OSError as error:
-        raise CatalogueNotWritable(
-            f"could not be copied before its upgrade ({error.strerror})", str(path)
-        ) from error
-    return final
-
-
-def _application_id(connection: sqlite3.Connection) -> int:
-    (value,) = connection.execute("PRAGMA application_id").fetchone()
-    return int(value)
+    begun.exec_driver_sql(f"PRAGMA user_version = {int(schema.head)}")

@@ -1,4 +1,4 @@
-"""Arrays as the catalogue keeps them: little-endian float64, row by row, nothing before it."""
+"""Arrays as the catalogue keeps them: little-endian float64, row by row, without a header."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ def blob(array: Floats) -> bytes:
 
 
 def array_of(data: bytes, *shape: int) -> Floats:
-    """The array of some bytes, read-only, of ``shape``; (n,) where none is given.
+    """The array of some bytes, read-only, with the given shape; (n,) if none is given.
 
     Examples
     --------
@@ -38,7 +38,7 @@ def array_of(data: bytes, *shape: int) -> Floats:
 
 
 def definition_text(definition: FlareDefinition) -> str:
-    """A flare definition with all its parameters as canonical JSON."""
+    """A flare definition with all its parameters, as canonical JSON."""
     return json.dumps(asdict(definition), sort_keys=True, separators=(",", ":"))
 
 
@@ -46,9 +46,10 @@ def definition_text(definition: FlareDefinition) -> str:
 def definition_of(text: str) -> FlareDefinition:
     """The definition of a stored text.
 
-    Another footfit's may lack a parameter that this one knows: it is then not a number, since
-    nobody knows what it was, and equal to none. One that this footfit does not know is passed
-    over. Whether a profile is comparable is therefore asked of the text, which has everything.
+    A text of another footfit may lack a parameter that this one has. The parameter is then NaN,
+    which equals no value, because nobody knows what it was. A parameter that this footfit does
+    not have is skipped. So whether two profiles can be compared is decided by their texts, which
+    have every parameter.
     """
     stored = {name: _frozen(value) for name, value in json.loads(text).items()}
     default = asdict(FlareDefinition())
@@ -58,7 +59,7 @@ def definition_of(text: str) -> FlareDefinition:
 
 
 def _unknown(like: Any) -> Any:
-    """A value of the kind of ``like`` that stands for one that is not known."""
+    """A value of the type of ``like`` that stands for an unknown one."""
     if isinstance(like, str):
         return ""
     return tuple(_unknown(item) for item in like) if isinstance(like, tuple) else math.nan

@@ -1,8 +1,8 @@
 """The hashes that tell whether what is read is what was stored.
 
-SQLite checks the shape of its pages, not their content: of the single-bit flips that changed a
-value, its integrity check missed 88 %. So each last has one SHA-256 over all that ranking reads
-and its mesh copy another, so that matching reads no mesh.
+SQLite checks how its pages hang together, not their content: its integrity check missed 88 % of
+the single-bit flips that changed a value. So each last has one SHA-256 over all that ranking
+reads. Its mesh copy has another one, so that matching reads no mesh.
 """
 
 from __future__ import annotations
@@ -13,14 +13,14 @@ from collections.abc import Collection
 from typing import Any
 
 Row = dict[str, Any]
-"""One row by column, as the driver gives it: None, int, float, str or bytes."""
+"""One row by column, with the values that the driver gives: None, int, float, str or bytes."""
 
 
 def hash_content(row: Row | None, unhashed: Collection[str]) -> Row:
-    """What is hashed of a row: no column of ``unhashed``, and no null.
+    """The values of a row that are hashed: without the columns in ``unhashed``, and without nulls.
 
-    A null adds nothing, so that a column which a later schema adds leaves the hashes of older
-    rows as they are. A value that turns null changes the hash all the same.
+    Nulls are left out so that a column that a later schema adds does not change the hashes of
+    older rows. A value that turns null still changes the hash.
 
     Examples
     --------

@@ -1,5 +1,5 @@
-"""The writing verbs, each inside the caller's one transaction: what they check is still true
-when they write.
+"""What changes the lasts, each inside the caller's one transaction: what a function checks is
+still true when it writes.
 """
 
 from __future__ import annotations
@@ -38,17 +38,18 @@ if TYPE_CHECKING:
 def place(
     connection: sa.Connection, record: LastRecord, copy: MeshCopy | None, *, replace: bool
 ) -> None:
-    """Store a last: as a new one, or over the one of its name where that is allowed.
+    """Store a last: as a new one, or in place of the one of its name if ``replace`` is given.
 
-    A damaged last is also written over by the same file under the same name: that is its cure.
+    A damaged last is also replaced if the same file comes again under the same name: this is how
+    it is repaired.
 
     Raises
     ------
     NameTaken
-        The name or the content is another last's.
+        Another last has the name or the content.
     UnknownLast, BadOption
-        The parent is not there, or is the last itself or one of its descendants; the name
-        cannot be stored.
+        The parent is not in the catalogue, or it is the last itself or one of its descendants;
+        the name cannot be stored.
     """
     driver, labels = driver_of(connection), record.labels
     _require_storable(labels.name)
@@ -61,12 +62,12 @@ def place(
 
 
 def remove(connection: sa.Connection, name: str) -> None:
-    """Remove a last; its rows in other tables go with it.
+    """Remove a last and its rows in all tables.
 
     Raises
     ------
     UnknownLast
-        There is none of that name.
+        There is no last of that name.
     BadOption
         It is the reference, or the parent of another last.
     """
@@ -74,14 +75,14 @@ def remove(connection: sa.Connection, name: str) -> None:
     key = last_id(driver, name)
     if key == reference_key(driver):
         raise BadOption(
-            f"{name!r} is the reference; make another last it first: footfit set-reference LAST"
+            f"{name!r} is the reference; choose another one first: footfit set-reference LAST"
         )
     children = driver.execute(
         "SELECT name FROM last NOT INDEXED WHERE parent_id = ? ORDER BY name", (key,)
     ).fetchall()
     if children:
         names = ", ".join(repr(child) for (child,) in children)
-        raise BadOption(f"{name!r} is the parent of {names}; remove these first")
+        raise BadOption(f"{name!r} is the parent of {names}; remove those first")
     delete_rows(connection, LAST, key)
 
 
@@ -91,9 +92,9 @@ def rename(connection: sa.Connection, name: str, new_name: str) -> None:
     Raises
     ------
     UnknownLast, CatalogueDamaged
-        There is none of that name, or it is damaged.
+        There is no last of that name, or it is damaged.
     NameTaken, BadOption
-        The new name is another last's, or cannot be stored.
+        Another last has the new name; it cannot be stored.
     """
     driver = driver_of(connection)
     _require_storable(new_name)
@@ -111,12 +112,12 @@ def update_profile(
     measures: Sequence[Measure] | None,
     upgraded_from: str | None,
 ) -> None:
-    """Store a last's profile made anew.
+    """Replace a last's flare profile, and its measures if some are given.
 
     Raises
     ------
     UnknownLast, CatalogueDamaged
-        There is none of that name, or it is damaged.
+        There is no last of that name, or it is damaged.
     """
     driver = driver_of(connection)
     stored = intact_last(driver, last_id(driver, name))
@@ -132,13 +133,19 @@ def update_profile(
     seal(connection, stored.id)
 
 
+def same_scan(holder: str) -> NameTaken:
+    """The refusal of a file whose content the catalogue has under the name ``holder``."""
+    return NameTaken(f"the same scan is in the catalogue as {holder!r}; nothing was stored")
+
+
 def _require_storable(name: str) -> None:
     if not name.strip():
         raise BadOption("a last needs a name that is not blank; give one with --name")
     try:
         name.encode("utf-8")
     except UnicodeEncodeError as error:
-        raise BadOption(f"{name!r} is no text that can be stored; give one with --name") from error
+        words = f"{name!r} cannot be stored as a name; give another one with --name"
+        raise BadOption(words) from error
 
 
 def _require_new_content(connection: sqlite3.Connection, record: LastRecord) -> None:
@@ -147,11 +154,11 @@ def _require_new_content(connection: sqlite3.Connection, record: LastRecord) -> 
         return
     name = last_names(connection)[holder]
     if name != record.labels.name:
-        raise NameTaken(f"the same scan is in the catalogue as {name!r}; nothing was stored")
+        raise same_scan(name)
 
 
 def _parent_id(connection: sqlite3.Connection, labels: LastLabels, key: int | None) -> int | None:
-    """The parent's key; a last that is its own ancestor would never end."""
+    """The parent's key; a last cannot be its own ancestor."""
     if labels.parent is None:
         return None
     parent_id = last_id(connection, labels.parent)
@@ -163,7 +170,7 @@ def _parent_id(connection: sqlite3.Connection, labels: LastLabels, key: int | No
         if ancestor == key:
             break
         ancestor = parents.get(ancestor)
-    raise BadOption(f"{labels.parent!r} descends from {labels.name!r} and cannot be its parent")
+    raise BadOption(f"{labels.parent!r} descends from {labels.name!r}, so it cannot be its parent")
 
 
 def _is_damaged_copy(connection: sqlite3.Connection, key: int, record: LastRecord) -> bool:

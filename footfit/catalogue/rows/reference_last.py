@@ -1,6 +1,6 @@
-"""The reference last: whose OM_E (Eq. 6) every stored ``paper_transform`` is expressed by.
+"""The reference last: every stored ``paper_transform`` is computed with its OM_E (Eq. 6).
 
-All of it works on stored values: no mesh is needed to change the reference.
+Everything here works on stored values: no mesh is needed to change the reference.
 """
 
 from __future__ import annotations
@@ -54,13 +54,13 @@ def stored_reference(connection: sqlite3.Connection) -> tuple[int, Reference] | 
 
 
 def reference_key(connection: sqlite3.Connection) -> int | None:
-    """The key of the reference last, whatever the state of its OM_E."""
+    """The key of the reference last, even if its OM_E is damaged."""
     row = connection.execute("SELECT last_id FROM reference").fetchone()
     return None if row is None else int(row[0])
 
 
 def reference_of(record: LastRecord) -> Reference:
-    """What a last would be as the reference; a left one is mirrored to a right one first."""
+    """What a last would be as the reference; a left last is mirrored to a right one first."""
     mirrored = record.side.side == "left"
     printed, canonical = record.printed_frame, record.canonical_transform
     return Reference(
@@ -73,7 +73,7 @@ def reference_of(record: LastRecord) -> Reference:
 
 
 def transform_by(reference: Reference, record: LastRecord) -> Floats:
-    """A last's ``paper_transform`` (4, 4) by a reference (Eq. 8), from stored values only."""
+    """A last's ``paper_transform`` (4, 4) to the frame of a reference (Eq. 8)."""
     P_c, R = record.printed_frame.centroid_mm, record.printed_frame.eigenvectors
     if record.side.side == "left":
         P_c, R = mirrored_frame(P_c, R)
@@ -82,7 +82,9 @@ def transform_by(reference: Reference, record: LastRecord) -> Floats:
 
 
 def express(connection: sa.Connection, key: int) -> None:
-    """Express a last that was just written, and seal it; the first one becomes the reference."""
+    """Seal a last that was just written, with its ``paper_transform``; the first last of a
+    catalogue becomes the reference.
+    """
     driver = driver_of(connection)
     reference = stored_reference(driver)
     if reference is None or reference[0] == key:
@@ -94,12 +96,12 @@ def express(connection: sa.Connection, key: int) -> None:
 
 
 def make_reference(connection: sa.Connection, key: int) -> Reference:
-    """Make a last the reference and express every last by it, in the caller's transaction.
+    """Make a last the reference, and rewrite every last's ``paper_transform``.
 
     Raises
     ------
     CatalogueDamaged
-        A last is damaged: sealing it anew would call the damage sound.
+        A last is damaged: a new seal would make the damage look sound.
     """
     driver = driver_of(connection)
     lasts, names = stored_lasts(driver), last_names(driver)
@@ -124,7 +126,7 @@ def _require_intact(lasts: list[StoredLast]) -> None:
 def _write_transform(
     connection: sa.Connection, key: int, record: LastRecord, reference: Reference
 ) -> None:
-    """Express a last by the reference, and seal it."""
+    """Write a last's ``paper_transform``, and seal the last."""
     transform = blob(transform_by(reference, record))
     update_row(connection, FRAME, key, {"paper_transform": transform})
     seal(connection, key)

@@ -1,4 +1,4 @@
-"""What matching reads: every last's record and profile, and no mesh."""
+"""What matching reads: the record and the profile of every last, but no mesh."""
 
 from __future__ import annotations
 
@@ -23,11 +23,11 @@ class Filters:
 
 @dataclass(frozen=True, slots=True)
 class SearchRows:
-    """The lasts to rank, by name, and those left out with the reason.
+    """The lasts to rank, by name, and the lasts that were left out.
 
-    ``rejected`` counts by filter; ``damaged`` names the lasts whose rows are not what was
-    stored, ``outdated`` those whose profile follows another flare definition than this
-    footfit's (``upgrade-catalogue`` makes it anew): neither can be ranked.
+    ``rejected`` counts them by filter. ``damaged`` names the lasts whose rows are not what was
+    stored, and ``outdated`` those whose profile follows another flare definition than this
+    footfit's (``upgrade-catalogue`` makes a new one): these two cannot be ranked.
     """
 
     records: tuple[LastRecord, ...]

@@ -1,4 +1,4 @@
-"""What a catalogue is and holds, counted by SQLite: no record is made."""
+"""What a catalogue is, and what it holds. SQLite counts, so no record is made."""
 
 from __future__ import annotations
 
@@ -9,11 +9,11 @@ from footfit.results import CatalogueFacts
 
 Counts = tuple[tuple[str, int], ...]
 MARK_TABLE = "alembic_version"
-"""Keeps the schema's revision alone."""
+"""Alembic's table; it holds the schema's revision and nothing else."""
 
 
-def facts(connection: sqlite3.Connection, path: Path) -> CatalogueFacts:
-    """Counts by style, size system, side and flare definition ("" where there is no label)."""
+def summary(connection: sqlite3.Connection, path: Path) -> CatalogueFacts:
+    """Counts by style, size system, side and flare definition ("" stands for no label)."""
     (lasts,) = connection.execute("SELECT count(*) FROM last NOT INDEXED").fetchone()
     (revision,) = connection.execute("SELECT version_num FROM alembic_version").fetchone()
     reference = connection.execute(
@@ -40,7 +40,7 @@ def facts(connection: sqlite3.Connection, path: Path) -> CatalogueFacts:
 
 
 def _kept(connection: sqlite3.Connection) -> Counts:
-    """Every table that keeps something of somebody, with its rows."""
+    """Every table but Alembic's, with its number of rows: nothing is kept unseen."""
     select = "SELECT name FROM sqlite_schema WHERE type = 'table' ORDER BY name"
     tables = [str(name) for (name,) in connection.execute(select) if name != MARK_TABLE]
     quoted = ((name, name.replace('"', '""')) for name in tables)

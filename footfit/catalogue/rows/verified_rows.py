@@ -1,7 +1,7 @@
-"""The catalogue's raw rows, checked against their hashes before anything is made of them.
+"""The catalogue's raw rows, checked against their hashes before a record is made from them.
 
-Nothing here knows SQLAlchemy, and no statement names a column: a row is what SQLite says it is,
-so that a changed byte anywhere in it is seen.
+Nothing here uses SQLAlchemy, and no statement lists columns: a row has the columns that SQLite
+gives, so that a changed byte anywhere in it is seen.
 """
 
 from __future__ import annotations
@@ -18,7 +18,7 @@ from footfit.errors import CatalogueDamaged, UnknownLast
 
 @dataclass(frozen=True, slots=True)
 class StoredLast:
-    """The raw rows of one last, its mesh copy left out; None for a row that is missing."""
+    """The raw rows of one last without its mesh copy; None stands for a missing row."""
 
     id: int
     last: Row
@@ -29,7 +29,7 @@ class StoredLast:
 
     @property
     def name(self) -> str:
-        """The name as stored, as a text whatever is stored."""
+        """The stored name as a text, whatever is stored."""
         return shown_name(self.last.get("name"))
 
     @property
@@ -52,14 +52,14 @@ class StoredLast:
 
     @property
     def intact(self) -> bool:
-        """Are the rows what was stored?"""
+        """Whether the rows are what was stored."""
         return bool(self.last.get("record_sha256") == self.content_digest)
 
 
 def shown_name(stored: object) -> str:
-    r"""A stored name as a text: damage may have made it a null, a number or bytes.
+    r"""A stored name as a text; damage may have turned it into a null, a number or bytes.
 
-    Bytes of it that are no UTF-8 are shown as ``\x..``.
+    Bytes that are not UTF-8 are shown as ``\x..``.
 
     Examples
     --------
@@ -70,15 +70,15 @@ def shown_name(stored: object) -> str:
 
 
 def row_digest(table: Table, row: Row) -> str:
-    """The hash of one row that stands by itself: a mesh copy, the reference.
+    """The hash of a row that has its own hash: a mesh copy, the reference.
 
-    Its keys are hashed too, so that it cannot pass for another last's.
+    Its keys are hashed too, so that it cannot be taken for the row of another last.
     """
     return digest({"row": hash_content(row, table.unhashed)})
 
 
 def rows(connection: sqlite3.Connection, table: Table, last_id: int | None = None) -> list[Row]:
-    """The rows of a table in the order of storage; those of one last where ``last_id`` is given.
+    """The rows of a table in the order of storage; of one last alone if ``last_id`` is given.
 
     Raises
     ------
@@ -99,12 +99,12 @@ def rows(connection: sqlite3.Connection, table: Table, last_id: int | None = Non
 def stored_lasts(connection: sqlite3.Connection, last_id: int | None = None) -> list[StoredLast]:
     """The raw rows of every last, or of one, in the order in which they were first stored.
 
-    Five SELECTs whatever the number of lasts, along the tables and not along an index.
+    This takes five SELECTs, however many lasts there are. They read the tables, not an index.
     """
     frames = {row["last_id"]: row for row in rows(connection, FRAME, last_id)}
     flares = {row["last_id"]: row for row in rows(connection, FLARE, last_id)}
-    measures = _grouped(rows(connection, MEASURE, last_id))
-    notices = _grouped(rows(connection, NOTICE, last_id))
+    measures = _by_last(rows(connection, MEASURE, last_id))
+    notices = _by_last(rows(connection, NOTICE, last_id))
     return [
         StoredLast(
             id=row["id"],
@@ -118,10 +118,10 @@ def stored_lasts(connection: sqlite3.Connection, last_id: int | None = None) -> 
     ]
 
 
-def _grouped(found: list[Row]) -> dict[int, list[Row]]:
-    """Rows by their last, in their stated order (a damaged position may be of any type)."""
+def _by_last(rows_of_all: list[Row]) -> dict[int, list[Row]]:
+    """Rows by their last, in the order of their position (a damaged one may have any type)."""
     groups: dict[int, list[Row]] = defaultdict(list)
-    for row in found:
+    for row in rows_of_all:
         groups[row["last_id"]].append(row)
     for group in groups.values():
         group.sort(key=_position)
@@ -135,8 +135,8 @@ def _position(row: Row) -> tuple[str, Any]:
 
 def last_names(connection: sqlite3.Connection) -> dict[int, str]:
     """The name of every last, damaged ones too, by its key."""
-    found = connection.execute("SELECT id, name FROM last NOT INDEXED")
-    return {key: shown_name(name) for key, name in found}
+    pairs = connection.execute("SELECT id, name FROM last NOT INDEXED")
+    return {key: shown_name(name) for key, name in pairs}
 
 
 def last_id(connection: sqlite3.Connection, name: str) -> int:
@@ -145,7 +145,7 @@ def last_id(connection: sqlite3.Connection, name: str) -> int:
     Raises
     ------
     UnknownLast
-        There is none; the message names the nearest.
+        There is none; the message gives the nearest name.
     """
     key = key_where(connection, "name", name)
     if key is not None:
@@ -155,11 +155,11 @@ def last_id(connection: sqlite3.Connection, name: str) -> int:
 
 
 def key_where(connection: sqlite3.Connection, column: str, value: str) -> int | None:
-    """The key of the last whose ``column`` (a unique one) holds ``value``, along the table."""
+    """The key of the last whose ``column`` (a unique one) holds ``value``; no index is read."""
     select = f"SELECT id FROM last NOT INDEXED WHERE {column} = ?"
     try:
         row = connection.execute(select, (value,)).fetchone()
-    except UnicodeEncodeError:  # a text that UTF-8 cannot hold is in no catalogue
+    except UnicodeEncodeError:  # no catalogue holds a text that UTF-8 cannot hold
         return None
     return None if row is None else int(row[0])
 
@@ -182,7 +182,7 @@ def intact_last(connection: sqlite3.Connection, key: int) -> StoredLast:
     (stored,) = stored_lasts(connection, key)
     if not stored.intact:
         raise CatalogueDamaged(
-            f"the last {stored.name!r} is damaged in it; ingest it again with --replace,"
+            f"the last {stored.name!r} is damaged; ingest it again with --replace,"
             " or restore the catalogue from a backup"
         )
     return stored

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from footfit.catalogue.file.copying import partial_beside, said_of, settled
+from footfit.catalogue.file.copying import give_name, partial_beside
 from footfit.catalogue.file.engine import SETTINGS
 from footfit.catalogue.file.migrate import copy_path
 from footfit.catalogue.file.restoring import put_in_place
@@ -33,8 +33,7 @@ def backed_up(path: Path, backup: Path, *, replace: bool = False) -> BackupOutco
     with open_catalogue(path, older=True) as catalogue, partial_beside(backup) as partial:
         catalogue.copy_to(partial)
         outcome = _sound(partial, path, UNKEPT)
-        with said_of(backup):
-            settled(partial, backup, replace=replace)
+        give_name(partial, backup, replace=replace)
     return BackupOutcome(str(path), str(backup), backup.stat().st_size, outcome.lasts)
 
 

@@ -111,7 +111,7 @@ def mesh_copy(path: Path, name: str) -> MeshCopy:
 def facts(path: Path) -> CatalogueFacts:
     """What the catalogue is and holds."""
     with open_catalogue(path) as catalogue:
-        return catalogue.facts()
+        return catalogue.summary()
 
 
 def library(path: Path, style: str | None = None, size_system: str | None = None) -> Library:
