@@ -11,7 +11,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from footfit.geometry.flare.flare_profile import FlareDefinition, FlareProfile
+from footfit.geometry.flare.definition import FlareDefinition, FlareProfile
 
 SPAN = (0.30, 0.55)  # stations between which a foot is bent: between the flare angle's windows
 _STATIONS = np.linspace(-0.6, 1.6, 8801)

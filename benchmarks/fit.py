@@ -20,7 +20,7 @@ import numpy as np
 
 from benchmarks.alignment import scan_of
 from benchmarks.tables import markdown, put
-from footfit.geometry.flare.flare_profile import profile_distances
+from footfit.geometry.flare.profile_distance import profile_distances
 from footfit.meshes.read import read_scan
 from footfit.pipeline.fit.fit_profile import fit_profile
 from footfit.pipeline.fit.match import Question, matched

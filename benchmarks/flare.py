@@ -24,14 +24,10 @@ from benchmarks import bends  # noqa: E402
 from benchmarks.alignment import holed, scan_of  # noqa: E402
 from benchmarks.tables import markdown, put  # noqa: E402
 from footfit.errors import FootfitError  # noqa: E402
-from footfit.geometry.flare.centre_line import low_length  # noqa: E402
-from footfit.geometry.flare.flare_profile import (  # noqa: E402
-    CHANNELS,
-    DISTANCE,
-    FlareDefinition,
-    FlareProfile,
-    flare_profile,
-)
+from footfit.geometry.flare.definition import CHANNELS, FlareDefinition, FlareProfile  # noqa: E402
+from footfit.geometry.flare.flare_profile import flare_profile  # noqa: E402
+from footfit.geometry.flare.levelled_bottom import low_length  # noqa: E402
+from footfit.geometry.flare.profile_distance import DISTANCE  # noqa: E402
 from footfit.meshes.read import read_scan  # noqa: E402
 from footfit.pipeline.scan.align import aligned  # noqa: E402
 from footfit.pipeline.scan.flare import as_right, profiled, right_shape  # noqa: E402

@@ -7,7 +7,7 @@ from dataclasses import fields, is_dataclass, replace
 
 import numpy as np
 
-from footfit.geometry.flare.flare_profile import CHANNELS, FlareDefinition, FlareProfile
+from footfit.geometry.flare.definition import CHANNELS, FlareDefinition, FlareProfile
 from footfit.results import (
     Eigenframe,
     LastLabels,

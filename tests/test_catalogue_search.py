@@ -16,7 +16,7 @@ import pytest
 from footfit.catalogue.rows.array_blobs import definition_of, definition_text
 from footfit.catalogue.rows.search import Filters, rejection
 from footfit.catalogue.store import Catalogue, open_catalogue
-from footfit.geometry.flare.flare_profile import FlareDefinition
+from footfit.geometry.flare.definition import FlareDefinition
 from tests import records
 
 LASTS = 12

@@ -11,7 +11,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from footfit.geometry.flare.flare_profile import CHANNELS
+from footfit.geometry.flare.definition import CHANNELS
 from footfit.meshes.read import read_scan
 from footfit.meshes.write import encoded_mesh
 from tests.conftest import SAMPLES, Footfit

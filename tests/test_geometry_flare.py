@@ -15,14 +15,9 @@ from hypothesis import strategies as st
 
 from footfit.errors import HalfScan
 from footfit.geometry.flare import levelled_bottom
-from footfit.geometry.flare.flare_profile import (
-    CHANNELS,
-    FlareDefinition,
-    flare_class,
-    flare_profile,
-    profile_distance,
-    profile_distances,
-)
+from footfit.geometry.flare.definition import CHANNELS, FlareDefinition, flare_class
+from footfit.geometry.flare.flare_profile import flare_profile
+from footfit.geometry.flare.profile_distance import profile_distances
 from tests import distortions, shapes
 from tests.strategies import seeds
 from tools.lasts import LastSpec, graded, last_mesh, plain, true_flare_deg, true_heading_deg, varied
@@ -313,6 +308,12 @@ def test_a_profiles_arrays_stand_at_the_fixed_stations(usual):
 @pytest.fixture(scope="module")
 def library():
     return [flare_profile(*last(f, heel_height_mm=h)[1:]) for f, h in ((2, 10), (8, 25), (14, 40))]
+
+
+def profile_distance(a, b):
+    """The distance of two profiles, and its parts."""
+    found = profile_distances(a, [b])
+    return float(found.total[0]), {name: float(part[0]) for name, part in found.parts.items()}
 
 
 def test_the_distance_is_symmetric_and_zero_to_itself(usual, library):

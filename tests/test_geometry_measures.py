@@ -44,7 +44,7 @@ def foot():
 def taken(vertices, faces, kind="foot"):
     """Name to value, or to the reason."""
     shape = Shape(vertices, faces, kind)
-    readings = {entry.name: entry.reading(shape) for entry in of_kind(kind)}
+    readings = {entry.name: entry.value_of(shape) for entry in of_kind(kind)}
     assert all((r.value is None) != (r.reason is None) for r in readings.values())
     return {name: r.reason if r.value is None else r.value for name, r in readings.items()}
 

@@ -10,8 +10,9 @@ import pytest
 
 from benchmarks import bends
 from footfit.errors import SideUndecided
-from footfit.geometry.flare.centre_line import low_length
-from footfit.geometry.flare.flare_profile import CHANNELS, FlareDefinition, flare_profile
+from footfit.geometry.flare.definition import CHANNELS, FlareDefinition
+from footfit.geometry.flare.flare_profile import flare_profile
+from footfit.geometry.flare.levelled_bottom import low_length
 from footfit.geometry.mesh.surface import signed_volume
 from footfit.meshes.read import read_scan
 from footfit.pipeline.scan.align import aligned

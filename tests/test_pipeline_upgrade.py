@@ -15,7 +15,7 @@ from footfit.catalogue.rows.verified_rows import last_id
 from footfit.catalogue.rows.writing import driver_of, seal, update_row
 from footfit.catalogue.store import open_catalogue
 from footfit.errors import NoCatalogue
-from footfit.geometry.flare.flare_profile import FlareDefinition
+from footfit.geometry.flare.definition import FlareDefinition
 from footfit.pipeline.library.lasts import library
 from footfit.pipeline.library.upgrade import upgrade
 

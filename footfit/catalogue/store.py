@@ -26,7 +26,7 @@ from footfit.catalogue.rows.verified_rows import (
 )
 from footfit.catalogue.rows.writing import driver_of
 from footfit.errors import CatalogueDamaged, UnknownLast
-from footfit.geometry.flare.flare_profile import FlareProfile
+from footfit.geometry.flare.definition import FlareProfile
 from footfit.results import CatalogueFacts, Finding, LastRecord, Measure, MeshCopy, Reference
 
 

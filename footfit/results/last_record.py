@@ -12,7 +12,7 @@ from footfit.results.profile import flare_part
 from footfit.results.values import Measured, measures_part
 
 if TYPE_CHECKING:
-    from footfit.geometry.flare.flare_profile import FlareProfile
+    from footfit.geometry.flare.definition import FlareProfile
     from footfit.geometry.numeric.arrays import Floats
     from footfit.results.alignment import Eigenframe, PoseQuality, SideVerdict
     from footfit.results.meshes import MeshInfo

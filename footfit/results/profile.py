@@ -12,7 +12,7 @@ from footfit.results.documents import Json, document, exact, fields, part, rows
 from footfit.results.values import measures_part
 
 if TYPE_CHECKING:
-    from footfit.geometry.flare.flare_profile import FlareProfile
+    from footfit.geometry.flare.definition import FlareProfile
     from footfit.geometry.numeric.arrays import Floats, Ints
     from footfit.results.alignment import AlignedScan, Alignment
     from footfit.results.meshes import MeshInfo

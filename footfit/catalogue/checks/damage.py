@@ -17,7 +17,7 @@ from footfit.catalogue.rows.records import record_of
 from footfit.catalogue.rows.reference_last import stored_reference, transform_by
 from footfit.catalogue.rows.verified_rows import last_names, row_digest, rows, stored_lasts
 from footfit.errors import CatalogueDamaged
-from footfit.geometry.flare.flare_profile import FlareDefinition
+from footfit.geometry.flare.definition import FlareDefinition
 from footfit.geometry.numeric.arrays import Floats
 from footfit.results import Finding
 

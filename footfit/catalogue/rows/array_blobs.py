@@ -10,7 +10,7 @@ from typing import Any
 
 import numpy as np
 
-from footfit.geometry.flare.flare_profile import FlareDefinition
+from footfit.geometry.flare.definition import FlareDefinition
 from footfit.geometry.numeric.arrays import Floats
 
 

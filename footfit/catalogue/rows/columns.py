@@ -22,7 +22,7 @@ from footfit.catalogue.rows import rules
 from footfit.catalogue.rows.array_blobs import array_of, blob, definition_of, definition_text
 from footfit.catalogue.rows.digests import Row
 from footfit.catalogue.rows.rules import LIMITS, Rule, choice, number
-from footfit.geometry.flare.flare_profile import CHANNELS
+from footfit.geometry.flare.definition import CHANNELS
 
 T = TypeVar("T")
 Reader = Callable[[Row], T]

@@ -28,7 +28,7 @@ from footfit.catalogue.rows.writing import (
     write_owned,
 )
 from footfit.errors import BadOption, NameTaken
-from footfit.geometry.flare.flare_profile import FlareProfile
+from footfit.geometry.flare.definition import FlareProfile
 from footfit.results import LastLabels, LastRecord, Measure, MeshCopy
 
 if TYPE_CHECKING:

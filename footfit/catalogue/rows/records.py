@@ -10,7 +10,7 @@ from footfit.catalogue.rows.columns import FLARE, FRAME, LAST, MEASURE, MESH_COP
 from footfit.catalogue.rows.digests import Row
 from footfit.catalogue.rows.verified_rows import StoredLast
 from footfit.errors import CatalogueDamaged
-from footfit.geometry.flare.flare_profile import FlareProfile
+from footfit.geometry.flare.definition import FlareProfile
 from footfit.results import (
     Eigenframe,
     LastLabels,

@@ -9,7 +9,7 @@ from dataclasses import dataclass
 from footfit.catalogue.rows.array_blobs import definition_text
 from footfit.catalogue.rows.records import record_of
 from footfit.catalogue.rows.verified_rows import StoredLast, last_names, stored_lasts
-from footfit.geometry.flare.flare_profile import FlareDefinition
+from footfit.geometry.flare.definition import FlareDefinition
 from footfit.results import LastRecord
 
 

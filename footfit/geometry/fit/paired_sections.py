@@ -12,7 +12,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from footfit.geometry.measures.landmarks import AXES, Shape
-from footfit.geometry.measures.measure_value import Reading
+from footfit.geometry.measures.measure_value import MeasureValue
 from footfit.geometry.measures.tape import hull_girth
 from footfit.geometry.mesh.outlines import Outline
 from footfit.geometry.numeric.arrays import Floats
@@ -54,11 +54,11 @@ CUT = "at the {place} the section runs out of the {who}'s top, or is open"
 class SectionSizes:
     """What is measured of one section; ``medial`` and ``lateral`` are the edges' places across."""
 
-    width: Reading
-    medial: Reading
-    lateral: Reading
-    height: Reading
-    girth: Reading
+    width: MeasureValue
+    medial: MeasureValue
+    lateral: MeasureValue
+    height: MeasureValue
+    girth: MeasureValue
 
 
 @dataclass(frozen=True, slots=True)
@@ -92,10 +92,8 @@ def _pair(foot: Shape, last: Shape, station: Station, settings: OverlaySettings)
 
 def _plane(foot: Shape, station: Station) -> tuple[Floats, Floats]:
     """A point (3,) of a station's plane, in the middle of the foot, and its two axes (2, 3)."""
-    if station.oblique and foot.mt1 is not None and foot.mt5 is not None:
-        across = (foot.mt1 - foot.mt5) * [1.0, 1.0, 0.0]
-        middle = 0.5 * (foot.mt1 + foot.mt5) * [1.0, 1.0, 0.0]
-        return middle, np.stack([across / np.linalg.norm(across), AXES[2]])
+    if station.oblique and foot.ball_plane is not None:
+        return foot.ball_plane
     return np.array([foot.x_mm(station.share), 0.0, 0.0]), AXES[1:]
 
 
@@ -103,20 +101,20 @@ def _sizes(shape: Shape, cut: Outline, station: Station, band_mm: float) -> Sect
     """Widths from the band over the sole; height and girth where the section is whole."""
     who, points = shape.kind, cut.points
     if not len(points):
-        return SectionSizes(*[Reading(None, f"the {who} does not reach so far")] * 5)
+        return SectionSizes(*[MeasureValue(None, f"the {who} does not reach so far")] * 5)
     low = points[points[:, 1] <= points[:, 1].min() + band_mm, 0]
     medial, lateral = float(low.max()), float(low.min())
     return SectionSizes(
-        width=Reading(medial - lateral),
-        medial=Reading(medial),
-        lateral=Reading(lateral),
+        width=MeasureValue(medial - lateral),
+        medial=MeasureValue(medial),
+        lateral=MeasureValue(lateral),
         height=_whole(shape, cut, station, lambda: float(np.ptp(points[:, 1]))),
         girth=_whole(shape, cut, station, lambda: hull_girth(points)),
     )
 
 
-def _whole(shape: Shape, cut: Outline, station: Station, size: Callable[[], float]) -> Reading:
+def _whole(shape: Shape, cut: Outline, station: Station, size: Callable[[], float]) -> MeasureValue:
     """A size that only a section has that does not run out of the leg or over a last's top."""
     if shape.topped(cut):
-        return Reading(None, CUT.format(who=shape.kind, place=station.name))
-    return Reading(size())
+        return MeasureValue(None, CUT.format(who=shape.kind, place=station.name))
+    return MeasureValue(size())

@@ -13,7 +13,7 @@ import numpy as np
 
 from footfit.errors import NoSole
 from footfit.geometry.measures.landmarks import Shape
-from footfit.geometry.mesh.sections import depth_at, extremes_below, lowest, sections_across
+from footfit.geometry.mesh.sections import sections_across, soles
 from footfit.geometry.mesh.surface import face_areas
 from footfit.geometry.numeric.arrays import Floats
 from footfit.geometry.numeric.quantiles import area_quantile
@@ -179,15 +179,9 @@ def _rest(
     """Where a sole lies between two places along X; None where there is none."""
     x = np.linspace(*window_mm, settings.sections)
     segments = sections_across(shape.vertices_mm, shape.faces, x)
-    y, z = segments.points[:, :, 1], segments.points[:, :, 2]
-    floor = lowest(z, segments)
-    lateral, medial = extremes_below(y, z, floor + settings.band * length_mm, segments)
-    depths = [
-        depth_at(lateral + place * (medial - lateral), y, z, segments)[0]
-        for place in settings.places
-    ]
-    middle, height = 0.5 * (lateral + medial), np.mean(depths, axis=0)
-    height = np.where(height <= floor + settings.band * length_mm, height, floor)  # an open sole
+    sole = soles(segments, settings.band * length_mm, settings.places)
+    middle, height = 0.5 * (sole.lateral + sole.medial), sole.depth.mean(axis=0)
+    height = np.where(height <= sole.limit, height, sole.floor)  # an open sole
     if not np.isfinite(middle).all():
         return None
     return _Rest(float(x.mean()), float(middle.mean()), float(height.mean()))

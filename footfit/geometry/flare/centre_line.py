@@ -16,7 +16,7 @@ import numpy as np
 from footfit.errors import HalfScan
 from footfit.geometry.flare.band_edges import band_edges
 from footfit.geometry.flare.definition import FlareDefinition
-from footfit.geometry.flare.levelled_bottom import BottomShape, low_length, section_places
+from footfit.geometry.flare.levelled_bottom import BottomShape, section_places
 from footfit.geometry.mesh.sections import (
     Planes,
     Segments,
@@ -25,8 +25,6 @@ from footfit.geometry.mesh.sections import (
 )
 from footfit.geometry.numeric.arrays import Bools, Floats
 from footfit.geometry.numeric.smoothing import cubic_splines
-
-__all__ = ["Bands", "CentreLine", "centre_line", "low_length"]
 
 
 @dataclass(frozen=True, slots=True)

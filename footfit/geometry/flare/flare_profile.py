@@ -10,38 +10,13 @@ import numpy as np
 
 from footfit.geometry.flare.bottom_curves import bottom_curvature, extended_stations
 from footfit.geometry.flare.centre_line import CentreLine, centre_line
-from footfit.geometry.flare.definition import (
-    CHANNELS,
-    FlareDefinition,
-    FlareProfile,
-    flare_class,
-)
+from footfit.geometry.flare.definition import CHANNELS, FlareDefinition, FlareProfile, flare_class
 from footfit.geometry.flare.levelled_bottom import BottomShape, bottom_shape
-from footfit.geometry.flare.profile_distance import (
-    DISTANCE,
-    DistanceSettings,
-    ProfileDistances,
-    profile_distance,
-    profile_distances,
-)
 from footfit.geometry.flare.sole_curvature import surface_curvature_profile
 from footfit.geometry.mesh.surface import area_vectors
 from footfit.geometry.numeric.arrays import Floats, Ints
 from footfit.geometry.numeric.polylines import curvature_density
 from footfit.geometry.numeric.smoothing import cubic_splines, local_quadratic
-
-__all__ = [
-    "CHANNELS",
-    "DISTANCE",
-    "DistanceSettings",
-    "FlareDefinition",
-    "FlareProfile",
-    "ProfileDistances",
-    "flare_class",
-    "flare_profile",
-    "profile_distance",
-    "profile_distances",
-]
 
 
 def flare_profile(

@@ -10,10 +10,9 @@ from footfit.errors import HalfScan
 from footfit.geometry.flare.definition import FlareDefinition
 from footfit.geometry.mesh.sections import (
     Segments,
-    depth_at,
-    extremes_below,
     lowest,
     sections_across,
+    soles,
 )
 from footfit.geometry.mesh.surface import area_vectors
 from footfit.geometry.mesh.welding import without_unused_vertices
@@ -151,15 +150,10 @@ def _some(segments: Segments, wanted: Bools) -> Segments:
 
 def _cross_slopes(down: Bools, across: Segments, definition: FlareDefinition) -> Floats:
     """The slope of each section's bottom from the lateral to the medial side, (planes,)."""
-    place, height = across.points[:, :, 1], across.points[:, :, 2]
-    limit = lowest(height, across) + definition.band_height
-    least, most = extremes_below(place, height, limit, across)
-    first, _, last = definition.bottom_places
-    medial, lateral = (
-        depth_at(most - share * (most - least), place, height, across, down)[0]
-        for share in (first, last)
-    )
-    return np.asarray((medial - lateral) / ((last - first) * (most - least)), dtype=np.float64)
+    first, _, last = definition.bottom_places  # from the medial edge
+    sole = soles(across, definition.band_height, (1.0 - first, 1.0 - last), down)
+    medial, lateral = sole.depth
+    return np.asarray((medial - lateral) / ((last - first) * (sole.medial - sole.lateral)))
 
 
 def section_places(definition: FlareDefinition) -> Floats:

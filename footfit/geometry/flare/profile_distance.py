@@ -80,14 +80,6 @@ def profile_distances(
     return ProfileDistances(total, {name: parts[:, i] for i, name in enumerate(CHANNELS)})
 
 
-def profile_distance(
-    a: FlareProfile, b: FlareProfile, settings: DistanceSettings = DISTANCE
-) -> tuple[float, dict[str, float]]:
-    """The distance D of two profiles, and its parts, which sum to D^2 (NaN: not measured)."""
-    found = profile_distances(a, [b], settings)
-    return float(found.total[0]), {name: float(part[0]) for name, part in found.parts.items()}
-
-
 def _stacked(profiles: Sequence[FlareProfile]) -> Floats:
     """Their channels, (k, channels, stations); NaN where one is missing."""
     if not profiles:

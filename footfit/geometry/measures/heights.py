@@ -7,8 +7,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from footfit.geometry.measures.landmarks import Shape
-from footfit.geometry.measures.measure_value import OPEN, Reading, lacking
-from footfit.geometry.measures.stance import Ground, stance
+from footfit.geometry.measures.measure_value import OPEN, MeasureValue, section_value
+from footfit.geometry.measures.stance import FLAT_STANCE, stance
 from footfit.geometry.measures.underside import BOTTOM, underside
 
 
@@ -25,56 +25,47 @@ NO_SOLE = "the sole is open at the {place}"
 FLAT = "measured on lasts: a foot stands flat"
 
 
-def arch_height(shape: Shape) -> Reading:
+def arch_height(shape: Shape) -> MeasureValue:
     """The greatest height of the underside along the inner arch, a quarter of the width from the
     medial edge.
     """
     arch = underside(shape, BOTTOM.arch, BOTTOM.arch_places)
     if arch is None:
-        return Reading(None, NO_SOLE.format(place="arch"))
-    return Reading(float(arch.smooth(BOTTOM.bandwidth * shape.length_mm).z_mm.max()))
+        return MeasureValue(None, NO_SOLE.format(place="arch"))
+    return MeasureValue(float(arch.smooth(BOTTOM.bandwidth * shape.length_mm).z_mm.max()))
 
 
-def instep_height(shape: Shape) -> Reading:
+def instep_height(shape: Shape) -> MeasureValue:
     """The top of the section at half the length, over the contact plane."""
-    missing = lacking(shape, shape.at_instep, "instep")
-    if missing is not None:
-        return Reading(None, missing)
-    return Reading(float(shape.instep[2]))
+    return section_value(shape, shape.at_instep, "instep", lambda points: points[:, 1].max())
 
 
-def toe_height(shape: Shape) -> Reading:
+def toe_height(shape: Shape) -> MeasureValue:
     """From the lowest to the highest point of the section at .92 of the length."""
     section = shape.across(HEIGHTS.toe)
     if shape.opened(section):
-        return Reading(None, OPEN.format(place="toes"))
-    return Reading(float(np.ptp(section.points[:, 1])))
+        return MeasureValue(None, OPEN.format(place="toes"))
+    return MeasureValue(float(np.ptp(section.points[:, 1])))
 
 
-def toe_spring(shape: Shape) -> Reading:
+def toe_spring(shape: Shape) -> MeasureValue:
     """The lowest point of the section at .94 of the length, over the ground.
 
     A foot's ground is the contact plane, a last's the ground that it stands on.
     """
-    ground, section = _ground(shape), shape.across(HEIGHTS.toe_spring)
-    if ground is None or shape.opened(section):
-        return Reading(None, NO_SOLE.format(place="toes or the ball"))
-    return Reading(ground.under_mm(shape.x_mm(HEIGHTS.toe_spring), section.points[:, 1].min()))
+    standing = FLAT_STANCE if shape.kind == "foot" else stance(shape)
+    section = shape.across(HEIGHTS.toe_spring)
+    if standing is None or shape.opened(section):
+        return MeasureValue(None, NO_SOLE.format(place="toes or the ball"))
+    x_mm, z_mm = shape.x_mm(HEIGHTS.toe_spring), float(section.points[:, 1].min())
+    return MeasureValue(standing.ground.under_mm(x_mm, z_mm))
 
 
-def heel_height(shape: Shape) -> Reading:
+def heel_height(shape: Shape) -> MeasureValue:
     """How high a last's heel stands as its tread lies level: the seat's line at the pternion."""
     if shape.kind == "foot":
-        return Reading(None, FLAT)
+        return MeasureValue(None, FLAT)
     standing = stance(shape)
     if standing is None:
-        return Reading(None, NO_SOLE.format(place="heel or the ball"))
-    return Reading(standing.heel_mm)
-
-
-def _ground(shape: Shape) -> Ground | None:
-    """What a shape stands on; None for a last whose bottom is open."""
-    if shape.kind == "foot":
-        return Ground()
-    standing = stance(shape)
-    return None if standing is None else standing.ground
+        return MeasureValue(None, NO_SOLE.format(place="heel or the ball"))
+    return MeasureValue(standing.heel_mm)

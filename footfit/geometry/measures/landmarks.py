@@ -1,4 +1,4 @@
-"""Landmarks of a canonical right shape, found by geometry: no marker, no template.
+"""Landmarks of a canonical right shape, found by geometry: without markers, without a template.
 
 mm; x from heel to toe, y to the medial side, z up.
 """
@@ -10,7 +10,7 @@ from functools import cached_property
 
 import numpy as np
 
-from footfit.geometry.flare.centre_line import low_length
+from footfit.geometry.flare.levelled_bottom import low_length
 from footfit.geometry.measures.top_cut import lid_faces
 from footfit.geometry.mesh.outermost_point import Tip, tip
 from footfit.geometry.mesh.outlines import Outline, outline
@@ -28,11 +28,11 @@ class LandmarkSettings:
     width_height: float = 0.20  # over the floor; over it ankles may stand out
     inner_joint: tuple[float, float] = (0.60, 0.82)  # MT1 of a foot lies at .72, MT5 at .63
     outer_joint: tuple[float, float] = (0.52, 0.76)
-    joint_edge: float = 0.008  # nearer to its window's end no joint is believed
+    joint_edge: float = 0.008  # a joint this close to the edge of its search window is rejected
     instep: float = 0.50
     cone: float = 0.15  # a place on a last's cone
-    lid_crossed: float = 0.05  # a section that runs on a lid farther than that is of a cut leg
-    gap: float = 0.03  # a section that is open wider than that is not measured
+    lid_crossed: float = 0.05  # a section that runs farther over the top cut is not measured
+    gap: float = 0.03  # a section with a wider gap is not measured
 
 
 LANDMARKS = LandmarkSettings()
@@ -40,7 +40,7 @@ LANDMARKS = LandmarkSettings()
 
 @dataclass(frozen=True)
 class Shape:
-    """A canonical right shape; each landmark is found when it is first asked for, and kept.
+    """A canonical right shape; each landmark is found when it is first read, and kept.
 
     ``vertices_mm`` (n, 3), ``faces`` (m, 3) wound outward, ``kind`` "foot" or "last".
     """
@@ -53,7 +53,7 @@ class Shape:
 
     @cached_property
     def low(self) -> Ints:
-        """The faces (k, 3) that are no leg; all of them where none is low."""
+        """The faces (k, 3) that are not leg; all of them if none is low."""
         height_mm = LANDMARKS.length_height * self._rough_length_mm
         low = self._faces_of(self.vertices_mm[:, 2] < height_mm)
         return low if len(low) else self.faces
@@ -104,20 +104,35 @@ class Shape:
         """The most lateral point of the outer joint (fifth metatarsal head), (3,)."""
         return self._joint(-1.0, LANDMARKS.outer_joint)
 
-    def _joint(self, side: float, window: tuple[float, float]) -> Floats | None:
-        """The outermost point of a joint; None where the outline goes on outward over the window's
-        end, as over a big toe that is turned in: that is no joint.
+    @property
+    def ball_plane(self) -> tuple[Floats, Floats] | None:
+        """The upright plane through MT1 and MT5; None if a joint is not found.
+
+        A point (3,), half-way between them at z = 0, and the plane's axes (2, 3), to MT1 and up.
         """
-        found = self.outermost(side, window)
-        if found is None:
+        if self.mt1 is None or self.mt5 is None:
             return None
-        share = (float(found[0]) - self.x_mm(0.0)) / self.length_mm
+        level = np.array([1.0, 1.0, 0.0])
+        across = (self.mt1 - self.mt5) * level
+        axes = np.stack([across / np.linalg.norm(across), AXES[2]])
+        return 0.5 * (self.mt1 + self.mt5) * level, axes
+
+    def _joint(self, side: float, window: tuple[float, float]) -> Floats | None:
+        """The outermost point (3,) of a joint; None if there is none in the search window.
+
+        The outline must turn inward again before the window's edge. Over a big toe that is turned
+        in it goes on outward: that is not a joint.
+        """
+        place = self.outermost(side, window)
+        if place is None:
+            return None
+        share = (float(place[0]) - self.x_mm(0.0)) / self.length_mm
         inside = window[0] + LANDMARKS.joint_edge < share < window[1] - LANDMARKS.joint_edge
-        return found if inside else None
+        return place if inside else None
 
     def outermost(self, side: float, window: tuple[float, float]) -> Floats | None:
         """The outermost point (3,) of one side (+1 medial, -1 lateral) between two shares of the
-        length; None where there is no surface.
+        length; None if there is no surface.
         """
         x, _, z = self.vertices_mm.T
         start, end = (self.x_mm(share) for share in window)
@@ -126,8 +141,8 @@ class Shape:
         near = self.faces[a | b | c]  # coarse triangles at the window's ends count too
         if not len(near):
             return None
-        found = tip(self.vertices_mm, near, side * AXES[1], self.length_mm)
-        return np.array([found.place[0], side * found.reach, found.place[2]])
+        outermost = tip(self.vertices_mm, near, side * AXES[1], self.length_mm)
+        return np.array([outermost.place[0], side * outermost.reach, outermost.place[2]])
 
     # ------------------------------------------------------------ the top
 
@@ -177,11 +192,11 @@ class Shape:
         return outline(self.vertices_mm, self.faces, origin, axes, self.length_mm)
 
     def opened(self, section: Outline, below_mm: float = np.inf) -> bool:
-        """Whether a section misses a piece of the surface, below a height where one is given."""
+        """Whether a section has a gap, below a height (mm) if one is given."""
         return not section.loops or section.gap_mm(below_mm) > LANDMARKS.gap * self.length_mm
 
     def topped(self, section: Outline) -> bool:
-        """Whether a section runs over the shape's lid, or out of its open top."""
+        """Whether a section runs over the shape's top cut, or out of its open top."""
         lid_mm = float(section.length_mm[self.lid[section.face]].sum())
         return lid_mm > LANDMARKS.lid_crossed * self.length_mm or self.opened(section)
 

@@ -5,24 +5,23 @@ from __future__ import annotations
 import numpy as np
 
 from footfit.geometry.measures.landmarks import Shape
-from footfit.geometry.measures.measure_value import Reading
+from footfit.geometry.measures.measure_value import NO_BALL, MeasureValue
 from footfit.geometry.measures.underside import BOTTOM, underside
 from footfit.geometry.mesh.outermost_point import tip
 
 FOREPART = 0.7
-NO_BALL = "no joint is found at the ball"
 TURNS = 2  # of the stick towards the farthest toe; the second moves it by under .01 mm
 
 
-def length(shape: Shape) -> Reading:
+def length(shape: Shape) -> MeasureValue:
     """From the pternion to the foremost point along X, of what is no leg (ISO 7250-1 foot length).
 
     The stick length of a last.
     """
-    return Reading(shape.length_mm)
+    return MeasureValue(shape.length_mm)
 
 
-def functional_length(shape: Shape) -> Reading:
+def functional_length(shape: Shape) -> MeasureValue:
     """From the pternion to the tip of the toe that lies farthest from it, in plan.
 
     The toe that touches first as a shoe gets shorter, whichever way the shoe turns about the heel.
@@ -34,20 +33,20 @@ def functional_length(shape: Shape) -> Reading:
     distance = 0.0
     for _ in range(TURNS):
         direction = (end - start) / np.hypot(*(end - start))
-        found = tip(shape.vertices_mm, fore, np.array([*direction, 0.0]), shape.length_mm)
-        distance = found.reach - float(start @ direction)
-        end = found.place[:2]
-    return Reading(distance)
+        toe = tip(shape.vertices_mm, fore, np.array([*direction, 0.0]), shape.length_mm)
+        distance = toe.reach - float(start @ direction)
+        end = toe.place[:2]
+    return MeasureValue(distance)
 
 
-def ball_length(shape: Shape) -> Reading:
+def ball_length(shape: Shape) -> MeasureValue:
     """From the pternion to the inner joint (MT1) along X."""
     if shape.mt1 is None:
-        return Reading(None, NO_BALL)
-    return Reading(float(shape.mt1[0] - shape.x_mm(0.0)))
+        return MeasureValue(None, NO_BALL)
+    return MeasureValue(float(shape.mt1[0] - shape.x_mm(0.0)))
 
 
-def tape_length(shape: Shape) -> Reading:
+def tape_length(shape: Shape) -> MeasureValue:
     """Along the middle of the bottom: what a tape laid along a last's bottom reads.
 
     The length along X, and how much longer than its own run along X the bottom's curve is. The
@@ -55,7 +54,7 @@ def tape_length(shape: Shape) -> Reading:
     """
     bottom = underside(shape, BOTTOM.whole, BOTTOM.middle_places)
     if bottom is None:
-        return Reading(None, "the sole is open along its middle")
+        return MeasureValue(None, "the sole is open along its middle")
     curve = bottom.smooth(BOTTOM.bandwidth * shape.length_mm)
     run, rise = np.diff(curve.x_mm), np.diff(curve.z_mm)
-    return Reading(shape.length_mm + float((np.hypot(run, rise) - run).sum()))
+    return MeasureValue(shape.length_mm + float((np.hypot(run, rise) - run).sum()))

@@ -1,7 +1,7 @@
 """What is measured in millimetres on a canonical right shape: one function a measure, one table.
 
-A new measure is a function and an entry of ``MEASURES``; its row in the catalogue, its key in the
-JSON and its line in the report follow. ``docs/measures.md`` has the definitions in full.
+A new measure is a function and an entry of ``MEASURES``. Its row in the catalogue, its key in JSON
+and its line in the report follow. ``docs/measures.md`` has the definitions in full.
 """
 
 from __future__ import annotations
@@ -30,7 +30,7 @@ from footfit.geometry.measures.lengths import (
     length,
     tape_length,
 )
-from footfit.geometry.measures.measure_value import Reading
+from footfit.geometry.measures.measure_value import MeasureValue
 from footfit.geometry.measures.widths import (
     ball_width,
     ball_width_orthogonal,
@@ -43,23 +43,27 @@ BOTH, LAST = ("foot", "last"), ("last",)
 
 
 @dataclass(frozen=True, slots=True)
-class Measure:
+class MeasureDefinition:
     """An entry of the table; all measures are in mm.
 
-    ``version`` counts the changes of the definition, ``definition`` says it in a line. ``sd`` is
-    the repeatability of the whole way from a scan (any pose; noise or ripple of 0.3 mm, or a
-    quarter of the faces): benchmarks/measures.py. ``usual`` is the range of feet, ``usual_mm`` in
-    mm or ``usual_share`` over the length, that a survey's 6,068 people lie in [ansur2].
+    ``version`` counts the changes of the definition, and ``definition`` says it in a line. ``sd``
+    is the repeatability of the whole way from a scan, in any pose, with noise or ripple of 0.3 mm,
+    or with a quarter of the faces (benchmarks/measures.py). ``usual_mm`` in mm, or ``usual_share``
+    over the length, is the range of the feet of a survey's 6,068 people [ansur2].
     """
 
-    name: str
+    value_of: Callable[[Shape], MeasureValue]
     version: int
     sd: float
     definition: str
-    reading: Callable[[Shape], Reading]
     kinds: tuple[str, ...] = BOTH
     usual_mm: tuple[float, float] | None = None
     usual_share: tuple[float, float] | None = None
+
+    @property
+    def name(self) -> str:
+        """The function's name: the key in JSON and in the catalogue."""
+        return self.value_of.__name__
 
     @property
     def definition_id(self) -> str:
@@ -68,57 +72,53 @@ class Measure:
 
 
 # fmt: off
-MEASURES: tuple[Measure, ...] = (
-    Measure("length", 2, 0.25, "pternion to the foremost point, along X", length,
-            usual_mm=(200.0, 310.0)),
-    Measure("functional_length", 1, 0.25, "pternion to the toe farthest from it, in plan",
-            functional_length),
-    Measure("ball_length", 1, 0.45, "pternion to MT1, along X", ball_length,
-            usual_share=(0.66, 0.80)),
-    Measure("ball_width", 2, 0.3, "MT1 to MT5, in plan (oblique)", ball_width,
-            usual_share=(0.31, 0.46)),
-    Measure("ball_width_orthogonal", 1, 0.25, "between the tangents along X at the forefoot",
-            ball_width_orthogonal, usual_share=(0.31, 0.46)),
-    Measure("ball_girth", 1, 0.6, "around the upright plane through MT1 and MT5", ball_girth,
-            usual_share=(0.77, 1.10)),
-    Measure("waist_girth", 1, 0.35, "around the section half-way from ball to instep",
-            waist_girth),
-    Measure("instep_girth", 1, 0.45, "around the section at half the length", instep_girth),
-    Measure("long_heel_girth", 1, 0.4, "around the heel's base and the instep", long_heel_girth),
-    Measure("short_heel_girth", 1, 0.6, "the least girth around the heel's base and the ankle's "
-            "bend, or a last's cone", short_heel_girth, usual_share=(1.12, 1.47)),
-    Measure("heel_width", 2, 0.2, "across the heel at 1/6 of the length", heel_width,
-            usual_share=(0.19, 0.35)),
-    Measure("arch_height", 1, 0.2, "the underside's greatest height along the inner arch",
-            arch_height),
-    Measure("instep_height", 1, 0.3, "the top of the section at half the length", instep_height),
-    Measure("toe_height", 1, 0.3, "lowest to highest point of the section at .92 of the length",
-            toe_height),
-    Measure("toe_spring", 2, 0.3, "the underside at .94 of the length, over the ground",
-            toe_spring),
-    Measure("heel_height", 2, 0.6, "how high a last's heel stands when its tread lies level",
-            heel_height),
-    Measure("bottom_width_ball", 1, 0.4, "feather edge to feather edge at .66 of the length",
-            bottom_width_ball, LAST),
-    Measure("bottom_width_heel", 1, 0.2, "feather edge to feather edge at 1/6 of the length",
-            bottom_width_heel, LAST),
-    Measure("tape_length", 1, 0.25, "along the middle of the bottom", tape_length, LAST),
+MEASURES: tuple[MeasureDefinition, ...] = (
+    MeasureDefinition(length, 2, 0.25, "pternion to the foremost point, along X",
+                      usual_mm=(200.0, 310.0)),
+    MeasureDefinition(functional_length, 1, 0.25, "pternion to the toe farthest from it, in plan"),
+    MeasureDefinition(ball_length, 1, 0.45, "pternion to MT1, along X", usual_share=(0.66, 0.80)),
+    MeasureDefinition(ball_width, 2, 0.3, "MT1 to MT5, in plan (oblique)",
+                      usual_share=(0.31, 0.46)),
+    MeasureDefinition(ball_width_orthogonal, 1, 0.25,
+                      "between the tangents along X at the forefoot", usual_share=(0.31, 0.46)),
+    MeasureDefinition(ball_girth, 1, 0.6, "around the upright plane through MT1 and MT5",
+                      usual_share=(0.77, 1.10)),
+    MeasureDefinition(waist_girth, 1, 0.35, "around the section half-way from ball to instep"),
+    MeasureDefinition(instep_girth, 1, 0.45, "around the section at half the length"),
+    MeasureDefinition(long_heel_girth, 1, 0.4, "around the heel's base and the instep"),
+    MeasureDefinition(short_heel_girth, 1, 0.6, "the least girth around the heel's base and "
+                      "the ankle's bend, or a last's cone",
+                      usual_share=(1.12, 1.47)),
+    MeasureDefinition(heel_width, 2, 0.2, "across the heel at 1/6 of the length",
+                      usual_share=(0.19, 0.35)),
+    MeasureDefinition(arch_height, 1, 0.2, "the underside's greatest height along the inner arch"),
+    MeasureDefinition(instep_height, 1, 0.3, "the top of the section at half the length"),
+    MeasureDefinition(toe_height, 1, 0.3,
+                      "lowest to highest point of the section at .92 of the length"),
+    MeasureDefinition(toe_spring, 2, 0.3, "the underside at .94 of the length, over the ground"),
+    MeasureDefinition(heel_height, 2, 0.6,
+                      "how high a last's heel stands when its tread lies level"),
+    MeasureDefinition(bottom_width_ball, 1, 0.4,
+                      "feather edge to feather edge at .66 of the length", LAST),
+    MeasureDefinition(bottom_width_heel, 1, 0.2,
+                      "feather edge to feather edge at 1/6 of the length", LAST),
+    MeasureDefinition(tape_length, 1, 0.25, "along the middle of the bottom", LAST),
 )
 # fmt: on
 
 
-def measure_named(name: str) -> Measure:
+def measure_named(name: str) -> MeasureDefinition:
     """The entry of that name."""
     return next(entry for entry in MEASURES if entry.name == name)
 
 
-def of_kind(kind: str) -> tuple[Measure, ...]:
+def of_kind(kind: str) -> tuple[MeasureDefinition, ...]:
     """The entries of the table that a "foot" or a "last" has."""
     return tuple(entry for entry in MEASURES if kind in entry.kinds)
 
 
-def unusual(entry: Measure, value: float, length_mm: float) -> str | None:
-    """Why a foot's value is hardly a foot's, or None where it is within the survey's range.
+def unusual(entry: MeasureDefinition, value: float, length_mm: float) -> str | None:
+    """Why a value is unusual for a foot, or None if it is within the survey's range.
 
     Examples
     --------

@@ -2,25 +2,28 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from typing import NamedTuple
 
 from footfit.geometry.measures.landmarks import Shape
 from footfit.geometry.mesh.outlines import Outline
+from footfit.geometry.numeric.arrays import Floats
 
+NO_BALL = "the scan shows no joint at the ball"
 OPEN = "the scan is open at the {place}"
 CUT = "the leg is cut below the {place}"
 SAWN = "the last is sawn off below the {place}"
 
 
-class Reading(NamedTuple):
-    """A measured value in mm, or the reason why there is none."""
+class MeasureValue(NamedTuple):
+    """A value in mm, or the reason why there is none."""
 
     value: float | None
     reason: str | None = None
 
 
 def lacking(shape: Shape, section: Outline, place: str, *, over_cone: bool = False) -> str | None:
-    """Why a section at a place is no whole section of the foot or last; None where it is.
+    """Why a section at a place is not a whole section of the foot or last; None if it is whole.
 
     ``over_cone``: a last's section may run over the top of its cone there.
     """
@@ -31,3 +34,18 @@ def lacking(shape: Shape, section: Outline, place: str, *, over_cone: bool = Fal
     if shape.topped(section):
         return (CUT if shape.kind == "foot" else SAWN).format(place=place)
     return None
+
+
+def section_value(
+    shape: Shape,
+    section: Outline,
+    place: str,
+    size: Callable[[Floats], float],
+    *,
+    over_cone: bool = False,
+) -> MeasureValue:
+    """A size (mm) of a whole section's points (n, 2), or what the section lacks."""
+    reason = lacking(shape, section, place, over_cone=over_cone)
+    if reason is not None:
+        return MeasureValue(None, reason)
+    return MeasureValue(float(size(section.points)))

@@ -64,6 +64,10 @@ class Stance:
     heel_mm: float
 
 
+FLAT_STANCE = Stance(Ground(), 0.0)
+"""How a foot stands: on the contact plane of its frame."""
+
+
 def stance(shape: Shape, settings: StanceSettings = STANCE) -> Stance | None:
     """The pose in which a last's bottom lies level at its tread.
 

@@ -7,8 +7,9 @@ from dataclasses import dataclass
 import numpy as np
 
 from footfit.geometry.measures.landmarks import Shape
-from footfit.geometry.mesh.sections import depth_at, extremes_below, lowest, sections_across
-from footfit.geometry.numeric.arrays import Bools, Floats, Ints
+from footfit.geometry.mesh.sections import sections_across, soles
+from footfit.geometry.mesh.surface import area_vectors
+from footfit.geometry.numeric.arrays import Floats
 from footfit.geometry.numeric.smoothing import local_quadratic
 
 
@@ -52,7 +53,7 @@ def underside(
     places: tuple[float, ...],
     settings: BottomSettings = BOTTOM,
 ) -> Underside | None:
-    """The underside's mean height at some shares of the width, 0 lateral and 1 medial.
+    """The underside's mean height (mm) at some shares of the width.
 
     Parameters
     ----------
@@ -60,30 +61,19 @@ def underside(
     window : (2,)
         From where to where, over the length.
     places : (p,)
+        Shares of the width, 0 lateral and 1 medial.
 
     Returns
     -------
     Underside or None
-        None where a section has no surface that looks down at one of the places.
+        None if a section has no surface that looks down at one of the places.
     """
     count = 1 + round((window[1] - window[0]) / settings.step)
     x = shape.x_mm(0.0) + np.linspace(*window, count) * shape.length_mm
     faces = shape.under(settings.reach)
     segments = sections_across(shape.vertices_mm, faces, x)
-    y, z = segments.points[:, :, 1], segments.points[:, :, 2]
-    limit = lowest(z, segments) + settings.band * shape.length_mm
-    lateral, medial = extremes_below(y, z, limit, segments)
-    down = _looks_down(shape.vertices_mm, faces[segments.face])
-    depths = np.array(
-        [depth_at(lateral + at * (medial - lateral), y, z, segments, down)[0] for at in places]
-    )
-    if not np.all(depths <= limit):
+    down = area_vectors(shape.vertices_mm, faces[segments.face])[:, 2] < 0.0
+    bottom = soles(segments, settings.band * shape.length_mm, places, down)
+    if not np.all(bottom.depth <= bottom.limit):
         return None
-    return Underside(x, depths.mean(axis=0))
-
-
-def _looks_down(vertices: Floats, faces: Ints) -> Bools:
-    """Which faces (m, 3) have an outward normal that points down, (m,)."""
-    a, b, c = (vertices[faces[:, corner], :2] for corner in range(3))
-    u, v = b - a, c - a
-    return np.asarray(u[:, 0] * v[:, 1] < u[:, 1] * v[:, 0])
+    return Underside(x, bottom.depth.mean(axis=0))

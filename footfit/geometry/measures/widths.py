@@ -8,8 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from footfit.geometry.measures.landmarks import Shape
-from footfit.geometry.measures.lengths import NO_BALL
-from footfit.geometry.measures.measure_value import OPEN, Reading
+from footfit.geometry.measures.measure_value import NO_BALL, OPEN, MeasureValue
 from footfit.geometry.mesh.outlines import Outline
 
 
@@ -28,53 +27,53 @@ class WidthSettings:
 WIDTHS = WidthSettings()
 
 
-def ball_width(shape: Shape) -> Reading:
+def ball_width(shape: Shape) -> MeasureValue:
     """From MT1 to MT5 in plan (the oblique ball width)."""
     if shape.mt1 is None or shape.mt5 is None:
-        return Reading(None, NO_BALL)
-    return Reading(float(np.hypot(*(shape.mt1 - shape.mt5)[:2])))
+        return MeasureValue(None, NO_BALL)
+    return MeasureValue(float(np.hypot(*(shape.mt1 - shape.mt5)[:2])))
 
 
-def ball_width_orthogonal(shape: Shape) -> Reading:
+def ball_width_orthogonal(shape: Shape) -> MeasureValue:
     """Between the two tangents along X at the forefoot (ISO 7250-1 foot breadth)."""
     medial, lateral = (shape.outermost(side, WIDTHS.forefoot) for side in (1.0, -1.0))
     if medial is None or lateral is None:
-        return Reading(None, NO_BALL)
-    return Reading(float(medial[1] - lateral[1]))
+        return MeasureValue(None, NO_BALL)
+    return MeasureValue(float(medial[1] - lateral[1]))
 
 
-def heel_width(shape: Shape) -> Reading:
+def heel_width(shape: Shape) -> MeasureValue:
     """Across the heel at one sixth of the length from the pternion."""
     return _mean_width(shape, [WIDTHS.heel + by for by in WIDTHS.beside], "heel", _lower_width)
 
 
-def bottom_width_ball(shape: Shape) -> Reading:
+def bottom_width_ball(shape: Shape) -> MeasureValue:
     """Across the bottom of a last at the ball, from feather edge to feather edge."""
     return _bottom_width(shape, WIDTHS.ball, "ball")
 
 
-def bottom_width_heel(shape: Shape) -> Reading:
+def bottom_width_heel(shape: Shape) -> MeasureValue:
     """Across the bottom of a last at one sixth of the length, from feather edge to feather edge."""
     return _bottom_width(shape, WIDTHS.heel, "heel")
 
 
-def _bottom_width(shape: Shape, share: float, place: str) -> Reading:
+def _bottom_width(shape: Shape, share: float, place: str) -> MeasureValue:
     shares = [share + by for by in WIDTHS.bottom_beside]
     return _mean_width(shape, shares, place, _feather_width)
 
 
 def _mean_width(
     shape: Shape, shares: Sequence[float], place: str, width: Callable[[Outline, float], float]
-) -> Reading:
+) -> MeasureValue:
     """The mean width of the sections at some shares of the length."""
     widths = []
     for share in shares:
         section = shape.across(share)
         below_mm = section.points[:, 1].min(initial=np.inf) + WIDTHS.height * shape.length_mm
         if shape.opened(section, below_mm):
-            return Reading(None, OPEN.format(place=place))
+            return MeasureValue(None, OPEN.format(place=place))
         widths.append(width(section, shape.length_mm))
-    return Reading(float(np.mean(widths)))
+    return MeasureValue(float(np.mean(widths)))
 
 
 def _lower_width(section: Outline, length_mm: float) -> float:

@@ -7,6 +7,7 @@ mesh, and a sole of a few big facets is measured as well as a fine one.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -219,3 +220,42 @@ def depth_at(
     depth[segments.plane[index[start]]] = value[start]
     segment[segments.plane[index[start]]] = index[start]
     return depth, segment
+
+
+@dataclass(frozen=True, slots=True)
+class Soles:
+    """The bottoms of sections across X, over each section's lowest point ``floor`` (planes,).
+
+    ``lateral`` and ``medial`` (planes,) are the edges of what is not higher than ``limit``
+    (planes,); ``depth`` (p, planes) are the heights at p shares of the width between them, 0
+    lateral. NaN where there is nothing.
+    """
+
+    floor: Floats
+    limit: Floats
+    lateral: Floats
+    medial: Floats
+    depth: Floats
+
+
+def soles(
+    segments: Segments, band: float, places: Sequence[float], counts: Bools | None = None
+) -> Soles:
+    """The bottoms of sections across X: what is not higher than ``band`` over the lowest point.
+
+    Parameters
+    ----------
+    segments : Segments
+        Across X: y is the width, z the height.
+    band : float
+    places : (p,)
+        Shares of the width, 0 lateral and 1 medial.
+    counts : (m,), optional
+        Which segments have a depth; all by default.
+    """
+    across, height = segments.points[:, :, 1], segments.points[:, :, 2]
+    floor = lowest(height, segments)
+    lateral, medial = extremes_below(across, height, floor + band, segments)
+    at = [lateral + place * (medial - lateral) for place in places]
+    depth = np.array([depth_at(place, across, height, segments, counts)[0] for place in at])
+    return Soles(floor, floor + band, lateral, medial, depth)

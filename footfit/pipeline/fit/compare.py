@@ -12,7 +12,7 @@ from footfit.geometry.fit.paired_sections import SectionPair, SectionSizes, sect
 from footfit.geometry.fit.placement import Placement, placed, placement
 from footfit.geometry.measures.landmarks import Shape
 from footfit.geometry.measures.measure_table import measure_named
-from footfit.geometry.measures.measure_value import Reading
+from footfit.geometry.measures.measure_value import MeasureValue
 from footfit.geometry.numeric.arrays import Floats, Ints
 from footfit.meshes.copies.compact_copy import expanded
 from footfit.pipeline.batch.sources import ReadingOptions, Source
@@ -188,7 +188,7 @@ def _size(name: str, foot: SectionSizes, last: SectionSizes) -> SizeDifference:
     return SizeDifference(name, here, there, Measured(outward, math.hypot(sd, sd)))
 
 
-def _measured(reading: Reading, sd: float) -> Measured:
+def _measured(reading: MeasureValue, sd: float) -> Measured:
     return Measured(reading.value, None if reading.value is None else sd, reading.reason)
 
 

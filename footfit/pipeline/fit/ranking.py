@@ -8,7 +8,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from footfit.geometry.flare.flare_profile import profile_distances
+from footfit.geometry.flare.profile_distance import profile_distances
 from footfit.geometry.numeric.arrays import Bools, Floats, Ints
 from footfit.pipeline.fit.scoring import (
     NOT_JUDGED,

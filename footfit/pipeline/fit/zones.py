@@ -14,7 +14,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from footfit.geometry.flare.definition import CHANNELS, FlareProfile
-from footfit.geometry.flare.flare_profile import DISTANCE
+from footfit.geometry.flare.profile_distance import DISTANCE
 from footfit.pipeline.fit.scoring import Column
 from footfit.results import LastRecord, Measure, Measured, Profiled, ZoneRule
 

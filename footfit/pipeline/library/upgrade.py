@@ -5,7 +5,8 @@ from __future__ import annotations
 from pathlib import Path
 
 from footfit.catalogue.store import Catalogue, open_catalogue
-from footfit.geometry.flare.flare_profile import FlareDefinition, flare_profile
+from footfit.geometry.flare.definition import FlareDefinition
+from footfit.geometry.flare.flare_profile import flare_profile
 from footfit.geometry.measures.measure_table import of_kind
 from footfit.meshes.copies.compact_copy import expanded
 from footfit.pipeline.scan.flare import as_right, measured

@@ -8,7 +8,8 @@ from dataclasses import replace
 import numpy as np
 
 from footfit.errors import SideUndecided
-from footfit.geometry.flare.flare_profile import FlareDefinition, flare_profile
+from footfit.geometry.flare.definition import FlareDefinition
+from footfit.geometry.flare.flare_profile import flare_profile
 from footfit.geometry.flare.levelled_bottom import low_length
 from footfit.geometry.measures import measure_table
 from footfit.geometry.measures.landmarks import Shape
@@ -146,7 +147,7 @@ def measured(vertices_mm: Floats, faces: Ints, kind: str = "foot") -> tuple[Meas
     return tuple(_row(entry, shape) for entry in measure_table.of_kind(kind))
 
 
-def _row(entry: measure_table.Measure, shape: Shape) -> Measure:
-    reading = entry.reading(shape)
+def _row(entry: measure_table.MeasureDefinition, shape: Shape) -> Measure:
+    reading = entry.value_of(shape)
     sd = None if reading.value is None else entry.sd
     return Measure(entry.name, Measured(reading.value, sd, reading.reason), entry.definition_id)

@@ -28,7 +28,7 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
-    from footfit.geometry.flare.flare_profile import FlareDefinition, FlareProfile
+    from footfit.geometry.flare.definition import FlareDefinition, FlareProfile
     from footfit.results import Alignment, Profiled
 
 Window = tuple[float, float]
