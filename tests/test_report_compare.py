@@ -16,10 +16,11 @@ from footfit.report.csv import csv_text
 from footfit.report.json import json_line
 from footfit.report.page.compare_page import compare_report
 from footfit.report.pictures import figures
-from footfit.report.pictures.compare_pictures import heat_bytes, sections_plot
 from footfit.report.pictures.heat import heat_colours
-from footfit.report.pictures.heat_figure import heat_image, own_side
+from footfit.report.pictures.heat_figure import heat_image
+from footfit.report.pictures.plots import heat_plot, sections_plot
 from footfit.report.pictures.shading import VIEWS, Frame
+from footfit.report.pictures.sides import own_side
 from footfit.report.terminal.comparison_tables import compare_table
 from footfit.report.terminal.scan_tables import terminal_text
 from footfit.results import Comparison, Notice
@@ -82,7 +83,7 @@ def test_a_hostile_name_stays_a_name():
 
 
 def test_the_coloured_mesh_reads_back_with_its_room():
-    data = heat_bytes(comparison(), "ply")
+    data = heat_plot(comparison(), "ply")
     header = data[: data.index(b"end_header")].decode()
     assert "property float room_mm" in header
     assert "property uchar red" in header
@@ -121,7 +122,7 @@ def test_the_heat_picture_has_the_colour_of_each_place():
 
 def test_pictures_are_the_same_twice():
     assert sections_plot(comparison(), "svg") == sections_plot(comparison(), "svg")
-    assert heat_bytes(comparison(), "png") == heat_bytes(comparison(), "png")
+    assert heat_plot(comparison(), "png") == heat_plot(comparison(), "png")
 
 
 def test_the_page_is_the_same_twice_small_and_has_no_outside_address():

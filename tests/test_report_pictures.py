@@ -10,21 +10,19 @@ import numpy as np
 import pytest
 
 from footfit.errors import BadOption
+from footfit.report.page.page_pictures import flare_picture
 from footfit.report.pictures import curvature_figure as curvature_module
 from footfit.report.pictures import frames_figure as frames_module
 from footfit.report.pictures import plots
 from footfit.report.pictures.curvature_figure import UNDEFINED, colour_reach, curvature_figure
 from footfit.report.pictures.drawn_outlines import SHADOW, side_outline, sole_outline
 from footfit.report.pictures.figures import picture_bytes, svg_text
-from footfit.report.pictures.flare_figure import (
-    centre_line_mm,
-    flare_figure,
-    mean_heading_deg,
-    windows,
-)
+from footfit.report.pictures.flare_axes import centre_line_mm
+from footfit.report.pictures.flare_figure import flare_figure, mean_heading_deg
 from footfit.report.pictures.frames_figure import frames_figure
-from footfit.report.pictures.match_figure import match_figure, on_side
+from footfit.report.pictures.overlay_figure import drawn_lasts, overlay_figure
 from footfit.report.pictures.shading import VIEWS, Frame, axonometric_view, fragments, shaded_image
+from footfit.report.pictures.sides import on_side
 from footfit.results import SideVerdict
 from tests import answers
 from tests.shapes import sphere
@@ -39,6 +37,12 @@ def small(monkeypatch) -> None:
     monkeypatch.setattr(curvature_module, "COLUMNS", 120)
 
 
+def overlay(match, shapes=None):
+    """The first foot of a match with its best lasts drawn over it."""
+    lasts = drawn_lasts(match, match.feet[0], shapes)
+    return overlay_figure(match.feet[0], lasts, "the best lasts")
+
+
 def all_plots():
     lasts = {"derby-42": answers.tube(271.5)}
     foot = answers.foot()
@@ -46,7 +50,7 @@ def all_plots():
         "frames": lambda kind: plots.frames_plot(foot.aligned, kind),
         "flare": lambda kind: plots.flare_plot(foot, kind),
         "curvature": lambda kind: plots.curvature_plot(answers.curvature(), kind),
-        "match": lambda kind: picture_bytes(match_figure(answers.match(), lasts), kind),
+        "match": lambda kind: picture_bytes(overlay(answers.match(), lasts), kind),
     }
 
 
@@ -116,7 +120,7 @@ def test_an_outline_is_a_closed_polygon_without_gaps() -> None:
 def test_a_left_foots_centre_line_lies_in_its_own_outline() -> None:
     for left in (False, True):
         foot = answers.foot(left=left)
-        line = centre_line_mm(foot)
+        line = centre_line_mm(foot.flare, foot.aligned.alignment.extent_mm, left=left)
         outline = sole_outline(foot.aligned.vertices_mm, foot.aligned.faces)
         low = np.interp(line[:, 0], outline.x_mm, outline.first_mm)
         high = np.interp(line[:, 0], outline.x_mm, outline.second_mm)
@@ -212,7 +216,7 @@ def test_the_flare_picture_says_the_angle_with_its_uncertainty() -> None:
     foot = answers.foot()
     said = texts(flare_figure(foot))
     assert "+10.0° ± 0.2°" in said
-    rear, fore = windows(foot.flare.definition)
+    rear, fore = foot.flare.definition.rearfoot, foot.flare.definition.forefoot
     assert f"rear {mean_heading_deg(foot.flare, rear):+.1f}°" in said
     assert f"fore {mean_heading_deg(foot.flare, fore):+.1f}°" in said
     assert "50 mm" in said
@@ -273,29 +277,32 @@ def test_the_scale_of_colours_is_even_around_zero_and_survives_no_values() -> No
 
 def test_the_match_picture_names_the_lasts_and_shortens_long_names() -> None:
     long = "x" * 60
-    said = texts(match_figure(answers.match(names=("derby-42", long))))
+    said = texts(overlay(answers.match(names=("derby-42", long))))
     assert "1  derby-42, flare -2.0°" in said
     assert "…" in said
     assert long not in said
 
 
 def test_a_match_without_lasts_still_draws_the_foot() -> None:
-    said = texts(match_figure(answers.match(candidates=())))
+    said = texts(overlay(answers.match(candidates=())))
     assert "foot, flare +10.0° ± 0.2°" in said
 
 
 def test_where_no_last_fits_the_nearest_are_drawn() -> None:
     near = answers.match().candidates[:2]
-    figure = match_figure(answers.match(candidates=(), nearest=near))
+    figure = overlay(answers.match(candidates=(), nearest=near))
     assert "1  derby-42, flare -2.0°" in texts(figure)
-    assert figure.get_suptitle().endswith("against the nearest lasts")
+    assert "2  oxford-42" in texts(figure)
+    nearest = answers.match(candidates=(), nearest=near)
+    shown = flare_picture(nearest, nearest.feet[0], None)
+    assert "with the nearest lasts: derby-42, oxford-42." in shown.words
 
 
 @pytest.mark.parametrize("name", ["$x^$", "a\\b$", "<svg onload=alert(1)>", "x\x1b]\n"])
 def test_names_are_drawn_and_not_read_as_formulas(name: str) -> None:
     foot = answers.foot(name.replace("\\", "_"))
     svg_text(flare_figure(foot))
-    text = svg_text(match_figure(answers.match((foot,), names=(name,))))
+    text = svg_text(overlay(answers.match((foot,), names=(name,))))
     assert "onload" not in re.sub(r"<!--.*?-->", "", text, flags=re.DOTALL)
 
 

@@ -107,10 +107,10 @@ def write_comparison(
     from footfit.pipeline.drawables import drawable
     from footfit.pipeline.export import PICTURE_KINDS, file_kind
     from footfit.report.page.compare_page import compare_report
-    from footfit.report.pictures.compare_pictures import HEAT_KINDS, heat_bytes, sections_plot
+    from footfit.report.pictures.plots import HEAT_KINDS, heat_plot, sections_plot
 
     if output is not None:
-        data = heat_bytes(comparison, file_kind(output, HEAT_KINDS))
+        data = heat_plot(comparison, file_kind(output, HEAT_KINDS))
         write_output(output, data, force=force)
     if plot is not None:
         write_output(plot, sections_plot(comparison, file_kind(plot, PICTURE_KINDS)), force=force)

@@ -81,7 +81,8 @@ def write_curvature(
     from footfit.cli.outputs import write_output
     from footfit.pipeline.drawables import canonical_view
     from footfit.pipeline.export import PICTURE_KINDS, curvature_bytes, file_kind
-    from footfit.report.pictures.plots import curvature_colours, curvature_plot
+    from footfit.report.pictures.curvature_figure import curvature_colours
+    from footfit.report.pictures.plots import curvature_plot
 
     if output is not None:
         is_ply = output.suffix.lower() == ".ply"

@@ -7,13 +7,12 @@ from typing import TYPE_CHECKING
 from footfit.geometry.fit.clearance import CLEARANCE
 from footfit.report.page.page_pictures import (
     compared_flare_picture,
-    comparison_names,
     heat_picture,
     section_picture,
 )
 from footfit.report.page.rendering import html_page
 from footfit.report.page.scene import scene_of
-from footfit.report.wording.comparison_words import SIZE_HEADS
+from footfit.report.wording.comparison_words import SIZE_HEADS, comparison_names
 
 if TYPE_CHECKING:
     from footfit.results import Comparison

@@ -14,7 +14,7 @@ from footfit.results.values import NOT_YET
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from footfit.report.pictures.match_figure import Shapes
+    from footfit.report.pictures.overlay_figure import Shapes
     from footfit.results import Candidate, Comparison, Match, Measured
 
 UNIT_SIGNS = {"mm": " mm", "deg": "°", "percent": " %", "ratio": ""}
@@ -55,7 +55,7 @@ def match_report(
         pictures={
             "heat": [heat_picture(comparison) for comparison in comparisons],
             "sections": [section_picture(comparison, strip=True) for comparison in comparisons],
-            "flare": [flare_picture(match, index, shapes) for index in range(len(match.feet))],
+            "flare": [flare_picture(match, foot, shapes) for foot in match.feet],
         },
         asked_system=asked.name if asked else None,
         unit_signs=UNIT_SIGNS,

@@ -6,17 +6,15 @@ import base64
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-import numpy as np
-
+from footfit.report.pictures.sides import own_side
+from footfit.report.wording.comparison_words import comparison_names
 from footfit.report.wording.text import file_name, visible
-from footfit.results import Candidate, FlareDifference, Match
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-    from footfit.geometry.numeric.arrays import Floats, Ints
-    from footfit.report.pictures.match_figure import Shapes
-    from footfit.results import Comparison
+    from footfit.report.pictures.overlay_figure import Shapes
+    from footfit.results import Comparison, Match, Profiled
 
 
 @dataclass(frozen=True, slots=True)
@@ -56,24 +54,25 @@ def section_picture(comparison: Comparison, *, strip: bool = False) -> Picture:
     return _picture(figure, words, "wide")
 
 
-def flare_picture(match: Match, index: int, shapes: Shapes | None) -> Picture:
-    """Sole, profile, heading and plan curvature of one foot with its best lasts, heels together."""
-    from footfit.report.pictures.match_figure import SHOWN, match_figure
+def flare_picture(match: Match, foot: Profiled, shapes: Shapes | None) -> Picture:
+    """Sole, profile, heading and plan curvature of a foot with its best lasts, heels together."""
+    from footfit.report.pictures.overlay_figure import drawn_lasts, overlay_figure
 
-    name = file_name(match.feet[index].aligned.alignment.info.path)
-    lasts = ", ".join(visible(last.last) for last in (match.candidates or match.nearest)[:SHOWN])
-    which = "best" if match.candidates else "nearest"
-    against = f"{name} with the {which} lasts: {lasts}" if lasts else name
-    return _picture(match_figure(match, shapes, index), f"{against}. {_FLARE_WORDS}", "flare")
+    lasts = drawn_lasts(match, foot, shapes)
+    several = f"the {'best' if match.candidates else 'nearest'} lasts"
+    names = ", ".join(visible(last.record.labels.name) for last in lasts)
+    name = file_name(foot.aligned.alignment.info.path)
+    words = f"{name} with {several}: {names}" if lasts else name
+    return _picture(overlay_figure(foot, lasts, several), f"{words}. {_FLARE_WORDS}", "flare")
 
 
 def compared_flare_picture(comparison: Comparison) -> Picture:
     """The same of a foot and the one last that it was compared with."""
-    from footfit.report.pictures.match_figure import match_figure
+    from footfit.report.pictures.overlay_figure import DrawnLast, overlay_figure
 
     foot, last = comparison_names(comparison)
-    shapes = {comparison.last.labels.name: _stored_side(comparison)}
-    figure = match_figure(_as_match(comparison), shapes)
+    drawn = DrawnLast(1, comparison.last, own_side(comparison)[1])
+    figure = overlay_figure(comparison.foot, [drawn], last)
     return _picture(figure, f"{foot} with {last}. {_FLARE_WORDS}", "flare")
 
 
@@ -82,45 +81,8 @@ _FLARE_WORDS = (
 )
 
 
-def comparison_names(comparison: Comparison) -> tuple[str, str]:
-    """What foot and last are called on a page."""
-    foot = file_name(comparison.foot.aligned.alignment.info.path)
-    return foot, visible(comparison.last.labels.name)
-
-
 def _picture(figure: Figure, words: str, kind: str) -> Picture:
     from footfit.report.pictures.figures import svg_text
 
     data = base64.b64encode(svg_text(figure).encode("utf-8")).decode("ascii")
     return Picture(data, words, kind)
-
-
-def _stored_side(comparison: Comparison) -> tuple[Floats, Ints]:
-    """The last's mesh on its own side: the comparison holds a right shape."""
-    vertices, faces = comparison.last_vertices_mm, comparison.last_faces
-    if comparison.last.side.side != "left":
-        return vertices, faces
-    return vertices * np.array([1.0, -1.0, 1.0]), faces[:, ::-1]
-
-
-def _as_match(comparison: Comparison) -> Match:
-    """The comparison as the answer of a search that found this one last, for its flare plot."""
-    last, labels = comparison.last, comparison.last.labels
-    found = Candidate(
-        rank=1,
-        last=labels.name,
-        style=labels.style,
-        size=labels.size,
-        size_system=labels.size_system,
-        width_label=labels.width_label,
-        side=last.side.side,
-        mirrored=comparison.mirrored,
-        distance=0.0,
-        flare=FlareDifference(0.0, comparison.flare_delta_deg, ()),
-        clearance_mm=(),
-        verdict=None,
-        why="",
-        tied_with=(),
-        record=last,
-    )
-    return Match((comparison.foot,), "shape", "", 1, None, (found,), (), ())

@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 
 from footfit.geometry.numeric.arrays import Floats, Ints
 from footfit.report.pictures.heat import BREAKS_MM, COLOURS, NOT_COMPARED, step_words
-from footfit.report.pictures.heat_figure import own_side
+from footfit.report.pictures.sides import Mesh, is_left, own_side
 
 if TYPE_CHECKING:
     from footfit.results import Comparison
@@ -63,7 +63,7 @@ def scene_of(comparison: Comparison) -> Scene | None:
 
 
 def _views(comparison: Comparison) -> dict[str, tuple[float, float]]:
-    medial = -90.0 if comparison.foot.aligned.alignment.side.side == "left" else 90.0
+    medial = -90.0 if is_left(comparison.foot) else 90.0
     return {
         "medial": (medial, 0.0),
         "lateral": (-medial, 0.0),
@@ -74,9 +74,7 @@ def _views(comparison: Comparison) -> dict[str, tuple[float, float]]:
     }
 
 
-def _scene_data(
-    comparison: Comparison, foot: tuple[Floats, Ints], last: tuple[Floats, Ints]
-) -> str:
+def _scene_data(comparison: Comparison, foot: Mesh, last: Mesh) -> str:
     """Both meshes, the colours and the first view as one line of JSON."""
     low, high = last[0].min(axis=0), last[0].max(axis=0)
     shown = foot[0][foot[0][:, 2] <= high[2]]

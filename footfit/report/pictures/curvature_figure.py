@@ -8,7 +8,7 @@ import numpy as np
 
 from footfit.geometry.numeric.arrays import Floats, Ints
 from footfit.geometry.numeric.rotations import applied
-from footfit.report.pictures.figures import DIVERGING, bare, house_style, scale_bar
+from footfit.report.pictures.figures import DIVERGING, headline, house_style, scale_bar, show_image
 from footfit.report.pictures.shading import VIEWS, frame_around, shaded_image
 from footfit.report.wording.text import file_name, plain
 
@@ -74,8 +74,7 @@ def curvature_figure(
         bar = figure.colorbar(scale, ax=figure.axes, location="right", shrink=0.7, extend="both")
         bar.set_label(f"{WORDS[quantity]} ({UNITS[quantity]}), + convex, - hollow")
         bar.outline.set_visible(False)
-        title = _title(curvature, quantity)
-        figure.suptitle(title, x=0.01, ha="left", fontsize=12, fontweight="bold")
+        headline(figure, _title(curvature, quantity))
     return figure
 
 
@@ -85,7 +84,7 @@ def colour_reach(values: Floats) -> float:
     return (float(np.quantile(known, SHOWN_QUANTILE)) if len(known) else 0.0) or 1.0
 
 
-def vertex_colours(curvature: SurfaceCurvature) -> NDArray[np.uint8]:
+def curvature_colours(curvature: SurfaceCurvature) -> NDArray[np.uint8]:
     """The mean curvature of each vertex as red, green, blue (n, 3), on the picture's scale."""
     colours, _ = _colours(curvature.mean, colour_reach(curvature.mean))
     return np.rint(np.asarray(colours)[:, :3] * 255.0).astype(np.uint8)
@@ -123,11 +122,7 @@ def _colours(values: Floats, reach: float) -> tuple[Floats, Any]:
 
 def _panel(axes: Axes, projected: Floats, faces: Ints, colours: Floats) -> None:
     frame = frame_around(projected, margin=0.06)
-    image = shaded_image(projected, faces, frame, COLUMNS, colours)
-    axes.imshow(image, extent=frame.extent, interpolation="antialiased")
-    axes.set_xlim(frame.left, frame.right)
-    axes.set_ylim(frame.bottom, frame.top)
-    bare(axes)
+    show_image(axes, shaded_image(projected, faces, frame, COLUMNS, colours), frame)
     scale_bar(axes, length_mm=_bar_length(frame.right - frame.left), place=(0.03, 0.0))
 
 

@@ -45,6 +45,11 @@ class Outline:
         return Outline(self.x_mm[kept], self.first_mm[kept], self.second_mm[kept])
 
 
+def ring(points: Floats) -> Floats:
+    """A closed polygon (n, 2) with its first corner again at its end (n + 1, 2)."""
+    return np.concatenate([points, points[:1]])
+
+
 def sole_outline(vertices_mm: Floats, faces: Ints, band: float = DRAWING.band) -> Outline:
     """The two edges of the sole: each section's extremes across, up to ``band`` of the length.
 

@@ -13,6 +13,9 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
+    from footfit.geometry.numeric.arrays import Floats
+    from footfit.report.pictures.shading import Frame
+
 INK = "#22303c"
 QUIET = "#8a97a3"
 PAPER = "#ffffff"
@@ -91,6 +94,20 @@ def picture_bytes(figure: Figure, kind: str) -> bytes:
     if kind == "png":
         return png_bytes(figure)
     raise BadOption(f"a picture is svg or png, not {kind!r}; end its name in .svg or .png")
+
+
+def headline(figure: Figure, words: str) -> None:
+    """The title of a whole figure, in its upper left corner."""
+    figure.suptitle(words, x=0.01, ha="left", fontsize=12, fontweight="bold")
+
+
+def show_image(axes: Axes, image: Floats, frame: Frame) -> None:
+    """An RGBA image in an axes whose data are mm, as large as ``frame``."""
+    extent = (frame.left, frame.right, frame.bottom, frame.top)
+    axes.imshow(image, extent=extent, interpolation="antialiased")
+    axes.set_xlim(frame.left, frame.right)
+    axes.set_ylim(frame.bottom, frame.top)
+    bare(axes)
 
 
 def scale_bar(

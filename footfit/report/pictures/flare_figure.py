@@ -6,49 +6,45 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from footfit.geometry.flare.definition import CHANNELS
+from footfit.geometry.flare.profile_distance import DISTANCE
 from footfit.geometry.numeric.arrays import Floats
-from footfit.report.pictures.drawn_outlines import SHADOW, Outline, sole_outline
+from footfit.report.pictures.drawn_outlines import SHADOW, Outline, ring, sole_outline
 from footfit.report.pictures.figures import (
     DASHES,
     DIVERGING,
     FILL,
-    FORE_WINDOW,
     INK,
     PAPER,
     QUIET,
-    REAR_WINDOW,
     SERIES,
     bare,
+    headline,
     house_style,
     scale_bar,
 )
-from footfit.report.wording.text import file_name, length_text, plain, signed
+from footfit.report.pictures.flare_axes import (
+    Window,
+    centre_line_mm,
+    curve_axes,
+    station_labels,
+    toe_up,
+    windows,
+)
+from footfit.report.pictures.sides import is_left
+from footfit.report.wording.text import angle_text, length_text, shape_words, signed
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
-    from footfit.geometry.flare.definition import FlareDefinition, FlareProfile
-    from footfit.results import Alignment, Profiled
+    from footfit.geometry.flare.definition import FlareProfile
+    from footfit.results import Profiled
 
-Window = tuple[float, float]
-
-BOTTOM_LABELS = {
-    "bottom_20": "at 20 % from medial",
-    "bottom_50": "at 50 %",
-    "bottom_80": "at 80 %",
-}
-COMPARED = (0.08, 0.80)
-"""The stations that profiles are compared on; their curvature fills the scale of colours."""
 LEAST_REACH = 0.5
 """The scale of colours is never narrower: a straight sole is not to look bent."""
 MARK_REACH = 1.06
 """How far the two mean headings are drawn, over the length."""
-
-
-def windows(definition: FlareDefinition) -> tuple[Window, Window]:
-    """The two windows of stations whose headings the flare angle compares: rear, fore."""
-    return definition.rearfoot, definition.forefoot
 
 
 def mean_heading_deg(flare: FlareProfile, window: Window) -> float:
@@ -76,7 +72,10 @@ def flare_figure(profiled: Profiled) -> Figure:
         _heading(heading, profiled.flare)
         _plan_curvature(figure.add_subplot(grid[1, 1], sharex=heading), profiled.flare)
         _bottom(figure.add_subplot(grid[2, 1], sharex=heading), profiled.flare)
-        figure.suptitle(_title(profiled), x=0.01, ha="left", fontsize=12, fontweight="bold")
+        alignment = profiled.aligned.alignment
+        words = f"{shape_words(alignment)}, {length_text(alignment.length)}"
+        flare = f"flare {angle_text(profiled.flare)} ({profiled.flare.flare_class})"
+        headline(figure, f"{words}, {flare}")
     return figure
 
 
@@ -87,32 +86,7 @@ def _colour_bar(figure: Figure, axes: Axes, colours: Any) -> None:
     bar.outline.set_visible(False)
 
 
-def _title(profiled: Profiled) -> str:
-    alignment = profiled.aligned.alignment
-    length = length_text(alignment.length)
-    return f"{shape_words(alignment)}, {length}, flare {angle_words(profiled.flare)}"
-
-
-def shape_words(alignment: Alignment) -> str:
-    """The file's name, the side, and whether it is a foot or a last."""
-    side = alignment.side.side or "side undecided,"
-    return f"{file_name(alignment.info.path)}   {side} {alignment.pose.kind}"
-
-
-def angle_words(flare: FlareProfile) -> str:
-    """The flare angle with its uncertainty and class."""
-    return f"{signed(flare.angle_deg)}° ± {plain(flare.angle_sd_deg)}° ({flare.flare_class})"
-
-
 # ---------------------------------------------------------------- the plan
-
-
-def centre_line_mm(profiled: Profiled) -> Floats:
-    """The centre line (n, 2), x and y in the canonical frame of the shape's own side."""
-    alignment = profiled.aligned.alignment
-    mirror = -1.0 if alignment.side.side == "left" else 1.0
-    line: Floats = profiled.flare.centre_line * alignment.extent_mm * np.array([1.0, mirror])
-    return line
 
 
 def _plan(axes: Axes, profiled: Profiled) -> Any:
@@ -120,14 +94,14 @@ def _plan(axes: Axes, profiled: Profiled) -> Any:
     mesh, flare = profiled.aligned, profiled.flare
     sole = sole_outline(mesh.vertices_mm, mesh.faces)
     shadow = sole_outline(mesh.vertices_mm, mesh.faces, band=SHADOW)
-    line = centre_line_mm(profiled)
-    axes.plot(*_on_page(shadow.closed(), close=True), color=QUIET, linewidth=0.7, linestyle=":")
-    axes.fill(*_on_page(sole.closed()), facecolor=FILL, edgecolor=INK, linewidth=1.4)
-    for window, colour in zip(windows(flare.definition), (REAR_WINDOW, FORE_WINDOW), strict=True):
+    line = centre_line_mm(flare, mesh.alignment.extent_mm, left=is_left(profiled))
+    axes.plot(*toe_up(ring(shadow.closed())), color=QUIET, linewidth=0.7, linestyle=":")
+    axes.fill(*toe_up(sole.closed()), facecolor=FILL, edgecolor=INK, linewidth=1.4)
+    for colour, window in windows(flare.definition).items():
         start, end = np.interp(window, flare.stations, line[:, 0])
         part = sole.between(start, end).closed()
         if len(part):
-            axes.fill(*_on_page(part), facecolor=colour, edgecolor="none", zorder=1.5)
+            axes.fill(*toe_up(part), facecolor=colour, edgecolor="none", zorder=1.5)
     _angle_mark(axes, profiled, line)
     coloured = _coloured_line(axes, line, flare)
     _medial_label(axes, profiled, sole)
@@ -138,23 +112,18 @@ def _plan(axes: Axes, profiled: Profiled) -> Any:
     return coloured
 
 
-def _on_page(points: Floats, *, close: bool = False) -> tuple[Floats, Floats]:
-    """Canonical (x, y) as the page's (right, up): toe up, the wearer's left on the left."""
-    line = np.concatenate([points, points[:1]]) if close else points
-    return -line[:, 1], line[:, 0]
-
-
 def _coloured_line(axes: Axes, line_mm: Floats, flare: FlareProfile) -> Any:
     from matplotlib.collections import LineCollection
 
-    right, up = _on_page(line_mm)
+    right, up = toe_up(line_mm)
     points = np.column_stack([right, up])
     pieces = np.stack([points[:-1], points[1:]], axis=1)
     plan = flare.curvature["plan"]
     values = np.zeros(len(pieces)) if plan is None else 0.5 * (plan[:-1] + plan[1:])
     stations = 0.5 * (flare.stations[:-1] + flare.stations[1:])
-    compared = np.abs(values[(stations >= COMPARED[0]) & (stations <= COMPARED[1])])
-    reach = max(float(np.nanmax(compared, initial=0.0)), LEAST_REACH)
+    compared = DISTANCE.stations
+    shown = np.abs(values[(stations >= compared[0]) & (stations <= compared[1])])
+    reach = max(float(np.nanmax(shown, initial=0.0)), LEAST_REACH)
     axes.plot(right, up, color=INK, linewidth=6.0, solid_capstyle="round", zorder=3)
     coloured = LineCollection(list(pieces), cmap=DIVERGING, linewidths=4.0, zorder=4)
     coloured.set_array(np.ma.masked_invalid(values))
@@ -166,21 +135,21 @@ def _coloured_line(axes: Axes, line_mm: Floats, flare: FlareProfile) -> Any:
 def _angle_mark(axes: Axes, profiled: Profiled, line_mm: Floats) -> None:
     """The two mean headings as straight lines through their windows, and the angle between."""
     flare, length = profiled.flare, profiled.aligned.alignment.extent_mm
-    mirror = -1.0 if profiled.aligned.alignment.side.side == "left" else 1.0
+    mirror = -1.0 if is_left(profiled) else 1.0
     tips = []
-    for window, back in zip(windows(flare.definition), (0.12, 0.32), strict=True):
+    for window, back in zip(windows(flare.definition).values(), (0.12, 0.32), strict=True):
         slope = mirror * np.tan(np.radians(mean_heading_deg(flare, window)))
         x, y = (np.interp(np.mean(window), flare.stations, line_mm[:, axis]) for axis in (0, 1))
         reach = np.array([x - back * length, MARK_REACH * length])
         ends = np.column_stack([reach, y + slope * (reach - x)])
-        axes.plot(*_on_page(ends), color=INK, linewidth=0.9, linestyle=(0, (5, 3)), zorder=5)
+        axes.plot(*toe_up(ends), color=INK, linewidth=0.9, linestyle=(0, (5, 3)), zorder=5)
         tips.append((-ends[1, 1], ends[1, 0]))
     arrow = {"arrowstyle": "-|>", "color": SERIES[0], "linewidth": 1.4, "shrinkA": 0, "shrinkB": 0}
     axes.annotate("", tips[1], xytext=tips[0], arrowprops=arrow)
     axes.text(
         0.5 * (tips[0][0] + tips[1][0]),
         (MARK_REACH + 0.02) * length,
-        f"{signed(flare.angle_deg)}° ± {plain(flare.angle_sd_deg)}°",
+        angle_text(flare),
         ha="center",
         fontsize=10,
         fontweight="bold",
@@ -188,40 +157,28 @@ def _angle_mark(axes: Axes, profiled: Profiled, line_mm: Floats) -> None:
 
 
 def _medial_label(axes: Axes, profiled: Profiled, sole: Outline) -> None:
-    left = profiled.aligned.alignment.side.side == "left"
+    medial = 1 if is_left(profiled) else -1
     widest = float(np.nanmax(np.abs(np.concatenate([sole.first_mm, sole.second_mm]))))
     height = 0.42 * profiled.aligned.alignment.extent_mm
-    for word, side in (("medial", 1 if left else -1), ("lateral", -1 if left else 1)):
-        axes.text(
-            side * 1.12 * widest,
-            height,
-            word,
-            rotation=90,
-            ha="center",
-            va="center",
-            color=QUIET,
-            fontsize=8,
-        )
+    style: dict[str, Any] = {
+        "rotation": 90,
+        "ha": "center",
+        "va": "center",
+        "color": QUIET,
+        "fontsize": 8,
+    }
+    for word, side in (("medial", medial), ("lateral", -medial)):
+        axes.text(side * 1.12 * widest, height, word, **style)
 
 
 # ---------------------------------------------------------------- the curves
 
 
-def _station_axis(axes: Axes, flare: FlareProfile, *, last: bool = False) -> None:
-    for window, colour in zip(windows(flare.definition), (REAR_WINDOW, FORE_WINDOW), strict=True):
-        axes.axvspan(*window, facecolor=colour, edgecolor="none", zorder=0)
-    axes.axhline(0.0, color=QUIET, linewidth=0.7, zorder=1)
-    axes.set_xlim(0.0, 1.0)
-    if last:
-        axes.set_xlabel("station along the centre line (0 heel, 1 toe)")
-    else:
-        axes.tick_params(labelbottom=False)
-
-
 def _heading(axes: Axes, flare: FlareProfile) -> None:
-    _station_axis(axes, flare)
+    title = "Heading: flare angle = fore minus rear"
+    curve_axes(axes, flare.definition, "heading (deg)\n+ to medial", title)
     axes.plot(flare.stations, flare.heading_deg, color=INK, linewidth=1.6)
-    for window, word in zip(windows(flare.definition), ("rear", "fore"), strict=True):
+    for window, word in zip(windows(flare.definition).values(), ("rear", "fore"), strict=True):
         mean = mean_heading_deg(flare, window)
         axes.plot(window, (mean, mean), color=SERIES[0], linewidth=2.0)
         axes.annotate(
@@ -233,48 +190,39 @@ def _heading(axes: Axes, flare: FlareProfile) -> None:
             fontsize=8,
             bbox={"facecolor": PAPER, "edgecolor": "none", "alpha": 0.8, "pad": 1.0},
         )
-    axes.set_ylabel("heading (deg)\n+ to medial")
     axes.margins(y=0.25)
-    axes.set_title("Heading: flare angle = fore minus rear")
 
 
 def _plan_curvature(axes: Axes, flare: FlareProfile) -> None:
-    _station_axis(axes, flare)
+    quantity, title = "curvature x length\n+ turns inward", "Plan: how the centre line bends"
+    curve_axes(axes, flare.definition, quantity, title)
     plan = flare.curvature["plan"]
     if plan is None:
         _absent(axes, "the plan curvature is not measurable")
-    else:
-        axes.plot(flare.stations, plan, color=INK, linewidth=1.6)
+        return
+    axes.plot(flare.stations, plan, color=INK, linewidth=1.6)
+    for turns, colour in ((plan > 0, SERIES[0]), (plan < 0, SERIES[1])):
         axes.fill_between(
-            flare.stations, plan, 0.0, where=plan > 0, color=SERIES[0], alpha=0.25, linewidth=0
+            flare.stations, plan, 0.0, where=turns, color=colour, alpha=0.25, linewidth=0
         )
-        axes.fill_between(
-            flare.stations, plan, 0.0, where=plan < 0, color=SERIES[1], alpha=0.25, linewidth=0
-        )
-    axes.set_ylabel("curvature x length\n+ turns inward")
-    axes.set_title("Plan: how the centre line bends")
 
 
 def _bottom(axes: Axes, flare: FlareProfile) -> None:
-    _station_axis(axes, flare, last=True)
-    drawn = False
-    for index, (channel, label) in enumerate(BOTTOM_LABELS.items()):
+    quantity, title = "curvature x length\n+ convex", "Bottom: how the sole bends along its length"
+    curve_axes(axes, flare.definition, quantity, title)
+    station_labels(axes)
+    shares = [f"at {100 * share:.0f} %" for share in flare.definition.bottom_places]
+    labels = (f"{shares[0]} from medial", *shares[1:], "whole surface")
+    styles = [*zip(SERIES, DASHES, (1.5, 1.5, 1.5), strict=False), (QUIET, "-", 1.2)]
+    for channel, label, (colour, dash, width) in zip(CHANNELS[1:], labels, styles, strict=True):
         values = flare.curvature.get(channel)
-        if values is None:
-            continue
-        drawn = True
-        style = {"color": SERIES[index], "linestyle": DASHES[index], "linewidth": 1.5}
-        axes.plot(flare.stations, values, label=label, **style)
-    surface = flare.curvature.get("bottom_surface")
-    if surface is not None:
-        drawn = True
-        axes.plot(flare.stations, surface, color=QUIET, linewidth=1.2, label="whole surface")
-    if drawn:
+        if values is not None:
+            style = {"color": colour, "linestyle": dash, "linewidth": width}
+            axes.plot(flare.stations, values, label=label, **style)
+    if axes.get_legend_handles_labels()[0]:
         axes.legend(ncols=4, loc="upper left", bbox_to_anchor=(-0.01, -0.32), columnspacing=1.2)
     else:
         _absent(axes, "no sole: the bottom is not measurable")
-    axes.set_ylabel("curvature x length\n+ convex")
-    axes.set_title("Bottom: how the sole bends along its length")
 
 
 def _absent(axes: Axes, words: str) -> None:

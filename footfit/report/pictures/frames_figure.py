@@ -8,10 +8,17 @@ import numpy as np
 
 from footfit.geometry.numeric.arrays import Floats, Ints
 from footfit.geometry.numeric.rotations import applied
-from footfit.report.pictures.figures import INK, SERIES, SKIN, bare, house_style, scale_bar
-from footfit.report.pictures.flare_figure import shape_words
+from footfit.report.pictures.figures import (
+    INK,
+    SERIES,
+    SKIN,
+    headline,
+    house_style,
+    scale_bar,
+    show_image,
+)
 from footfit.report.pictures.shading import VIEWS, axonometric_view, frame_around, shaded_image
-from footfit.report.wording.text import length_text, plain
+from footfit.report.wording.text import length_text, plain, shape_words
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -62,7 +69,7 @@ def frames_figure(mesh: AlignedScan) -> Figure:
             origin = centre if after else frame.centroid_mm
             _panel(axes, (points, mesh.faces), view, (origin, ends))
             axes.set_title(title)
-        figure.suptitle(_title(mesh), x=0.01, ha="left", fontsize=12, fontweight="bold")
+        headline(figure, _title(mesh))
     return figure
 
 
@@ -82,13 +89,9 @@ def _panel(
     projected = points @ view.T
     origin, ends = arrows[0] @ view.T, arrows[1] @ view.T
     frame = frame_around(np.concatenate([projected, origin + ends]), margin=0.07)
-    image = shaded_image(projected, faces, frame, COLUMNS, np.array(SKIN))
-    axes.imshow(image, extent=frame.extent, interpolation="antialiased", zorder=1)
+    show_image(axes, shaded_image(projected, faces, frame, COLUMNS, np.array(SKIN)), frame)
     for (name, colour), end in zip(ARROWS, ends, strict=True):
         _arrow(axes, origin[:2], end[:2], name, colour)
-    axes.set_xlim(frame.left, frame.right)
-    axes.set_ylim(frame.bottom, frame.top)
-    bare(axes)
     scale_bar(axes, place=(0.03, 0.01))
     _triad(axes, view)
 

@@ -1,6 +1,7 @@
-"""The colours of room: one scale around 0 in mm, in steps, that the colour-blind tell apart.
+"""The colours of a clearance: one scale of steps around 0 mm that the colour-blind tell apart.
 
-Steps draw lines of equal room on a surface, which a smooth scale does not, and survive a copier.
+On a surface the steps draw lines of equal clearance; a smooth scale does not. They also survive a
+copier.
 """
 
 from __future__ import annotations
@@ -23,9 +24,11 @@ COLOURS = (
     "#2166ac",
     "#053061",
 )
-"""Red is tight, blue is room: no one takes one for the other, and both are pale at 0."""
+"""Red is tight, blue is space: no one takes one for the other, and both are pale at 0."""
 NOT_COMPARED = "#c9ced2"
-"""Grey: over the shoe's topline, or nothing of the last is there."""
+"""Grey: above the shoe's topline, or where the last has no surface."""
+SHADE = 0.42
+"""How much of a colour the shade may take: little, so that it is still the legend's."""
 
 
 def rgb(colour: str) -> Floats:
@@ -39,23 +42,18 @@ def rgb(colour: str) -> Floats:
     return np.array([int(colour[k : k + 2], 16) for k in (1, 3, 5)]) / 255.0
 
 
-def step_of(room_mm: Floats) -> Floats:
-    """The place in ``COLOURS`` of each room (n,); NaN stays NaN.
+def heat_colours(clearance_mm: Floats) -> Floats:
+    """The colour (n, 3) of each clearance (n,), 0-1; `NOT_COMPARED` of a NaN.
 
     Examples
     --------
-    >>> step_of(np.array([-20.0, -0.1, 0.1, 30.0])).tolist()
-    [0.0, 4.0, 5.0, 9.0]
+    >>> steps = heat_colours(np.array([-20.0, -0.1, 0.1, 30.0]))
+    >>> bool(np.all(steps == [rgb(COLOURS[k]) for k in (0, 4, 5, 9)]))
+    True
     """
-    steps = np.searchsorted(BREAKS_MM, np.nan_to_num(room_mm), side="right").astype(np.float64)
-    return np.where(np.isfinite(room_mm), steps, np.nan)
-
-
-def heat_colours(room_mm: Floats) -> Floats:
-    """The colour (n, 3) of each room (n,), 0-1."""
     table = np.array([rgb(colour) for colour in (*COLOURS, NOT_COMPARED)])
-    step = np.nan_to_num(step_of(room_mm), nan=len(COLOURS)).astype(np.int64)
-    colours: Floats = table[step]
+    step = np.searchsorted(BREAKS_MM, clearance_mm, side="right")
+    colours: Floats = table[np.where(np.isfinite(clearance_mm), step, len(COLOURS))]
     return colours
 
 

@@ -4,15 +4,16 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+import numpy as np
+
 from footfit.report.pictures.figures import picture_bytes
 
 if TYPE_CHECKING:
-    import numpy as np
-    from numpy.typing import NDArray
-
     from footfit.geometry.numeric.arrays import Floats
     from footfit.report.pictures.curvature_figure import Quantity
-    from footfit.results import AlignedScan, Profiled, SurfaceCurvature
+    from footfit.results import AlignedScan, Comparison, Profiled, SurfaceCurvature
+
+HEAT_KINDS = ("ply", "svg", "png")
 
 
 def frames_plot(scan: AlignedScan, kind: str) -> bytes:
@@ -41,8 +42,27 @@ def curvature_plot(
     return picture_bytes(curvature_figure(curvature, canonical_transform, quantity), kind)
 
 
-def curvature_colours(curvature: SurfaceCurvature) -> NDArray[np.uint8]:
-    """The colours (n, 3) of that picture, for a file of the mesh."""
-    from footfit.report.pictures.curvature_figure import vertex_colours
+def sections_plot(comparison: Comparison, kind: str) -> bytes:
+    """Every section of a foot and its last."""
+    from footfit.report.pictures.section_figure import section_figure
 
-    return vertex_colours(curvature)
+    return picture_bytes(section_figure(comparison), kind)
+
+
+def heat_plot(comparison: Comparison, kind: str) -> bytes:
+    """A foot in the last's frame, coloured by its clearance; "ply" gives the mesh.
+
+    The mesh is on the foot's own side and carries ``room_mm`` at every vertex, NaN where nothing
+    is compared.
+    """
+    from footfit.meshes.write import COLOUR, encoded_mesh
+    from footfit.report.pictures.heat import heat_colours
+    from footfit.report.pictures.heat_figure import heat_figure
+    from footfit.report.pictures.sides import own_side
+
+    if kind != "ply":
+        return picture_bytes(heat_figure(comparison), kind)
+    (vertices, faces), _ = own_side(comparison)
+    clearance = comparison.clearance_mm
+    colours = np.rint(255.0 * heat_colours(clearance)).astype(np.uint8)
+    return encoded_mesh(vertices, faces, "ply", {"room_mm": clearance, COLOUR: colours})

@@ -6,9 +6,20 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from footfit.geometry.numeric.arrays import Floats
-from footfit.report.pictures.figures import FILL, FOOT, QUIET, SERIES, bare, house_style, scale_bar
-from footfit.report.wording.text import file_name, plain, signed, visible
+from footfit.report.pictures.drawn_outlines import ring
+from footfit.report.pictures.figures import (
+    FILL,
+    FOOT,
+    QUIET,
+    SERIES,
+    bare,
+    headline,
+    house_style,
+    scale_bar,
+)
+from footfit.report.pictures.sides import is_left
+from footfit.report.wording.comparison_words import comparison_names
+from footfit.report.wording.text import plain, signed
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -29,6 +40,7 @@ def section_figure(comparison: Comparison, across: int = ACROSS, *, titled: bool
     """One panel a station, seen from behind, all at one scale: the foot filled, the last a line."""
     from matplotlib.figure import Figure
 
+    mirror = 1.0 if is_left(comparison.foot) else -1.0  # the medial side, as it is seen from behind
     sections, brief = comparison.sections, across > ACROSS
     rows = [sections[at : at + across] for at in range(0, len(sections), across)]
     tall = [max(_top(section) for section in row) + UNDER_MM for row in rows]
@@ -40,46 +52,34 @@ def section_figure(comparison: Comparison, across: int = ACROSS, *, titled: bool
         for at, row in enumerate(rows):
             for column, section in enumerate(row):
                 axes = figure.add_subplot(grid[at, column])
-                _panel(axes, section, _mirror(comparison), brief=brief)
+                _panel(axes, section, mirror, brief=brief)
                 axes.set_xlim(-HALF_WIDTH_MM, HALF_WIDTH_MM)
                 axes.set_ylim(-UNDER_MM, tall[at] - UNDER_MM)
         scale_bar(figure.axes[0], length_mm=20.0, place=(0.0, -0.02))
         handles, labels = figure.axes[0].get_legend_handles_labels()
         figure.legend(handles, labels, loc="outside lower center", ncols=2)
         if titled:
-            figure.suptitle(_title(comparison), x=0.01, ha="left", fontsize=12, fontweight="bold")
+            foot, last = comparison_names(comparison)
+            headline(figure, f"{foot} in {last}: sections from behind")
     return figure
-
-
-def _mirror(comparison: Comparison) -> float:
-    """-1 puts a right foot's medial side on the left, as it is seen from behind."""
-    return 1.0 if comparison.foot.aligned.alignment.side.side == "left" else -1.0
-
-
-def _title(comparison: Comparison) -> str:
-    foot = file_name(comparison.foot.aligned.alignment.info.path)
-    return f"{foot} in {visible(comparison.last.labels.name)}: sections from behind"
 
 
 def _panel(axes: Axes, section: SectionComparison, mirror: float, *, brief: bool) -> None:
     top = _top(section)
-    for index, loop in enumerate(_closed(loop, mirror) for loop in section.foot_outline):
-        points = np.column_stack([loop[:, 0], np.minimum(loop[:, 1], top)])
+    for index, loop in enumerate(section.foot_outline):
+        across, up = (ring(loop) * [mirror, 1.0]).T
         label = "foot" if index == 0 else None
-        axes.fill(*points.T, facecolor=FILL, edgecolor=FOOT, linewidth=1.5, label=label)
-    for index, loop in enumerate(_closed(loop, mirror) for loop in section.last_outline):
+        axes.fill(
+            across, np.minimum(up, top), facecolor=FILL, edgecolor=FOOT, linewidth=1.5, label=label
+        )
+    for index, loop in enumerate(section.last_outline):
         label = "last" if index == 0 else None
-        axes.plot(*loop.T, color=SERIES[0], linewidth=1.5, label=label)
+        axes.plot(*(ring(loop) * [mirror, 1.0]).T, color=SERIES[0], linewidth=1.5, label=label)
     where = f"{plain(section.x_mm, 0)} mm" + ("" if brief else " from the heel")
     axes.set_title(f"{section.station.capitalize()}, {where}")
     axes.axhline(0.0, color=QUIET, linewidth=0.5, zorder=0)
     bare(axes)
     axes.set_xlabel(_words(section, brief=brief), fontsize=8)
-
-
-def _closed(loop: Floats, mirror: float) -> Floats:
-    ring: Floats = np.concatenate([loop, loop[:1]]) * [mirror, 1.0]
-    return ring
 
 
 def _top(section: SectionComparison) -> float:

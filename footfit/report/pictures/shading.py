@@ -1,7 +1,7 @@
-"""Pictures of meshes as arrays: an orthographic view, hidden surfaces removed, softly lit.
+"""Pictures of meshes as arrays: an orthographic view with hidden surfaces removed and soft light.
 
 A view is a (3, 3) matrix whose rows are the picture's right, its up, and the direction towards
-the eye. Everything is NumPy and the same bytes on every run.
+the eye. Everything is NumPy and gives the same bytes on every run.
 """
 
 from __future__ import annotations
@@ -44,11 +44,6 @@ class Frame:
     right: float
     bottom: float
     top: float
-
-    @property
-    def extent(self) -> tuple[float, float, float, float]:
-        """The frame as matplotlib's ``imshow`` takes it."""
-        return (self.left, self.right, self.bottom, self.top)
 
 
 @dataclass(frozen=True, slots=True)
@@ -174,17 +169,60 @@ def blended(values: Floats, corners: Ints, weights: Floats) -> Floats:
     return mixed
 
 
+@dataclass(frozen=True, slots=True)
+class SeenSurface:
+    """The p pixels of a picture that show a surface: ``covered`` (rows, columns) says which.
+
+    ``corners`` and ``weights`` (p, 3) say where in the mesh; ``normals`` (p, 3) are of length 1.
+    """
+
+    covered: Bools
+    corners: Ints
+    weights: Floats
+    normals: Floats
+
+
+def seen_surface(
+    projected: Floats, faces: Ints, frame: Frame, shape: tuple[int, int], *, culled: bool
+) -> SeenSurface:
+    """What a (rows, columns) picture of a mesh in view coordinates shows; the first row is below.
+
+    ``culled`` leaves out the faces that are turned away from the eye.
+    """
+    normals = vertex_normals(projected, faces)
+    if culled:
+        a, b, c = (projected[faces[:, corner], :2] for corner in range(3))
+        one, two = b - a, c - a
+        faces = faces[one[:, 0] * two[:, 1] > one[:, 1] * two[:, 0]]
+    seen = fragments(projected, faces, frame, shape)
+    covered: Bools = seen.face >= 0
+    corners, weights = faces[seen.face[covered]], seen.weights[covered]
+    normals = blended(normals, corners, weights)
+    normals /= np.maximum(np.linalg.norm(normals, axis=1, keepdims=True), 1e-12)
+    return SeenSurface(covered, corners, weights, normals)
+
+
+def light_direction() -> Floats:
+    """The direction to the light, of length 1, in view coordinates."""
+    light: Floats = np.asarray(LIGHTING.direction) / np.linalg.norm(LIGHTING.direction)
+    return light
+
+
 def lit(colours: Floats, normals: Floats) -> Floats:
-    """``colours`` (p, 3) under the light; a surface seen from behind is lit as from before.
+    """``colours`` (p, 3) in the light; a surface seen from behind is lit as if from before.
 
     ``normals`` (p, 3) are in view coordinates: the third is towards the eye.
     """
     facing = np.where(normals[:, 2] < 0, -1.0, 1.0)[:, None]
-    light = np.asarray(LIGHTING.direction) / np.linalg.norm(LIGHTING.direction)
-    brightness = np.clip((facing * normals) @ light, 0.0, 1.0)
+    brightness = np.clip((facing * normals) @ light_direction(), 0.0, 1.0)
     shade = LIGHTING.ambient + (1.0 - LIGHTING.ambient) * brightness
     shaded: Floats = np.clip(colours * shade[..., None] * LIGHTING.gain, 0.0, 1.0)
     return shaded
+
+
+def rows_for(frame: Frame, columns: int) -> int:
+    """How many rows a picture of ``frame`` has that is ``columns`` wide."""
+    return max(1, round(columns * (frame.top - frame.bottom) / (frame.right - frame.left)))
 
 
 def shaded_image(
@@ -205,29 +243,13 @@ def shaded_image(
     colours : (3,) or (n, 3)
         The surface's colour, one for all or one per vertex, each in 0-1.
     """
-    fine = columns * LIGHTING.oversampling
-    tall = round(columns * (frame.top - frame.bottom) / (frame.right - frame.left))
-    rows = max(tall, 1) * LIGHTING.oversampling
-    normals = vertex_normals(projected, faces)
-    faces = _towards_eye(projected, faces)
-    seen = fragments(projected, faces, frame, (rows, fine))
-    covered: Bools = seen.face >= 0
-    shaded = np.zeros((*covered.shape, 3))
-    corners, weights = faces[seen.face[covered]], seen.weights[covered]
-    normals = blended(normals, corners, weights)
-    normals /= np.maximum(np.linalg.norm(normals, axis=-1, keepdims=True), 1e-12)
-    base = colours if colours.ndim == 1 else blended(colours, corners, weights)
-    shaded[covered] = lit(np.broadcast_to(base, normals.shape), normals)
-    return _downsampled(shaded, covered)[::-1]
-
-
-def _towards_eye(projected: Floats, faces: Ints) -> Ints:
-    """The faces that can be seen: of a closed mesh wound outward those that face the eye."""
-    if not is_closed(faces):
-        return faces
-    a, b, c = (projected[faces[:, corner], :2] for corner in range(3))
-    one, two = b - a, c - a
-    return faces[one[:, 0] * two[:, 1] > one[:, 1] * two[:, 0]]
+    fine = LIGHTING.oversampling
+    shape = (rows_for(frame, columns) * fine, columns * fine)
+    seen = seen_surface(projected, faces, frame, shape, culled=is_closed(faces))
+    base = colours if colours.ndim == 1 else blended(colours, seen.corners, seen.weights)
+    shaded = np.zeros((*shape, 3))
+    shaded[seen.covered] = lit(np.broadcast_to(base, seen.normals.shape), seen.normals)
+    return _downsampled(shaded, seen.covered)[::-1]
 
 
 def _downsampled(shaded: Floats, covered: Bools) -> Floats:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from footfit.geometry.fit.clearance import CLEARANCE
-from footfit.report.wording.text import length_text, plain, signed, visible
+from footfit.report.wording.text import file_name, length_text, plain, signed, visible
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Sequence
@@ -23,6 +23,12 @@ SIZE_HEADS = {
 WORTH_SAYING = 0.10
 """The share of a zone that must be tight, or loose, to be worth a word."""
 MOST_ZONES = 2
+
+
+def comparison_names(comparison: Comparison) -> tuple[str, str]:
+    """What the foot and the last are called."""
+    foot = file_name(comparison.foot.aligned.alignment.info.path)
+    return foot, visible(comparison.last.labels.name)
 
 
 def lengths_words(comparison: Comparison) -> str:

@@ -9,8 +9,8 @@ from typing import TYPE_CHECKING
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from footfit.results import Match, Measured, Profiled
-
+    from footfit.geometry.flare.definition import FlareProfile
+    from footfit.results import Alignment, Match, Measured, Profiled
 
 SHOWN_SYSTEMS = ("eu", "uk", "us-men", "us-women", "mondopoint")
 """The size systems that a foot's size is shown in, in this order."""
@@ -126,6 +126,17 @@ def difference_text(measured: Measured) -> str:
         return "-"
     spread = f" ± {plain(measured.sd)}" if measured.sd is not None else ""
     return f"{signed(measured.value)}{spread}"
+
+
+def angle_text(flare: FlareProfile) -> str:
+    """The flare angle with its uncertainty."""
+    return f"{signed(flare.angle_deg)}° ± {plain(flare.angle_sd_deg)}°"
+
+
+def shape_words(alignment: Alignment) -> str:
+    """The file's name, the side, and whether it is a foot or a last."""
+    side = alignment.side.side or "side undecided,"
+    return f"{file_name(alignment.info.path)}   {side} {alignment.pose.kind}"
 
 
 def size_text(size: str | None, system: str | None, width: str | None = None) -> str:
