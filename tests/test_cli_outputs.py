@@ -32,6 +32,17 @@ def test_an_existing_file_needs_force(tmp_path: Path) -> None:
     assert list(tmp_path.iterdir()) == [path]
 
 
+def test_a_file_that_comes_while_ours_is_written_is_kept(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    path = tmp_path / "x.csv"
+    monkeypatch.setattr(os, "fsync", lambda _descriptor: path.write_text("theirs"))
+    with pytest.raises(OutputExists, match="--force"):
+        write_output(path, "ours", force=False)
+    assert path.read_text() == "theirs"
+    assert list(tmp_path.iterdir()) == [path]
+
+
 def test_what_cannot_be_written_is_refused_before_any_work(tmp_path: Path) -> None:
     with pytest.raises(BadOption, match="does not exist"):
         refuse_existing(tmp_path / "none" / "x.csv", force=True)
