@@ -17,7 +17,8 @@ from importlib.util import find_spec
 import numpy as np
 
 from benchmarks.tables import markdown, put
-from footfit.geometry.curvature.surface_curvature import one_ring_curvature, pooled_curvature
+from footfit.geometry.curvature.one_ring import one_ring_curvature
+from footfit.geometry.curvature.pooled_curvature import pooled_curvature
 from footfit.geometry.numeric.arrays import Floats, Ints
 from tests import implicit, shapes
 from tests.distortions import white_noise

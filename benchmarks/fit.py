@@ -21,7 +21,6 @@ import numpy as np
 from benchmarks.alignment import scan_of
 from benchmarks.tables import markdown, put
 from footfit.geometry.flare.profile_distance import profile_distances
-from footfit.meshes.read import read_scan
 from footfit.pipeline.fit.fit_profile import fit_profile
 from footfit.pipeline.fit.match import Question, matched
 from footfit.pipeline.fit.scoring import scales
@@ -31,6 +30,7 @@ from footfit.pipeline.scan.align import aligned
 from footfit.pipeline.scan.flare import measured, profiled, right_shape
 from footfit.results import LastLabels, LastRecord, Library, Profiled
 from tests.distortions import decimated, moved, random_pose, white_noise
+from tests.reading import read_scan
 from tools.lasts import LastSpec, graded, last_mesh, varied
 
 SCANS = Path(__file__).resolve().parents[2] / "shared" / "scans" / "makehuman"

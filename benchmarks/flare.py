@@ -28,12 +28,12 @@ from footfit.geometry.flare.definition import CHANNELS, FlareDefinition, FlarePr
 from footfit.geometry.flare.flare_profile import flare_profile  # noqa: E402
 from footfit.geometry.flare.levelled_bottom import low_length  # noqa: E402
 from footfit.geometry.flare.profile_distance import DISTANCE  # noqa: E402
-from footfit.meshes.read import read_scan  # noqa: E402
 from footfit.pipeline.scan.align import aligned  # noqa: E402
 from footfit.pipeline.scan.flare import as_right, profiled, right_shape  # noqa: E402
 from footfit.results import Profiled  # noqa: E402
 from tests import distortions  # noqa: E402
 from tests.distortions import half_subdivided, rippled, white_noise  # noqa: E402
+from tests.reading import read_scan  # noqa: E402
 from tools.lasts import LastSpec, last_mesh, true_heading_deg, varied  # noqa: E402
 
 SCANS = ROOT.parent / "shared" / "scans" / "makehuman"

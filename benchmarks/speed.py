@@ -22,9 +22,9 @@ sys.path.insert(0, str(ROOT))
 import numpy as np  # noqa: E402
 
 from benchmarks.tables import markdown, put  # noqa: E402
-from footfit.meshes.read import read_scan  # noqa: E402
 from footfit.meshes.write import encoded_mesh  # noqa: E402
 from tests.distortions import decimated, subdivided  # noqa: E402
+from tests.reading import read_scan  # noqa: E402
 from tools.lasts import last_mesh, varied  # noqa: E402
 
 SEED = 20261124

@@ -12,10 +12,10 @@ import numpy as np
 import pytest
 
 from footfit.geometry.flare.definition import CHANNELS
-from footfit.meshes.read import read_scan
 from footfit.meshes.write import encoded_mesh
 from tests.conftest import SAMPLES, Footfit
 from tests.distortions import in_metres, moved, random_pose
+from tests.reading import read_scan
 
 ALIGN_KEYS = {
     "schema",

@@ -9,10 +9,10 @@ import numpy as np
 import pytest
 
 from footfit.geometry.numeric.rotations import angle_deg
-from footfit.meshes.read import read_scan
 from footfit.meshes.write import encoded_mesh
 from tests.conftest import SAMPLES, Footfit
 from tests.distortions import in_metres
+from tests.reading import read_scan
 
 LASTS = sorted((SAMPLES / "lasts").glob("*.stl"))
 

@@ -9,13 +9,10 @@ from hypothesis import strategies as st
 
 from footfit.geometry.mesh.caps import extent_of
 from footfit.geometry.mesh.holes import HOLES, filled
-from footfit.geometry.mesh.surface import area_vectors, signed_volume
-from footfit.geometry.mesh.topology import (
-    boundary_loops,
-    is_closed,
-    is_consistently_wound,
-)
+from footfit.geometry.mesh.surface import area_vectors
+from footfit.geometry.mesh.topology import boundary_loops, is_closed
 from tests import distortions, shapes
+from tests.solids import is_consistently_wound, signed_volume
 from tests.strategies import rotations, scales, shifts_mm
 from tools.lasts import LastSpec, last_mesh
 

@@ -14,11 +14,12 @@ from hypothesis import strategies as st
 from footfit.geometry.measures.landmarks import Shape
 from footfit.geometry.measures.measure_table import BOTH, MEASURES, of_kind, unusual
 from footfit.geometry.mesh import topology
-from footfit.meshes.read import read_scan
 from footfit.pipeline.scan.align import aligned
 from footfit.pipeline.scan.flare import right_shape
 from tests.conftest import ROOT, SAMPLES
 from tests.distortions import axis_rotation, half_subdivided, leg_cut, moved, plane_cut, white_noise
+from tests.reading import read_scan
+from tests.solids import is_consistently_wound
 from tests.strategies import seeds
 from tools.last_specs import ToeShape
 from tools.lasts import LastSpec, half_width_mm, last_mesh, true_heading_deg, varied
@@ -272,7 +273,7 @@ def capped(vertices, faces):
         after = np.roll(loop, -1)
         fan = np.stack([after, loop, np.full(len(loop), middle)], axis=1)
         faces = np.concatenate([faces, fan])
-    if topology.is_consistently_wound(faces):
+    if is_consistently_wound(faces):
         return vertices, faces
     raise AssertionError("the fan is wound the other way")
 

@@ -5,11 +5,12 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from footfit.geometry.curvature.surface_curvature import pooled_curvature
-from footfit.geometry.mesh import surface, topology
+from footfit.geometry.curvature.pooled_curvature import pooled_curvature
+from footfit.geometry.mesh import topology
 from footfit.geometry.mesh.refinement import with_flat_facets_split
 from tests import shapes
 from tests.distortions import subdivided
+from tests.solids import is_consistently_wound, signed_volume, surface_area
 
 
 def test_a_cylinders_ends_are_split_and_its_wall_is_not():
@@ -19,10 +20,10 @@ def test_a_cylinders_ends_are_split_and_its_wall_is_not():
     np.testing.assert_array_equal(finer[: len(vertices)], vertices)
     added = finer[len(vertices) :]
     assert set(np.unique(added[:, 2])) <= {0.0, 250.0}
-    for measure in (surface.surface_area, surface.signed_volume):
+    for measure in (surface_area, signed_volume):
         assert measure(finer, split) == pytest.approx(measure(vertices, faces), rel=1e-12)
     assert topology.is_closed(split)
-    assert topology.is_consistently_wound(split)
+    assert is_consistently_wound(split)
     flat = np.ptp(finer[split][:, :, 2], axis=1) == 0.0
     corners = finer[split[flat]]
     assert np.linalg.norm(corners - np.roll(corners, 1, axis=1), axis=2).max() <= 8.0

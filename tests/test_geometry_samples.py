@@ -8,8 +8,8 @@ import numpy as np
 import pytest
 
 from footfit.geometry.mesh.samples import SurfaceSample, farthest_points, gathered, quadrature
-from footfit.geometry.mesh.surface import surface_area
 from tests import distortions, shapes
+from tests.solids import surface_area
 
 
 def test_quadrature_splits_large_triangles_and_keeps_the_area():

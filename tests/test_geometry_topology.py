@@ -9,10 +9,10 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from footfit.geometry.mesh import topology, welding
-from footfit.geometry.mesh.surface import signed_volume
 from footfit.geometry.mesh.welding import welded
 from tests import shapes
 from tests.distortions import joined, plane_cut, shuffled, soup
+from tests.solids import euler_characteristic, is_consistently_wound, signed_volume
 from tests.strategies import seeds, surfaces
 
 
@@ -67,10 +67,10 @@ def test_nothing_at_all_is_no_accident():
 )
 def test_euler_boundary_and_closedness_of_known_shapes(mesh, euler, loops, closed):
     vertices, faces = mesh
-    assert topology.euler_characteristic(faces) == euler
+    assert euler_characteristic(faces) == euler
     assert len(topology.boundary_loops(faces)) == loops
     assert topology.is_closed(faces) is closed
-    assert topology.is_consistently_wound(faces)
+    assert is_consistently_wound(faces)
     peer = trimesh.Trimesh(vertices, faces, process=False)
     assert peer.is_watertight is closed
     assert len(topology.edges(faces)) == len(peer.edges_unique)
@@ -132,7 +132,7 @@ def test_turned_faces_are_turned_back_and_no_others(mesh, seed, share):
     damaged = faces.copy()
     damaged[turned] = damaged[turned][:, ::-1]
     mended = topology.consistently_wound(damaged)
-    assert topology.is_consistently_wound(mended)
+    assert is_consistently_wound(mended)
     assert signed_volume(vertices, mended) == pytest.approx(signed_volume(vertices, faces))
 
 
@@ -145,7 +145,7 @@ def test_each_piece_is_wound_by_its_own_majority():
     cyclic = [np.sort(np.stack([np.roll(f, -k, axis=1) for k in range(3)]), axis=0)[0]
               for f in (mended, faces)]  # fmt: skip
     np.testing.assert_array_equal(*cyclic)
-    assert topology.is_consistently_wound(mended)
+    assert is_consistently_wound(mended)
 
 
 def test_a_moebius_band_is_left_as_it_is():
@@ -156,7 +156,7 @@ def test_a_moebius_band_is_left_as_it_is():
         [np.stack([top, low, after_top], 1), np.stack([after_top, low, after_low], 1)]
     )
     np.testing.assert_array_equal(topology.consistently_wound(band), band)
-    assert not topology.is_consistently_wound(band)
+    assert not is_consistently_wound(band)
 
 
 def test_closed_fans_are_told_from_boundaries_bow_ties_and_third_faces():

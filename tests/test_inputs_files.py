@@ -153,7 +153,7 @@ def test_a_file_that_may_not_be_read_is_refused(tmp_path):
     program = (
         "import os, sys\n"
         "from footfit.errors import UnreadableFile\n"
-        "from footfit.meshes.read import read_scan\n"
+        "from tests.reading import read_scan\n"
         "os.chmod(os.path.dirname(sys.argv[1]), 0o755)\n"
         "os.setresuid(65534, 65534, 65534)\n"
         "try: read_scan(sys.argv[1])\n"
@@ -165,7 +165,7 @@ def test_a_file_that_may_not_be_read_is_refused(tmp_path):
 
 
 def test_a_foot_as_glb_and_3mf_is_the_same_foot(footfit: Footfit, foot: Path, tmp_path: Path):
-    from footfit.meshes.read import read_scan
+    from tests.reading import read_scan
 
     scan = read_scan(foot)
     glb, threemf = tmp_path / "foot.glb", tmp_path / "foot.3mf"

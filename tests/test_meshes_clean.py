@@ -8,10 +8,11 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from footfit.errors import DamagedMesh, EmptyMesh
-from footfit.geometry.mesh.surface import signed_volume, surface_area, unit
-from footfit.geometry.mesh.topology import is_closed, is_consistently_wound
+from footfit.geometry.mesh.surface import unit
+from footfit.geometry.mesh.topology import is_closed
 from footfit.meshes.clean.cleaning import cleaned
 from tests import distortions, shapes
+from tests.solids import is_consistently_wound, signed_volume, surface_area
 
 FOOT = shapes.ellipsoid((125.0, 50.0, 40.0), subdivisions=3)
 

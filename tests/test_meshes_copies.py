@@ -13,11 +13,11 @@ from hypothesis import strategies as st
 
 from footfit.errors import CatalogueDamaged
 from footfit.geometry.mesh.nearest import nearest_on_triangles
-from footfit.geometry.mesh.surface import signed_volume
 from footfit.geometry.mesh.topology import is_closed
 from footfit.meshes.copies.compact_copy import COPY_SETTINGS, compact_copy, expanded
 from footfit.meshes.copies.deviation import largest_deviation_mm
 from tests import distortions, shapes
+from tests.solids import signed_volume
 
 FOOT = shapes.ellipsoid((125.0, 50.0, 40.0), subdivisions=4)  # 5,120 faces
 

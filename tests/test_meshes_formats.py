@@ -13,7 +13,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from footfit.errors import BadOption, DamagedMesh, TooLarge
-from footfit.geometry.mesh.surface import area_vectors, surface_area
+from footfit.geometry.mesh.surface import area_vectors
 from footfit.meshes.formats import stl
 from footfit.meshes.formats.foreign import is_text, known_foreign, likeness
 from footfit.meshes.formats.known_formats import EXTENSIONS, FORMATS, raw_mesh
@@ -23,6 +23,7 @@ from footfit.meshes.read_limits import LIMITS
 from footfit.meshes.write import COLOUR, WRITERS, encoded_mesh
 from tests import corpus, shapes
 from tests.distortions import shuffled
+from tests.solids import surface_area
 
 
 def read(data: bytes):

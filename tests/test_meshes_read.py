@@ -22,11 +22,13 @@ from footfit.errors import (
     UnknownUnits,
     UnreadableFile,
 )
-from footfit.geometry.mesh.surface import surface_area
-from footfit.meshes.read import read_scan, read_stream, scan_from_bytes
-from footfit.meshes.read_limits import Limits
+from footfit.meshes.file_bytes import stream_bytes
+from footfit.meshes.read import scan_from_bytes
+from footfit.meshes.read_limits import LIMITS, Limits
 from footfit.meshes.write import encoded_mesh
 from tests import corpus
+from tests.reading import read_scan
+from tests.solids import surface_area
 
 ROOT = Path(__file__).resolve().parents[1]
 AREA = surface_area(corpus.VERTICES, corpus.FACES)
@@ -143,11 +145,11 @@ def test_a_name_that_is_not_utf8_is_read(tmp_path):
 def test_a_stream_is_read_up_to_the_limit(tmp_path):
     path = write(tmp_path, "foot.stl", corpus.stl())
     with path.open("rb") as stream:
-        assert read_stream(stream) == corpus.stl()
+        assert stream_bytes(stream, LIMITS) == corpus.stl()
     with path.open("rb") as stream, pytest.raises(TooLarge):
-        read_stream(stream, Limits(file_bytes=100))
+        stream_bytes(stream, Limits(file_bytes=100))
     with Path(os.devnull).open("rb") as stream, pytest.raises(EmptyMesh):
-        read_stream(stream)
+        stream_bytes(stream, LIMITS)
 
 
 @pytest.mark.parametrize("make", [corpus.stl, corpus.ascii_stl, corpus.ply, corpus.obj, corpus.off])
@@ -197,7 +199,7 @@ def test_source_to_vertex_names_each_vertex_of_the_file():
 def test_a_binary_stl_needs_neither_trimesh_nor_scipy(tmp_path):
     path = write(tmp_path, "foot.stl", corpus.stl())
     program = (
-        "import sys; from footfit.meshes.read import read_scan; read_scan(sys.argv[1]);"
+        "import sys; from tests.reading import read_scan; read_scan(sys.argv[1]);"
         "print([name for name in ('trimesh', 'scipy', 'rich') if name in sys.modules])"
     )
     command = [sys.executable, "-c", program, str(path)]
@@ -212,7 +214,7 @@ def test_bombs_stay_small(tmp_path):
         "import numpy\n"
         "resource.setrlimit(resource.RLIMIT_AS, (700_000_000, 700_000_000))\n"
         "from footfit.errors import InputError\n"
-        "from footfit.meshes.read import read_scan\n"
+        "from tests.reading import read_scan\n"
         "for path in sys.argv[1:]:\n"
         "    try: read_scan(path)\n"
         "    except InputError as error: assert 'memory' not in error.message, path\n"

@@ -9,7 +9,13 @@ from hypothesis import strategies as st
 
 from footfit.errors import BadOption, UnknownUnits
 from footfit.meshes.clean.extents import principal_extents
-from footfit.meshes.units import UNIT_SCALES, UNIT_SETTINGS, plausible_unit, settled_units
+from footfit.meshes.units import (
+    UNIT_SCALES,
+    UNIT_SETTINGS,
+    checked_options,
+    plausible_unit,
+    settled_units,
+)
 from tests import distortions, shapes
 
 FOOT = shapes.ellipsoid((130.0, 50.0, 40.0), subdivisions=3)[0]
@@ -67,7 +73,7 @@ def test_a_known_length_scales_the_longest_extent_in_any_pose():
 )
 def test_options_that_cannot_be_carried_out_are_refused(wanted, known):
     with pytest.raises(BadOption):
-        settled_units(FOOT, wanted, known, None)
+        checked_options(wanted, known)
 
 
 @given(seed=st.integers(0, 1000))

@@ -25,7 +25,6 @@ from footfit.errors import (
 from footfit.geometry.mesh.moments import printed_covariance, surface_second_moment
 from footfit.geometry.numeric.rotations import angle_deg, applied
 from footfit.geometry.pose import paper_frame
-from footfit.meshes.read import read_scan
 from footfit.meshes.units import UNIT_NAMES, UNIT_SCALES
 from footfit.pipeline.scan import align
 from footfit.pipeline.scan.align import aligned
@@ -35,6 +34,7 @@ from footfit.pipeline.scan.settled_unit import unit_notes
 from footfit.results import MeshInfo, Notice, Reference, Scan
 from tests import distortions, shapes
 from tests.conftest import SAMPLES
+from tests.reading import read_scan
 from tools.lasts import LastSpec, last_mesh
 
 SCANS = Path(__file__).resolve().parents[2] / "shared" / "scans"

@@ -9,11 +9,11 @@ import pytest
 
 from footfit.errors import BadOption
 from footfit.geometry.mesh.welding import welded
-from footfit.meshes.read import read_scan
 from footfit.pipeline.scan.curvature import surface_curvature
 from footfit.results import MeshInfo, Scan
 from tests import shapes
 from tests.distortions import random_rotation, soup, white_noise
+from tests.reading import read_scan
 
 
 def _scan(vertices, faces, source=None):

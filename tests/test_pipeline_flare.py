@@ -14,10 +14,11 @@ from footfit.geometry.flare.definition import CHANNELS, FlareDefinition
 from footfit.geometry.flare.flare_profile import flare_profile
 from footfit.geometry.flare.levelled_bottom import low_length
 from footfit.geometry.mesh.surface import signed_volume
-from footfit.meshes.read import read_scan
 from footfit.pipeline.scan.align import aligned
 from footfit.pipeline.scan.flare import profiled, right_shape
 from tests import distortions
+from tests.reading import read_scan
+from tests.solids import signed_volume
 
 SCANS = Path(__file__).resolve().parents[2] / "shared" / "scans" / "makehuman"
 

@@ -10,7 +10,6 @@ import numpy as np
 import pytest
 
 from footfit.errors import HalfScan, SideUndecided
-from footfit.meshes.read import read_scan
 from footfit.pipeline.fit.candidates import choice
 from footfit.pipeline.fit.match import Question, matched
 from footfit.pipeline.scan.align import aligned
@@ -27,6 +26,7 @@ from tests.distortions import (
     random_pose,
     white_noise,
 )
+from tests.reading import read_scan
 
 AHEAD = np.array([1.0, 0.0, 0.0])
 BOUNDS_MM = {"length": 0.5, "width": 1.0, "girth": 2.0}

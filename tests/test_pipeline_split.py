@@ -7,10 +7,10 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from footfit.meshes.read import read_scan
 from footfit.meshes.write import encoded_mesh
 from tests.conftest import SAMPLES, Footfit
 from tests.distortions import floor_plate, in_metres, joined, moved, random_pose
+from tests.reading import read_scan
 
 
 @pytest.fixture

@@ -26,6 +26,7 @@ from footfit.report.pictures.sides import on_side
 from footfit.results import SideVerdict
 from tests import answers
 from tests.shapes import sphere
+from tests.solids import signed_volume
 
 GREY = np.array([0.8, 0.8, 0.8])
 
@@ -128,7 +129,6 @@ def test_a_left_foots_centre_line_lies_in_its_own_outline() -> None:
 
 
 def test_a_last_is_mirrored_to_the_foots_side_and_stays_wound_outward() -> None:
-    from footfit.geometry.mesh.surface import signed_volume
 
     shape = answers.tube()
     vertices, faces = on_side(shape, "right", "left")

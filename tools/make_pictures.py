@@ -12,7 +12,6 @@ from pathlib import Path
 
 import numpy as np
 
-from footfit.meshes.read import read_scan
 from footfit.pipeline.demo import demonstrate
 from footfit.pipeline.library import lasts
 from footfit.pipeline.scan.align import aligned
@@ -21,6 +20,7 @@ from footfit.pipeline.scan.flare import profiled
 from footfit.report.pictures.plots import curvature_plot, flare_plot, frames_plot
 from footfit.results import Scan
 from tests.distortions import moved, random_pose, white_noise
+from tests.reading import read_scan
 
 ROOT = Path(__file__).resolve().parents[1]
 SAMPLES = ROOT / "sample_data"

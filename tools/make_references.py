@@ -16,8 +16,8 @@ import numpy as np
 
 from footfit.geometry.mesh.samples import even_sample, quadrature
 from footfit.geometry.pose.frame import canonical_frame
-from footfit.meshes import read
 from footfit.pipeline.scan.shipped_templates import FILE, NORMAL_STEP, POINT_STEP
+from tests.reading import read_scan
 
 PITCH = 0.025
 POINTS = 6000
@@ -81,7 +81,7 @@ def arrays_of(kind, points, normals):
 
 def foot_arrays(path):
     """The foot with its leg."""
-    scan = read.read_scan(path, units="mm")
+    scan = read_scan(path, units="mm")
     points, normals = canonical_points(scan.vertices_mm, scan.faces, 12000)
     body, leg = with_leg(points, normals)
     parts = thinned(*body, POINTS - LEG_POINTS), thinned(*leg, LEG_POINTS)

@@ -99,10 +99,7 @@ def settled_units(
     ------
     UnknownUnits
         "auto", and no unit is plausible.
-    BadOption
-        An unknown unit, a known length that is not positive, or both given.
     """
-    checked_options(wanted, known_length_mm)
     if known_length_mm is not None:
         extent = float(principal_extents(vertices)[0][0])
         return Units("scaled", "known-length", known_length_mm / extent)

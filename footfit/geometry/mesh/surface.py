@@ -85,32 +85,3 @@ def vertex_normals(vertices: Floats, faces: Ints) -> Floats:
     Zero where a vertex has no face, or faces that cancel.
     """
     return unit(vertex_sums(area_vectors(vertices, faces), faces, len(vertices)))
-
-
-def surface_area(vertices: Floats, faces: Ints) -> float:
-    """The whole area.
-
-    Examples
-    --------
-    >>> surface_area(np.array([[0.0, 0, 0], [2, 0, 0], [0, 3, 0]]), np.array([[0, 1, 2]]))
-    3.0
-    """
-    return float(face_areas(vertices, faces).sum())
-
-
-def signed_volume(vertices: Floats, faces: Ints) -> float:
-    """The volume inside a closed surface; negative where its faces look inward.
-
-    An open surface is closed by a cone to the mean of its vertices: trust the sign at most.
-
-    Examples
-    --------
-    >>> corner = np.array([[0.0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 6]])
-    >>> round(signed_volume(corner, np.array([[0, 2, 1], [0, 1, 3], [1, 2, 3], [2, 0, 3]])), 12)
-    1.0
-    """
-    if len(faces) == 0:
-        return 0.0
-    centred = vertices - vertices[np.unique(faces)].mean(axis=0)
-    apexes = centred[faces[:, 0]]
-    return float(np.einsum("ij,ij->", apexes, area_vectors(centred, faces)) / 3.0)

@@ -179,25 +179,9 @@ def lowest_connected(groups: Ints, n: int) -> Ints:
         parent = hooked
 
 
-def euler_characteristic(faces: Ints) -> int:
-    """V - E + F over the vertices that faces use: 2 - 2 genus - holes for one piece.
-
-    Examples
-    --------
-    >>> euler_characteristic(np.array([[0, 2, 1], [0, 1, 3], [1, 2, 3], [2, 0, 3]]))
-    2
-    """
-    return len(np.unique(faces)) - len(edges(faces)) + len(faces)
-
-
 def is_closed(faces: Ints) -> bool:
     """Whether every edge lies in exactly two faces (False for no faces)."""
     return len(faces) > 0 and bool(np.all(_edge_groups(faces)[2] == 2))
-
-
-def is_consistently_wound(faces: Ints) -> bool:
-    """Whether no two faces run an edge that only they share in the same direction."""
-    return not bool(np.any(_shared_edges(faces)[1]))
 
 
 def consistently_wound(faces: Ints) -> Ints:

@@ -61,9 +61,10 @@ def stdin_source(stream: BinaryIO, mesh_format: str) -> Source:
     TooLarge, EmptyMesh
         Past the limit, or nothing came.
     """
-    from footfit.meshes.read import read_stream
+    from footfit.meshes.file_bytes import stream_bytes
+    from footfit.meshes.read_limits import LIMITS
 
-    return Source(None, read_stream(stream), mesh_format)
+    return Source(None, stream_bytes(stream, LIMITS), mesh_format)
 
 
 def _expanded(argument: str, *, alone: bool) -> list[str]:

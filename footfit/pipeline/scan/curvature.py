@@ -7,11 +7,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from footfit.errors import BadOption
-from footfit.geometry.curvature.surface_curvature import (
-    longest_radius,
-    one_ring_curvature,
-    pooled_curvature,
-)
+from footfit.geometry.curvature.one_ring import one_ring_curvature
+from footfit.geometry.curvature.pooled_curvature import longest_radius, pooled_curvature
 from footfit.geometry.mesh.topology import edges
 from footfit.meshes.clean.extents import principal_extents
 from footfit.results import Notice, Scan, SurfaceCurvature
@@ -35,7 +32,7 @@ def surface_curvature(scan: Scan, radius_mm: float | None = None) -> SurfaceCurv
     scan : Scan
     radius_mm : float, optional
         The scale of
-        :func:`footfit.geometry.curvature.surface_curvature.pooled_curvature`; 0 is the paper's one
+        :func:`footfit.geometry.curvature.pooled_curvature.pooled_curvature`; 0 is the paper's one
         ring (III.C). None takes 6 % of the longest principal extent.
 
     Raises
