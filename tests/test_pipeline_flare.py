@@ -13,7 +13,6 @@ from footfit.errors import SideUndecided
 from footfit.geometry.flare.definition import CHANNELS, FlareDefinition
 from footfit.geometry.flare.flare_profile import flare_profile
 from footfit.geometry.flare.levelled_bottom import low_length
-from footfit.geometry.mesh.surface import signed_volume
 from footfit.pipeline.scan.align import aligned
 from footfit.pipeline.scan.flare import profiled, right_shape
 from tests import distortions
