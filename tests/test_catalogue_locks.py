@@ -17,7 +17,7 @@ import pytest
 from footfit.catalogue.file.file_signature import kind_of_file
 from footfit.catalogue.store import open_catalogue
 from footfit.errors import CatalogueLocked
-from footfit.pipeline.library.backup import backed_up
+from footfit.pipeline.library.backup import back_up
 from tests import records
 
 OPEN_FILES = Path("/proc/self/fd")
@@ -60,8 +60,8 @@ def open_to_write_again(path):
         pass
 
 
-def back_up(path):
-    backed_up(path, path.with_name("backup.footfit"))
+def back_up_beside(path):
+    back_up(path, path.with_name("backup.footfit"))
 
 
 def look(path):
@@ -76,7 +76,7 @@ def read_in_a_thread(path):
 
 @pytest.mark.parametrize(
     "again",
-    [look, read_again, read_in_a_thread, open_to_write_again, back_up],
+    [look, read_again, read_in_a_thread, open_to_write_again, back_up_beside],
     ids=lambda f: f.__name__,
 )
 def test_a_second_opening_in_the_process_leaves_its_lock(path, again):

@@ -93,14 +93,14 @@ def test_a_file_that_takes_too_long_is_named_and_the_rest_is_stored(
     for path in sorted((SAMPLES / "lasts").iterdir())[:3]:
         shutil.copy(path, tmp_path)
     slow = sorted(tmp_path.iterdir())[1].name
-    usual = ingest.prepared
+    usual = ingest.new_last
 
-    def prepared(entry: ingest.Entry, known: frozenset[str] = frozenset()) -> ingest.Prepared:
+    def new_last(entry: ingest.Entry, known: frozenset[str] = frozenset()) -> ingest.NewLast:
         if entry.path and entry.path.endswith(slow):
             signal.raise_signal(signal.SIGALRM)
         return usual(entry, known)
 
-    monkeypatch.setattr(ingest, "prepared", prepared)
+    monkeypatch.setattr(ingest, "new_last", new_last)
     in_this_process = lambda work, items, _jobs: outcomes(work, items, HERE)  # noqa: E731
     monkeypatch.setattr(ingest, "outcomes", in_this_process)
     got = footfit("ingest-last", tmp_path, "--catalogue", tmp_path / "c", "--json")

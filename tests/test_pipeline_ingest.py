@@ -9,7 +9,7 @@ import pytest
 
 from footfit.errors import BadOption, NameTaken
 from footfit.pipeline.batch.sources import ReadingOptions, Source
-from footfit.pipeline.library.ingest import Entry, decision, entries, last_record, unused_rows
+from footfit.pipeline.library.ingest import Entry, Holdings, entries, last_record, unused_rows
 from footfit.pipeline.library.manifest import manifest_rows
 from footfit.pipeline.scan.reading import profiled_source
 from footfit.results import LastLabels, Measure, Measured
@@ -27,34 +27,33 @@ def entry(name: str = "oxford-42", **labels: object) -> Entry:
 
 
 STORED = last("oxford-42", seed=1)
-BY_NAME = {"oxford-42": STORED}
-BY_CONTENT = {STORED.info.sha256: "oxford-42"}
+HOLDINGS = Holdings([STORED])
 
 
-def decided(sha256: str, name: str, replace_it: bool = False, **labels: object) -> str:
-    one = Entry(Source("x.stl"), replace(STORED.labels, name=name, **labels), PLAIN)  # type: ignore[arg-type]
-    return decision(sha256, one, BY_NAME, BY_CONTENT, replace_it)
+def status(sha256: str, name: str, replace_it: bool = False, **labels: object) -> str:
+    wanted = replace(STORED.labels, name=name, **labels)  # type: ignore[arg-type]
+    return HOLDINGS.status(sha256, Entry(Source("x.stl"), wanted, PLAIN), replace=replace_it)
 
 
-def test_decisions() -> None:
+def test_what_becomes_of_a_file() -> None:
     same, other = STORED.info.sha256, "0" * 64
-    assert decided(other, "new") == "added"
-    assert decided(same, "oxford-42") == "unchanged"
-    assert decided(same, "oxford-42", True) == "unchanged"
-    assert decided(other, "oxford-42", True) == "replaced"
-    assert decided(same, "oxford-42", True, style="boot") == "replaced"
+    assert status(other, "new") == "added"
+    assert status(same, "oxford-42") == "unchanged"
+    assert status(same, "oxford-42", True) == "unchanged"
+    assert status(other, "oxford-42", True) == "replaced"
+    assert status(same, "oxford-42", True, style="boot") == "replaced"
     for wrong in ((other, "oxford-42", {}), (same, "oxford-42", {"style": "boot"})):
         with pytest.raises(NameTaken, match="--replace"):
-            decided(wrong[0], wrong[1], **wrong[2])
+            status(wrong[0], wrong[1], **wrong[2])
     for replace_it in (False, True):
         with pytest.raises(NameTaken, match="oxford-42"):
-            decided(same, "new", replace_it)
+            status(same, "new", replace_it)
 
 
 def test_a_side_or_unit_that_contradicts_the_stored_one_is_another_reading() -> None:
     one = Entry(Source("x.stl"), STORED.labels, ReadingOptions(side="left"))
     with pytest.raises(NameTaken, match="read otherwise"):
-        decision(STORED.info.sha256, one, BY_NAME, BY_CONTENT, False)
+        HOLDINGS.status(STORED.info.sha256, one, replace=False)
 
 
 def test_labels_come_from_the_manifest_then_the_command_line_then_the_stem() -> None:
@@ -86,7 +85,7 @@ def test_a_known_length_is_another_reading_unless_it_is_the_stored_one() -> None
     scaled_by_its_extent = {STORED.extent_mm: "unchanged"}  # as older versions did
     for known, expected in (known_mm | scaled_by_its_extent).items():
         one = Entry(Source("x.stl"), labels, ReadingOptions(known_length_mm=known))
-        assert decision(sha, one, BY_NAME, BY_CONTENT, True) == expected
+        assert HOLDINGS.status(sha, one, replace=True) == expected
 
 
 def test_what_cannot_be_meant_is_refused() -> None:

@@ -64,5 +64,5 @@ def test_what_is_no_text_is_refused(tmp_path: Path) -> None:
     path.write_bytes(b"path\n\xff\xfe.stl\n")
     with pytest.raises(BadManifest, match="UTF-8"):
         read_manifest(path)
-    with pytest.raises(BadManifest, match="no file"):
+    with pytest.raises(BadManifest, match="not a file"):
         read_manifest(tmp_path / "none.csv")

@@ -1,4 +1,4 @@
-"""The demo: the paper's five steps on the sample data, in a folder of its own."""
+"""The demo: the paper's five steps on the sample data, in its own folder."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ CATALOGUE_NAME = "demo.footfit"
 
 @dataclass(frozen=True, slots=True)
 class Demonstration:
-    """What the demo did, for the report layer to show."""
+    """The results of the demo's steps."""
 
     catalogue: Path
     ingested: tuple[IngestOutcome, ...]
@@ -30,8 +30,7 @@ class Demonstration:
 
 
 def demonstrate(folder: Path, *, jobs: int = 1, replace: bool = False) -> Demonstration:
-    """Ingest the sample lasts into a catalogue of the demo's own, choose a reference, align,
-    profile and match the first sample foot.
+    """Ingest the sample lasts into a new catalogue, choose a reference, and match a sample foot.
 
     Raises
     ------
@@ -44,29 +43,29 @@ def demonstrate(folder: Path, *, jobs: int = 1, replace: bool = False) -> Demons
     samples = sample_folder()
     batch = entries([], read_manifest(samples / "lasts.csv"), LastLabels(""), ReadingOptions())
     ingested = tuple(ingest(batch, catalogue, jobs=jobs))
-    failures = [outcome.failure for outcome in ingested if outcome.failure is not None]
-    if failures:
-        raise GeometryRefused(f"a sample last was refused: {failures[0]}", failures[0].path)
+    for outcome in ingested:
+        if outcome.failure is not None:
+            raise GeometryRefused(f"a sample last was refused: {outcome.failure}", outcome.path)
     middle = sorted(outcome.last or "" for outcome in ingested)[len(ingested) // 2]
     reference = lasts.set_reference(catalogue, middle)
     foot = profiled_source(sample_foot(), ReadingOptions())
-    found = matched([foot], lasts.library(catalogue), Question())
-    return Demonstration(catalogue, ingested, reference, foot, found)
+    match = matched([foot], lasts.library(catalogue), Question())
+    return Demonstration(catalogue, ingested, reference, foot, match)
 
 
 def sample_foot() -> Source:
-    """The first sample foot, by name."""
+    """The first of the sample feet, in the order of their names."""
     return mesh_sources([str(sample_folder() / "feet")])[0]
 
 
 def _fresh_catalogue(folder: Path, *, replace: bool) -> Path:
-    """The path of the demo's catalogue, with no file there."""
+    """The path of the demo's catalogue; an old demo's is deleted."""
     catalogue = folder / CATALOGUE_NAME
     if folder.exists() and not folder.is_dir():
         raise BadOption("is a file; name a folder for the demo", str(folder))
     if catalogue.exists():
         if not replace:
-            raise OutputExists("holds a demo already; add --force to make it anew", str(folder))
+            raise OutputExists("holds a demo already; add --force to replace it", str(folder))
         catalogue.unlink()
     try:
         folder.mkdir(parents=True, exist_ok=True)

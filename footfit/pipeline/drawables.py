@@ -1,7 +1,8 @@
-"""The meshes that pictures are drawn of."""
+"""The meshes that pictures show."""
 
 from __future__ import annotations
 
+from contextlib import suppress
 from dataclasses import replace
 from pathlib import Path
 
@@ -17,32 +18,32 @@ from footfit.pipeline.fit.compare import best_comparison
 from footfit.pipeline.scan.align import aligned
 from footfit.results import Comparison, Match, Scan, SurfaceCurvature
 
-DRAWN = 3
-"""Lasts that are drawn beside a foot: more lines than that are not told apart."""
+DRAWN_LASTS = 3
+"""How many lasts are drawn beside a foot: nobody can tell more lines apart."""
 DRAWN_FACES = 10_000
-"""Of each mesh on a page: 0.3 mm from the scan, a tenth of its bytes."""
+"""The faces of each mesh on a page: it is 0.3 mm from the scan, and has a tenth of its bytes."""
 
 
 def candidate_shapes(path: Path, match: Match) -> dict[str, tuple[Floats, Ints]]:
-    """The mesh copies of the best lasts by name, or of the nearest where none fits, canonical mm,
-    each on its own side; a last without a sound copy is left out.
+    """The mesh copies of the best lasts by name, or of the nearest if no last fits.
+
+    They are in mm in the canonical frame, each on its own side. A last without a sound copy is
+    left out.
     """
     shapes = {}
     with open_catalogue(path) as catalogue:
-        for candidate in (match.candidates or match.nearest)[:DRAWN]:
-            try:
+        for candidate in (match.candidates or match.nearest)[:DRAWN_LASTS]:
+            with suppress(UnknownLast, CatalogueDamaged):
                 shapes[candidate.last] = expanded(catalogue.mesh_copy(candidate.last).data)
-            except (UnknownLast, CatalogueDamaged):
-                continue
     return shapes
 
 
 def best_comparisons(path: Path, match: Match) -> tuple[Comparison, ...]:
-    """Each foot of a match in the best last, as it is drawn; a foot that cannot be laid into it
-    is left out.
+    """Each foot of a match in the best last, with drawable meshes; a foot that cannot be placed
+    in it is left out.
     """
-    found = (best_comparison(path, match, foot) for foot in range(len(match.feet)))
-    return tuple(drawable(comparison) for comparison in found if comparison is not None)
+    comparisons = (best_comparison(path, match, foot) for foot in range(len(match.feet)))
+    return tuple(drawable(comparison) for comparison in comparisons if comparison is not None)
 
 
 def drawable(comparison: Comparison, faces: int = DRAWN_FACES) -> Comparison:
@@ -51,10 +52,11 @@ def drawable(comparison: Comparison, faces: int = DRAWN_FACES) -> Comparison:
     inside = lighter_mesh(comparison.vertices_mm, comparison.faces, faces)
     clearance_mm = comparison.clearance_mm
     if len(inside[1]) < len(comparison.faces):
-        found = nearest_on_surface(inside[0], comparison.vertices_mm, comparison.faces)
-        corners = clearance_mm[comparison.faces[found.face]]
-        felt = np.where(found.weights > 0.0, corners, 0.0)  # an unknown corner without weight
-        clearance_mm = np.einsum("pj,pj->p", found.weights, felt)
+        nearest = nearest_on_surface(inside[0], comparison.vertices_mm, comparison.faces)
+        corners = clearance_mm[comparison.faces[nearest.face]]
+        # A corner without weight counts as 0: it may be NaN, and NaN times 0 is NaN.
+        corners = np.where(nearest.weights > 0.0, corners, 0.0)
+        clearance_mm = np.einsum("pj,pj->p", nearest.weights, corners)
     return replace(
         comparison,
         vertices_mm=inside[0],
@@ -66,8 +68,9 @@ def drawable(comparison: Comparison, faces: int = DRAWN_FACES) -> Comparison:
 
 
 def canonical_view(curvature: SurfaceCurvature) -> Floats | None:
-    """The transform (4, 4) that lays a surface into the canonical frame; None where it is no
-    foot and no last: curvature is asked of any surface.
+    """The transform (4, 4) of a surface to the canonical frame.
+
+    It is None if the surface is neither a foot nor a last: curvature takes any surface.
     """
     scan = Scan(curvature.info, curvature.vertices_mm, curvature.faces, ())
     try:

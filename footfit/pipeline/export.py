@@ -1,4 +1,4 @@
-"""Meshes and arrays as the bytes of a file; the suffix says which kind."""
+"""Meshes and arrays as the bytes of a file; the file's suffix says which kind."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ def file_kind(path: Path, kinds: tuple[str, ...]) -> str:
     Raises
     ------
     BadOption
-        It is another.
+        The suffix is another one.
 
     Examples
     --------
@@ -38,12 +38,12 @@ def file_kind(path: Path, kinds: tuple[str, ...]) -> str:
 
 
 def mesh_bytes(vertices_mm: Floats, faces: Ints, path: Path) -> bytes:
-    """A mesh in the format of ``path``'s suffix, mm.
+    """A mesh in the format of ``path``'s suffix, in mm.
 
     Raises
     ------
     BadOption
-        Not a mesh format.
+        The suffix is not that of a mesh format.
     """
     from footfit.meshes.write import encoded_mesh
 
@@ -51,12 +51,12 @@ def mesh_bytes(vertices_mm: Floats, faces: Ints, path: Path) -> bytes:
 
 
 def copy_bytes(copy: MeshCopy, path: Path) -> bytes:
-    """A catalogue's mesh copy in the format of ``path``'s suffix, canonical mm.
+    """A catalogue's mesh copy in the format of ``path``'s suffix, in mm in the canonical frame.
 
     Raises
     ------
     BadOption
-        Not a mesh format.
+        The suffix is not that of a mesh format.
     CatalogueDamaged
         The copy cannot be expanded.
     """
@@ -67,9 +67,9 @@ def copy_bytes(copy: MeshCopy, path: Path) -> bytes:
 
 
 def method_vertices(scan: AlignedScan) -> Floats:
-    """The vertices (n, 3) where the alignment's own method puts them, mm.
+    """The vertices (n, 3) where the alignment's own method puts them, in mm.
 
-    `AlignedScan` holds them in the canonical frame; a paper method's transform differs from it.
+    `AlignedScan` holds them in the canonical frame, and a paper's method has another transform.
     """
     import numpy as np
 
@@ -81,12 +81,12 @@ def method_vertices(scan: AlignedScan) -> Floats:
 def curvature_bytes(
     curvature: SurfaceCurvature, path: Path, colours: NDArray[np.uint8] | None = None
 ) -> bytes:
-    """Per-vertex curvature as .ply, with the colours (n, 3) where some are given, or as .npz.
+    """The curvature of each vertex as .npz, or as .ply with ``colours`` (n, 3) if some are given.
 
     Raises
     ------
     BadOption
-        Neither.
+        The suffix is another one.
     """
     from footfit.meshes.write import encoded_mesh
 
@@ -100,20 +100,17 @@ def curvature_bytes(
         if colours is not None:
             values["colour"] = colours
         return encoded_mesh(curvature.vertices_mm, curvature.faces, "ply", values)
-    return _npz_bytes({**values, **_npz_mesh(curvature)})
-
-
-def _npz_mesh(curvature: SurfaceCurvature) -> dict[str, NDArray[np.generic]]:
-    return {
+    mesh: dict[str, NDArray[np.generic]] = {
         "vertices": curvature.vertices_mm,
         "faces": curvature.faces,
         "source_to_vertex": curvature.source_to_vertex,
     }
+    return _npz_bytes(values | mesh)
 
 
 def _npz_bytes(arrays: dict[str, NDArray[np.generic]]) -> bytes:
-    """An .npz whose bytes depend on the arrays alone: NumPy's own writer stamps no time either,
-    and its members come in the order given.
+    """An .npz in the order of the arrays. NumPy writes no time into it, so its bytes depend on
+    the arrays alone.
     """
     import io
 

@@ -8,7 +8,7 @@ from footfit.errors import UnreadableFile
 
 PACKAGE = Path(__file__).resolve().parents[1]
 PLACES = (PACKAGE / "_sample_data", PACKAGE.parent / "sample_data")
-"""In a wheel; in a source tree."""
+"""Where it lies in an installed footfit, and in a source tree."""
 
 
 def sample_folder() -> Path:
@@ -17,7 +17,7 @@ def sample_folder() -> Path:
     Raises
     ------
     UnreadableFile
-        The installation lacks it.
+        It is not there.
     """
     for place in PLACES:
         if (place / "lasts.csv").is_file():

@@ -9,7 +9,7 @@ from pathlib import Path
 
 from footfit.catalogue.store import open_catalogue
 from footfit.errors import FootfitError, NoCatalogue
-from footfit.pipeline.library.backup import backed_up
+from footfit.pipeline.library.backup import back_up
 from tests import records
 from tests.torture.kills import Child, forked
 from tests.torture.scripts import MAIN, mesh_copy
@@ -90,7 +90,7 @@ def backup_trials(folder: Path, count: int, seed: int) -> Tally:
         for trial in range(count):
             before, backup = _names(path), folder / f"backup-{trial}"
             try:
-                backed_up(path, backup)
+                back_up(path, backup)
             except FootfitError as error:
                 tally.breach(f"backup {trial}: {error!r}")
                 continue

@@ -12,7 +12,7 @@ from pathlib import Path
 from footfit.catalogue.file.engine import connect
 from footfit.errors import ExitCode, FootfitError
 from footfit.pipeline.library import lasts
-from footfit.pipeline.library.check import checked
+from footfit.pipeline.library.check import check
 from tests import records
 from tests.torture.scripts import MAIN, filling, values
 from tests.torture.tally import Tally
@@ -91,7 +91,7 @@ def damage_trials(folder: Path, harm: str, count: int, seed: int) -> Tally:
 def _code(path: Path) -> int:
     """What ``check-catalogue`` answers."""
     try:
-        return int(ExitCode.CHECK_FAILED) if checked(path).findings else 0
+        return int(ExitCode.CHECK_FAILED) if check(path).findings else 0
     except FootfitError as error:
         # A file without a byte is none, and is said so.
         return 6 if error.exit == 4 and not path.stat().st_size else int(error.exit)

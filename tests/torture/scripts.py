@@ -19,7 +19,7 @@ from footfit.catalogue.file.migrate import Schema
 from footfit.catalogue.store import open_catalogue
 from footfit.errors import NoCatalogue
 from footfit.meshes.copies.compact_copy import compact_copy
-from footfit.pipeline.library.backup import backed_up, restored
+from footfit.pipeline.library.backup import back_up, restore
 from footfit.results import MeshCopy
 from tests import answers, records
 from tests.torture.migrations import OLD_FILE, later_schema
@@ -169,14 +169,14 @@ EDITS: tuple[Callable[[Path], None], ...] = (
 
 
 def _back_up(folder: Path, name: str) -> None:
-    backed_up(folder / MAIN, folder / name, replace=True)
+    back_up(folder / MAIN, folder / name, replace=True)
 
 
 def _restore(folder: Path, name: str) -> None:
     """A restore that is done again after a fault keeps what it kept under one name only."""
     for kept in folder.glob(f"{MAIN}.before-restore*"):
         kept.unlink()
-    restored(folder / MAIN, folder / name)
+    restore(folder / MAIN, folder / name)
 
 
 def _filled(folder: Path) -> None:

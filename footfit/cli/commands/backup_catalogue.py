@@ -26,7 +26,7 @@ def backup_catalogue(
     """
     from footfit.cli.answers import Voice, tell
     from footfit.cli.settings import catalogue_path
-    from footfit.pipeline.library.backup import backed_up
+    from footfit.pipeline.library.backup import back_up
 
-    outcome = backed_up(catalogue_path(catalogue), file, replace=force)
+    outcome = back_up(catalogue_path(catalogue), file, replace=force)
     tell(outcome, Voice(json, quiet))

@@ -19,4 +19,4 @@ def catalogue_info(
     from footfit.cli.settings import catalogue_path
     from footfit.pipeline.library import lasts
 
-    tell(lasts.facts(catalogue_path(catalogue)), Voice(json, quiet))
+    tell(lasts.summary(catalogue_path(catalogue)), Voice(json, quiet))

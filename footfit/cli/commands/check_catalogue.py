@@ -18,9 +18,9 @@ def check_catalogue(
     from footfit.cli.answers import Voice, tell
     from footfit.cli.settings import catalogue_path
     from footfit.errors import CheckFailed
-    from footfit.pipeline.library.check import checked, failure_words
+    from footfit.pipeline.library.check import check, failure_words
 
-    outcome = checked(catalogue_path(catalogue))
+    outcome = check(catalogue_path(catalogue))
     tell(outcome, Voice(json, quiet))
     if outcome.findings:
         raise CheckFailed(failure_words(outcome.findings), outcome.path)

@@ -92,7 +92,7 @@ def ingest_last(
         jobs=jobs,
         replace=replace,
         dry_run=dry_run,
-        steady=LISTENER.hold,
+        hold_signals=LISTENER.hold,
     )
     with heard(), failures_last(voice) as tell_failure:
         for outcome in counted(ingesting, voice):

@@ -26,7 +26,7 @@ def list_lasts(
 
     refuse_existing(csv, force=force)
     one_answer(csv, as_json=json)
-    found = lasts.listed(catalogue_path(catalogue))
+    found = lasts.list_lasts(catalogue_path(catalogue))
     if csv is not None:
         write_or_answer(csv, csv_text(Library, [found]), force=force)
     tell(found, Voice(json, quiet, answers=csv != options.STDOUT))

@@ -25,6 +25,6 @@ def restore_catalogue(
     """
     from footfit.cli.answers import Voice, tell
     from footfit.cli.settings import catalogue_path
-    from footfit.pipeline.library.backup import restored
+    from footfit.pipeline.library.backup import restore
 
-    tell(restored(catalogue_path(catalogue), file), Voice(json, quiet))
+    tell(restore(catalogue_path(catalogue), file), Voice(json, quiet))

@@ -1,23 +1,17 @@
-"""Ingest: scans of lasts, read, aligned, profiled and stored, each in its own transaction."""
+"""Ingest: read, align and profile scans of lasts, and store each in its own transaction."""
 
 from __future__ import annotations
 
 import dataclasses
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from contextlib import AbstractContextManager, nullcontext
 from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
-from typing import Protocol
 
-from footfit.catalogue.store import open_catalogue
-from footfit.errors import (
-    BadOption,
-    ExitCode,
-    FootfitError,
-    NameTaken,
-    NoCatalogue,
-)
+from footfit.catalogue.rows.editing import same_scan
+from footfit.catalogue.store import Catalogue, open_catalogue
+from footfit.errors import BadOption, ExitCode, FootfitError, NameTaken, NoCatalogue
 from footfit.pipeline.batch.runs import HERE, Outcome, outcomes
 from footfit.pipeline.batch.sources import ReadingOptions, Source
 from footfit.pipeline.library.manifest import ManifestRow
@@ -27,12 +21,12 @@ from footfit.pipeline.scan.settled_unit import unit_notes
 from footfit.results import IngestOutcome, LastLabels, LastRecord, MeshCopy, Notice, Profiled
 
 SAME_LENGTH_MM = 0.01
-"""A known length is the stored one where they differ by less: a stick shows whole mm."""
+"""Two known lengths that differ by less are the same: a measuring stick shows whole mm."""
 
 
 @dataclass(frozen=True, slots=True)
 class Entry:
-    """One file to ingest, with what people say of it."""
+    """One file to ingest, with its labels and how to read it."""
 
     source: Source
     labels: LastLabels
@@ -45,29 +39,16 @@ class Entry:
 
 
 @dataclass(frozen=True, slots=True)
-class Prepared:
-    """A last ready to be stored; ``record`` is None where its content is in the catalogue."""
+class NewLast:
+    """A last that can be stored; it has no ``record`` and ``copy`` if its content is known."""
 
     sha256: str
-    record: LastRecord | None
-    copy: MeshCopy | None
+    record: LastRecord | None = None
+    copy: MeshCopy | None = None
 
 
-Steady = Callable[[], AbstractContextManager[object]]
-"""A block that no signal may part: what is stored in it is also said in it."""
-
-
-class Shelf(Protocol):
-    """What ingest needs of a catalogue."""
-
-    def add(self, record: LastRecord, copy: MeshCopy) -> None:
-        """Store a last in one transaction."""
-
-    def replace(self, record: LastRecord, copy: MeshCopy) -> None:
-        """Store a last over the one of its name, in one transaction."""
-
-    def records(self) -> Sequence[LastRecord]:
-        """Every last."""
+HoldSignals = Callable[[], AbstractContextManager[object]]
+"""Makes a block that no signal interrupts: what is stored in it is also reported in it."""
 
 
 def entries(
@@ -76,16 +57,17 @@ def entries(
     given: LastLabels,
     reading: ReadingOptions,
 ) -> list[Entry]:
-    """Join files with their labels, in sorted path order; a manifest alone names its files.
+    """Join files with their labels, sorted by path; without files, the manifest names them.
 
-    A label in the manifest wins over one on the command line (``given``); a typed name
-    (``given.name``, "" where none was) wins over all. Rows of files that are not among the
-    sources are left alone: see `unused_rows`.
+    A label in the manifest overrides one of the command line (``given``). A name that was typed
+    (``given.name``, "" for none) overrides all. Rows of files that are not among the sources have
+    no effect: see `unused_rows`.
 
     Raises
     ------
     BadOption
-        Nothing to ingest, one ``--name`` for several files, or standard input without a name.
+        There is nothing to ingest, ``--name`` is given for several files, or standard input has
+        no name.
     """
     rows = {_resolved(row.path): row for row in manifest}
     if manifest and not sources:
@@ -95,11 +77,11 @@ def entries(
     if given.name and len(sources) > 1:
         raise BadOption("--name names one last, and there are several files; use --manifest")
     ordered = sorted(sources, key=lambda source: source.path or "")
-    return [_entry(one, rows.get(_resolved(one.path or "")), given, reading) for one in ordered]
+    return [_entry(item, rows.get(_resolved(item.path or "")), given, reading) for item in ordered]
 
 
 def unused_rows(batch: Sequence[Entry], manifest: Sequence[ManifestRow]) -> tuple[Notice, ...]:
-    """Rows of the manifest whose file was not given: said, since a path may be mistyped."""
+    """A notice if the manifest has rows of files that were not given: a path may be mistyped."""
     given = {_resolved(entry.path) for entry in batch if entry.path}
     unused = [row.path for row in manifest if _resolved(row.path) not in given]
     if not unused:
@@ -116,45 +98,36 @@ def _resolved(path: str) -> str:
 def _entry(
     source: Source, row: ManifestRow | None, given: LastLabels, reading: ReadingOptions
 ) -> Entry:
-    stem = Path(source.path).stem if source.path else ""
-    said = row.labels if row else LastLabels(name=stem)
-    name = given.name or said.name
+    labels = row.labels if row else LastLabels(name=Path(source.path).stem if source.path else "")
+    name = given.name or labels.name
     if not name:
         raise BadOption("a last from standard input needs --name")
-    labels = LastLabels(
-        name=name,
-        style=said.style or given.style,
-        size=said.size or given.size,
-        size_system=said.size_system or given.size_system,
-        width_label=said.width_label or given.width_label,
-        heel_height_mm=given.heel_height_mm if said.heel_height_mm is None else said.heel_height_mm,
-        family=given.family,
-        parent=given.parent,
-    )
-    if row is None:
-        return Entry(source, labels, reading)
-    units = row.reading.units if row.reading.units != "auto" else reading.units
-    side = row.reading.side if row.reading.side != "auto" else reading.side
-    return Entry(source, labels, ReadingOptions(units, reading.known_length_mm, side))
+    own = {key: value for key, value in dataclasses.asdict(labels).items() if value is not None}
+    labels = dataclasses.replace(given, **(own | {"name": name}))
+    if row is not None:
+        units = row.reading.units if row.reading.units != "auto" else reading.units
+        side = row.reading.side if row.reading.side != "auto" else reading.side
+        reading = ReadingOptions(units, reading.known_length_mm, side)
+    return Entry(source, labels, reading)
 
 
-def prepared(entry: Entry, known: frozenset[str] = frozenset()) -> Prepared:
-    """The heavy part of one ingest, without the catalogue: runs in a worker.
+def new_last(entry: Entry, known: frozenset[str] = frozenset()) -> NewLast:
+    """The slow part of an ingest. It does not use the catalogue, and runs in a worker.
 
-    ``known`` holds the content hashes that the catalogue has: they need no second alignment.
+    ``known`` holds the content hashes that the catalogue has: those files are not aligned again.
     """
     from footfit.meshes.copies.compact_copy import compact_copy
 
     sha256 = content_hash(entry.source)
     if sha256 in known:
-        return Prepared(sha256, None, None)
+        return NewLast(sha256)
     shape = profiled_source(entry.source, entry.reading)
     copy = compact_copy(shape.aligned.vertices_mm, shape.aligned.faces)
-    return Prepared(sha256, last_record(shape, entry.labels), copy)
+    return NewLast(sha256, last_record(shape, entry.labels), copy)
 
 
 def last_record(shape: Profiled, labels: LastLabels) -> LastRecord:
-    """A profiled shape as a last of the catalogue; the file's folder is not kept."""
+    """The record of a profiled shape; the catalogue will keep its file's name, but no folder."""
     alignment = shape.aligned.alignment
     kind = alignment.pose.kind
     notices = (*alignment.warnings, *shape.suspects)
@@ -179,26 +152,57 @@ def last_record(shape: Profiled, labels: LastLabels) -> LastRecord:
     )
 
 
-@dataclass(slots=True)
-class _Index:
-    """What the catalogue holds, kept true while a batch goes on (also in a dry run)."""
+class Holdings:
+    """The lasts of the catalogue, kept up to date during a batch (also in a dry run)."""
 
-    by_name: dict[str, LastRecord]
-    by_content: dict[str, str]
-
-    @classmethod
-    def of(cls, records: Iterable[LastRecord]) -> _Index:
-        index = cls({}, {})
+    def __init__(self, records: Iterable[LastRecord]) -> None:
+        self.by_name: dict[str, LastRecord] = {}
+        self.by_content: dict[str, str] = {}
         for record in records:
-            index.put(record)
-        return index
+            self.put(record)
 
     def put(self, record: LastRecord) -> None:
+        """Add a last, or replace the one of its name."""
         old = self.by_name.get(record.labels.name)
         if old is not None:
             self.by_content.pop(old.info.sha256, None)
         self.by_name[record.labels.name] = record
         self.by_content[record.info.sha256] = record.labels.name
+
+    def status(self, sha256: str, entry: Entry, *, replace: bool) -> str:
+        """What becomes of a file with that content: "added", "unchanged" or "replaced".
+
+        Raises
+        ------
+        NameTaken
+            Another last has the name, or the content is stored under another name.
+        """
+        labels = entry.labels
+        holder = self.by_content.get(sha256)
+        if holder is not None and holder != labels.name:
+            raise same_scan(holder)
+        old = self.by_name.get(labels.name)
+        if old is None:
+            return "added"
+        same = holder == labels.name
+        if same and old.labels == labels and _reads_alike(old, entry.reading):
+            return "unchanged"
+        if replace:
+            return "replaced"
+        scan = "another scan"
+        if same:
+            difference = "read otherwise" if old.labels == labels else "with other labels"
+            scan = f"the same scan {difference}"
+        raise NameTaken(f"{labels.name!r} is in the catalogue with {scan}; add --replace or --name")
+
+
+def _reads_alike(old: LastRecord, reading: ReadingOptions) -> bool:
+    """Whether these options would read the stored scan as it was read."""
+    known = reading.known_length_mm
+    scaled_mm = (old.length_mm, old.extent_mm)  # older versions scaled the extent
+    length = known is None or any(abs(known - mm) < SAME_LENGTH_MM for mm in scaled_mm if mm)
+    units = reading.units in ("auto", old.info.units)
+    return length and units and reading.side in ("auto", old.side.side)
 
 
 def ingest(
@@ -208,11 +212,12 @@ def ingest(
     jobs: int = HERE,
     replace: bool = False,
     dry_run: bool = False,
-    steady: Steady = nullcontext,
+    hold_signals: HoldSignals = nullcontext,
 ) -> Iterator[IngestOutcome]:
-    """Ingest a batch into the catalogue at ``path``, which is made where there is none.
+    """Ingest a batch into the catalogue at ``path``; yield each file's outcome after its commit.
 
-    ``steady`` holds signals off from before a commit until the next outcome is asked for.
+    A missing catalogue is made. Signals are held off by ``hold_signals`` from before a commit
+    until the next outcome is asked for.
 
     Raises
     ------
@@ -222,129 +227,82 @@ def ingest(
     if dry_run:
         try:
             with open_catalogue(path) as catalogue:
-                stored = list(catalogue.records())
+                stored = catalogue.records()
         except NoCatalogue:
-            stored = []
-        for outcome in ingested(batch, None, stored, jobs=jobs, replace=replace):
+            stored = ()
+        for outcome in _ingest_into(None, stored, batch, jobs, replace=replace):
             yield dataclasses.replace(outcome, dry_run=True)
         return
     with open_catalogue(path, write=True) as catalogue:
-        stored = list(catalogue.records())
-        yield from ingested(batch, catalogue, stored, jobs=jobs, replace=replace, steady=steady)
+        stored = catalogue.records()
+        yield from _ingest_into(
+            catalogue, stored, batch, jobs, replace=replace, hold_signals=hold_signals
+        )
 
 
-def ingested(
-    batch: Sequence[Entry],
-    shelf: Shelf | None,
+def _ingest_into(
+    catalogue: Catalogue | None,
     stored: Sequence[LastRecord],
+    batch: Sequence[Entry],
+    jobs: int,
     *,
-    jobs: int = HERE,
-    replace: bool = False,
-    steady: Steady = nullcontext,
+    replace: bool,
+    hold_signals: HoldSignals = nullcontext,
 ) -> Iterator[IngestOutcome]:
-    """Ingest a batch; yield each file's outcome after its commit.
-
-    ``shelf`` None is a dry run; ``stored`` are the records that are there already.
-    """
-    index = _Index.of(stored)
-    work = partial(prepared, known=frozenset() if replace else frozenset(index.by_content))
-    for outcome in outcomes(work, batch, jobs):
-        with steady():
-            yield _stored(outcome, index, shelf, replace)
+    """Ingest a batch into a catalogue that has the ``stored`` lasts; None is a dry run."""
+    holdings = Holdings(stored)
+    known = frozenset() if replace else frozenset(holdings.by_content)
+    for work in outcomes(partial(new_last, known=known), batch, jobs):
+        with hold_signals():
+            yield _store(work, holdings, catalogue, replace=replace)
 
 
-def _stored(
-    outcome: Outcome[Entry, Prepared], index: _Index, shelf: Shelf | None, replace: bool
+def _store(
+    work: Outcome[Entry, NewLast],
+    holdings: Holdings,
+    catalogue: Catalogue | None,
+    *,
+    replace: bool,
 ) -> IngestOutcome:
-    entry, path = outcome.item, outcome.item.path
-    if outcome.value is None:
-        assert outcome.error is not None
-        return IngestOutcome(path, "refused", failure=outcome.error)
+    """Store what the work on one file made, and say what became of the file."""
+    entry, new = work.item, work.value
+    name, path = entry.labels.name, entry.path
+    if new is None:
+        return IngestOutcome(path, "refused", failure=work.error)
     try:
-        status = _decided(outcome.value, entry, index, replace)
+        status = holdings.status(new.sha256, entry, replace=replace)
         if status == "unchanged":
-            return _accepted(path, status, index.by_name[entry.labels.name], first=False)
-        record, copy = _whole(outcome.value, entry)
-        first = not index.by_name
-        if shelf is not None:
+            return _success(path, status, holdings.by_name[name])
+        if new.record is None:  # it was known when the batch began, and is not any more
+            new = new_last(entry)
+        assert new.record is not None
+        first = not holdings.by_name
+        if catalogue is not None:
             try:
-                (shelf.replace if replace else shelf.add)(record, copy)
+                (catalogue.replace if replace else catalogue.add)(new.record, new.copy)
             except NameTaken:  # another process stored it meanwhile: look again, and say so
-                index = _Index.of(shelf.records())
-                status = _decided(outcome.value, entry, index, replace)
-                return _accepted(path, status, index.by_name[entry.labels.name], first=False)
-        index.put(record)
+                holdings = Holdings(catalogue.records())
+                status = holdings.status(new.sha256, entry, replace=replace)
+                return _success(path, status, holdings.by_name[name])
+        holdings.put(new.record)
     except FootfitError as error:
         if error.exit == ExitCode.CATALOGUE_UNUSABLE:
             raise
         return IngestOutcome(path, "refused", failure=error.at(path))
-    return _accepted(path, status, record, first=first)
+    return _success(path, status, new.record, first=first)
 
 
-def _decided(one: Prepared, entry: Entry, index: _Index, replace: bool) -> str:
-    return decision(one.sha256, entry, index.by_name, index.by_content, replace)
-
-
-def _whole(one: Prepared, entry: Entry) -> tuple[LastRecord, MeshCopy]:
-    """The record and the mesh; made now where the content was known when the batch began, and
-    its last has been replaced since.
-    """
-    if one.record is None or one.copy is None:
-        one = prepared(entry)
-    assert one.record is not None
-    assert one.copy is not None
-    return one.record, one.copy
-
-
-def decision(
-    sha256: str,
-    entry: Entry,
-    by_name: Mapping[str, LastRecord],
-    by_content: Mapping[str, str],
-    replace: bool,
-) -> str:
-    """What to do with a prepared last: "added", "unchanged" or "replaced".
-
-    Raises
-    ------
-    NameTaken
-        The name is another last's, or the content is stored under another name.
-    """
-    labels = entry.labels
-    holder = by_content.get(sha256)
-    if holder is not None and holder != labels.name:
-        raise NameTaken(f"the same scan is in the catalogue as {holder!r}; nothing was stored")
-    old = by_name.get(labels.name)
-    if old is None:
-        return "added"
-    same = holder == labels.name
-    if same and old.labels == labels and _reads_alike(old, entry.reading):
-        return "unchanged"
-    if replace:
-        return "replaced"
-    what = "another scan"
-    if same:
-        what = f"the same scan {'read otherwise' if old.labels == labels else 'with other labels'}"
-    raise NameTaken(f"{labels.name!r} is in the catalogue with {what}; add --replace or --name")
-
-
-def _reads_alike(old: LastRecord, reading: ReadingOptions) -> bool:
-    """Would the options given read the stored scan as it was read?"""
-    known = reading.known_length_mm
-    scaled_mm = (old.length_mm, old.extent_mm)  # older versions scaled the extent
-    length = known is None or any(abs(known - mm) < SAME_LENGTH_MM for mm in scaled_mm if mm)
-    units = reading.units in ("auto", old.info.units)
-    return length and units and reading.side in ("auto", old.side.side)
-
-
-def _accepted(path: str | None, status: str, record: LastRecord, *, first: bool) -> IngestOutcome:
+def _success(
+    path: str | None, status: str, record: LastRecord, *, first: bool = False
+) -> IngestOutcome:
+    changed = status != "unchanged"
     return IngestOutcome(
         path=path,
         status=status,
         last=record.labels.name,
         side=record.side.side,
         flare_angle_deg=record.flare.angle_deg,
-        warnings=record.warnings if status != "unchanged" else (),
+        warnings=record.warnings if changed else (),
         reference=first,
-        notes=unit_notes(record.info, record.length_mm) if status != "unchanged" else (),
+        notes=unit_notes(record.info, record.length_mm) if changed else (),
     )

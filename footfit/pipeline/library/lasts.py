@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from functools import lru_cache
 from pathlib import Path
 
-from footfit.catalogue.store import open_catalogue
+from footfit.catalogue.file.opening import FIRST_STEPS
+from footfit.catalogue.store import Catalogue, open_catalogue
 from footfit.errors import BadOption, EmptyCatalogue, NoReference
 from footfit.geometry.measures.measure_table import of_kind
 from footfit.results import (
@@ -22,11 +24,9 @@ from footfit.results import (
     StoredLast,
 )
 
-FIRST_STEPS = "type: footfit ingest-last FOLDER, or try: footfit demo"
 
-
-def listed(path: Path) -> Library:
-    """Every intact last by name, whatever its definition; damaged ones are said.
+def list_lasts(path: Path) -> Library:
+    """Every intact last by name, whatever its definition; a warning names each damaged one.
 
     Raises
     ------
@@ -34,12 +34,12 @@ def listed(path: Path) -> Library:
         There is no catalogue, or it cannot be read.
     """
     with open_catalogue(path) as catalogue:
-        records, names, reference = catalogue.records(), catalogue.names(), catalogue.reference()
+        records, names, reference = catalogue.records(), catalogue.names(), _reference(catalogue)
     intact = {record.labels.name for record in records}
     return Library(
         lasts=records,
         total=len(names),
-        reference=reference.last if reference else None,
+        reference=reference,
         warnings=tuple(_damaged(name) for name in names if name not in intact),
     )
 
@@ -53,13 +53,18 @@ def last(path: Path, name: str) -> StoredLast:
         There is no last of that name.
     """
     with open_catalogue(path) as catalogue:
-        reference = catalogue.reference()
-        return StoredLast(catalogue.record(name), reference.last if reference else None)
+        return StoredLast(catalogue.record(name), _reference(catalogue))
+
+
+def _reference(catalogue: Catalogue) -> str | None:
+    reference = catalogue.reference()
+    return None if reference is None else reference.last
 
 
 def set_reference(path: Path, name: str) -> ReferenceOutcome:
-    """Make a last the paper's "first model": every stored ``paper_transform`` is rewritten, in
-    one transaction and without the mesh files.
+    """Make a last the reference, the paper's "first model".
+
+    Every stored ``paper_transform`` is rewritten in one transaction; no mesh file is needed.
 
     Raises
     ------
@@ -76,7 +81,7 @@ def rename(path: Path, name: str, new_name: str) -> RenameOutcome:
     Raises
     ------
     UnknownLast, NameTaken
-        The one is not there, or the other is.
+        There is no last of that name; another last has the new name.
     """
     with open_catalogue(path, write=True, create=False) as catalogue:
         catalogue.rename(name, new_name)
@@ -84,7 +89,7 @@ def rename(path: Path, name: str, new_name: str) -> RenameOutcome:
 
 
 def remove(path: Path, name: str) -> RemoveOutcome:
-    """Remove a last; the reference is refused.
+    """Remove a last; the reference cannot be removed.
 
     Raises
     ------
@@ -97,7 +102,7 @@ def remove(path: Path, name: str) -> RemoveOutcome:
 
 
 def mesh_copy(path: Path, name: str) -> MeshCopy:
-    """The catalogue's copy of a last's mesh, canonical mm.
+    """The catalogue's copy of a last's mesh, in mm in the canonical frame.
 
     Raises
     ------
@@ -108,14 +113,15 @@ def mesh_copy(path: Path, name: str) -> MeshCopy:
         return catalogue.mesh_copy(name)
 
 
-def facts(path: Path) -> CatalogueFacts:
-    """What the catalogue is and holds."""
+def summary(path: Path) -> CatalogueFacts:
+    """What the catalogue is, and counts of what it holds."""
     with open_catalogue(path) as catalogue:
         return catalogue.summary()
 
 
 def library(path: Path, style: str | None = None, size_system: str | None = None) -> Library:
-    """The lasts to match against; a damaged one is left out and said.
+    """The lasts to match against; a warning names each that is left out because it is damaged
+    or has an older profile.
 
     Raises
     ------
@@ -127,16 +133,16 @@ def library(path: Path, style: str | None = None, size_system: str | None = None
         if not total:
             raise EmptyCatalogue(f"the catalogue holds no last; {FIRST_STEPS}", str(path))
         rows = catalogue.rows_for_search(style=style, size_system=size_system)
-        reference = catalogue.reference()
+        reference = _reference(catalogue)
     return Library(
         lasts=rows.records,
         total=total,
-        reference=reference.last if reference else None,
+        reference=reference,
         rejected=rows.rejected,
         warnings=(
             *(_damaged(name) for name in rows.damaged),
             *(_outdated(name) for name in rows.outdated),
-            *_measured_otherwise(rows.records),
+            *_other_measures(rows.records),
         ),
     )
 
@@ -151,31 +157,35 @@ def _outdated(name: str) -> Notice:
     return Notice("outdated_last", words)
 
 
-def _measured_otherwise(records: Sequence[LastRecord]) -> list[Notice]:
-    """What to do where lasts were measured by other definitions than this version's."""
-    wanted = {kind: {entry.definition_id for entry in of_kind(kind)} for kind in ("foot", "last")}
-    other = [
-        record.labels.name
-        for record in records
-        if {measure.definition for measure in record.measures} != wanted[record.pose.kind]
-    ]
+def has_other_measures(record: LastRecord) -> bool:
+    """Whether a measure follows another definition than this version's, or is missing."""
+    return {measure.definition for measure in record.measures} != _definitions(record.pose.kind)
+
+
+@lru_cache(maxsize=2)
+def _definitions(kind: str) -> frozenset[str]:
+    return frozenset(entry.definition_id for entry in of_kind(kind))
+
+
+def _other_measures(records: Sequence[LastRecord]) -> list[Notice]:
+    """A warning if lasts were measured by other definitions; it says what to do."""
+    other = [record.labels.name for record in records if has_other_measures(record)]
     if not other:
         return []
-    which = other[0] if len(other) == 1 else f"{len(other)} of {len(records)} lasts"
-    verb = "was" if len(other) == 1 else "were"
-    words = f"{which} {verb} measured by other definitions: zones whose definition changed are not"
+    lasts = f"{other[0]} was" if len(other) == 1 else f"{len(other)} of {len(records)} lasts were"
+    words = f"{lasts} measured by other definitions: zones whose definition changed are not"
     return [Notice("other_measures", f"{words} judged; type: footfit upgrade-catalogue")]
 
 
 def alignment_reference(path: Path, method: Method, to: str | None) -> Reference | None:
-    """The reference that an alignment needs: of ``to``, of the catalogue, or none.
+    """The reference that a method of alignment needs: the last ``to``, the catalogue's, or None.
 
     Raises
     ------
     NoCatalogue, NoReference
-        A paper method needs a reference last and there is none.
+        A paper's method needs a reference last, and there is none.
     BadOption
-        ``to`` for a method that uses no reference.
+        ``to`` is given for a method that uses no reference.
     """
     if method == "footfit":
         if to is not None:

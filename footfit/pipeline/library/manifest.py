@@ -1,4 +1,4 @@
-"""The manifest of a batch: a CSV that labels each file."""
+"""The manifest of a batch: a CSV file that gives each mesh file its labels."""
 
 from __future__ import annotations
 
@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from footfit.errors import BadManifest, BadOption
+from footfit.meshes.units import UNIT_SCALES
 from footfit.pipeline.batch.sources import ReadingOptions
 from footfit.results import LastLabels
 
@@ -22,15 +23,15 @@ COLUMNS = (
     "units",
     "heel_height_mm",
 )
+LABEL_TEXTS = ("name", "style", "size", "size_system", "width_label")
+CHOICES = {"side": ("auto", "left", "right"), "units": ("auto", *UNIT_SCALES)}
 LARGEST_BYTES = 16_000_000
 HEEL_HEIGHTS_MM = (0, 200)
-SIDES = ("auto", "left", "right")
-UNITS = ("auto", "mm", "cm", "m", "in")
 
 
 @dataclass(frozen=True, slots=True)
 class ManifestRow:
-    """One line of a manifest; ``labels.name`` is the file's stem where the line names none."""
+    """One line of a manifest; ``labels.name`` is the file's stem if the line has no name."""
 
     path: str
     labels: LastLabels
@@ -43,13 +44,14 @@ def read_manifest(path: Path) -> list[ManifestRow]:
     Raises
     ------
     BadManifest
-        It is no file, no UTF-8 text, too large, or its content is not understood.
+        It is not a file, not UTF-8 text or too large, or its content is not understood.
     """
     try:
         if not path.is_file():
-            raise BadManifest("is no file; name the manifest's CSV", str(path))
+            raise BadManifest("is not a file; name a CSV file", str(path))
         if path.stat().st_size > LARGEST_BYTES:
-            raise BadManifest("is larger than 16 MB; a manifest is a small CSV", str(path))
+            limit = f"{LARGEST_BYTES / 1e6:.0f} MB"
+            raise BadManifest(f"is larger than {limit}; give it fewer lines", str(path))
         text = path.read_text(encoding="utf-8-sig")
     except (OSError, UnicodeDecodeError) as error:
         raise BadManifest(f"cannot be read as UTF-8 text ({error})", str(path)) from error
@@ -57,12 +59,13 @@ def read_manifest(path: Path) -> list[ManifestRow]:
 
 
 def manifest_rows(text: str, folder: Path, origin: str) -> list[ManifestRow]:
-    r"""Parse a manifest; paths are relative to ``folder``, ``origin`` names it in errors.
+    r"""Read the text of a manifest; paths are relative to ``folder``, errors name ``origin``.
 
     Raises
     ------
     BadManifest
-        No ``path`` column, an unknown column, a value outside its range, a file named twice.
+        There is no ``path`` column, an unknown column, a value outside its range, or a file that
+        is named twice.
 
     Examples
     --------
@@ -80,7 +83,7 @@ def manifest_rows(text: str, folder: Path, origin: str) -> list[ManifestRow]:
     try:
         rows = [_row(values, folder, f"{origin} line {reader.line_num}") for values in reader]
     except csv.Error as error:
-        raise BadManifest(f"is no CSV ({error}); save it as comma-separated", origin) from error
+        raise BadManifest(f"is not a CSV file ({error}); save it as CSV", origin) from error
     seen: set[str] = set()
     for row in rows:
         if row.path in seen:
@@ -92,49 +95,40 @@ def manifest_rows(text: str, folder: Path, origin: str) -> list[ManifestRow]:
 def _row(values: dict[str, str | None], folder: Path, where: str) -> ManifestRow:
     if None in values:
         raise BadManifest("has more values than columns; quote values with commas", where)
-    given = {name: (value or "").strip() for name, value in values.items()}
-    if not given["path"]:
+    given = {name: text for name, value in values.items() if (text := (value or "").strip())}
+    if "path" not in given:
         raise BadManifest("has no path; fill it in or remove the line", where)
-    labels = LastLabels(
-        name=given.get("name") or Path(given["path"]).stem,
-        style=given.get("style") or None,
-        size=given.get("size") or None,
-        size_system=given.get("size_system") or None,
-        width_label=given.get("width_label") or None,
-        heel_height_mm=_height(given.get("heel_height_mm", ""), where),
-    )
-    reading = ReadingOptions(
-        units=_chosen(given.get("units", ""), UNITS, "units", where),
-        side=_chosen(given.get("side", ""), SIDES, "side", where),
-    )
+    texts = {name: given[name] for name in LABEL_TEXTS if name in given}
+    texts.setdefault("name", Path(given["path"]).stem)
+    labels = LastLabels(**texts, heel_height_mm=_height(given.get("heel_height_mm"), where))
+    units, side = (_choice(given.get(name, "auto"), name, where) for name in ("units", "side"))
+    reading = ReadingOptions(units=units, side=side)
     return ManifestRow(str(folder / given["path"]), labels, reading)
 
 
-def _chosen(value: str, known: tuple[str, ...], column: str, where: str) -> str:
-    word = value.lower() or "auto"
-    if word not in known:
-        raise BadManifest(f"{column} is {value!r}; it is one of {', '.join(known)}", where)
-    return word
+def _choice(value: str, column: str, where: str) -> str:
+    words = CHOICES[column]
+    if value.lower() not in words:
+        raise BadManifest(f"{column} is {value!r}; it must be one of {', '.join(words)}", where)
+    return value.lower()
 
 
-def _height(value: str, where: str) -> float | None:
-    if not value:
-        return None
+def _height(value: str | None, where: str) -> float | None:
     try:
-        return heel_height_mm(float(value))
+        return None if value is None else heel_height_mm(float(value))
     except (ValueError, BadOption) as error:
         low, high = HEEL_HEIGHTS_MM
-        words = f"heel_height_mm is {value!r}; it is a number of mm from {low} to {high}"
+        words = f"heel_height_mm is {value!r}; it must be a number of mm from {low} to {high}"
         raise BadManifest(words, where) from error
 
 
 def heel_height_mm(value: float | None) -> float | None:
-    """A heel height as labelled, or None.
+    """The heel height of a label, or None.
 
     Raises
     ------
     BadOption
-        It is no height that a heel has.
+        No heel has that height.
     """
     low, high = HEEL_HEIGHTS_MM
     if value is not None and not low <= value <= high:

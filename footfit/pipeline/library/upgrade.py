@@ -1,4 +1,4 @@
-"""Upgrade: an older catalogue to this version's schema, flare definition and measures."""
+"""Upgrade: bring an older catalogue to this version's schema, flare definition and measures."""
 
 from __future__ import annotations
 
@@ -7,26 +7,32 @@ from pathlib import Path
 from footfit.catalogue.store import Catalogue, open_catalogue
 from footfit.geometry.flare.definition import FlareDefinition
 from footfit.geometry.flare.flare_profile import flare_profile
-from footfit.geometry.measures.measure_table import of_kind
 from footfit.meshes.copies.compact_copy import expanded
+from footfit.pipeline.library.lasts import has_other_measures
 from footfit.pipeline.scan.flare import as_right, measured
 from footfit.results import LastRecord, UpgradeOutcome
 
 
 def upgrade(path: Path) -> UpgradeOutcome:
-    """Bring the schema up to date (a copy of the file is kept beside it), and every last whose
-    profile or measures follow other definitions than this version's: from the catalogue's own
-    mesh copy, a profile marked with the definition that it replaces.
+    """Bring the schema up to date, and every last whose profile or measures follow other
+    definitions than this version's.
+
+    A copy of the file is kept beside it if its schema changes. Profiles and measures are made
+    from the catalogue's own mesh copies; a profile says which definition it replaces.
 
     Raises
     ------
     NoCatalogue, CatalogueUnusable
-        There is none, or it cannot be written; it is then as it was.
+        There is no catalogue, or it cannot be written; it is then as it was.
     """
     definition = FlareDefinition()
     with open_catalogue(path, write=True, create=False) as catalogue:
         outdated = catalogue.rows_for_search().outdated
-        older = [r for r in catalogue.records() if r.labels.name in outdated or _is_older(r)]
+        older = [
+            record
+            for record in catalogue.records()
+            if record.labels.name in outdated or has_other_measures(record)
+        ]
         for record in older:
             _renew(catalogue, record, definition if record.labels.name in outdated else None)
         revisions = catalogue.revisions
@@ -40,15 +46,8 @@ def upgrade(path: Path) -> UpgradeOutcome:
     )
 
 
-def _is_older(record: LastRecord) -> bool:
-    """Whether a measure follows another definition, or is missing."""
-    stored = {measure.definition for measure in record.measures}
-    wanted = {entry.definition_id for entry in of_kind(record.pose.kind)}
-    return stored != wanted
-
-
 def _renew(catalogue: Catalogue, record: LastRecord, definition: FlareDefinition | None) -> None:
-    """Measure a last anew, and profile it by ``definition``; None leaves the profile as it is."""
+    """Measure a last again, and profile it by ``definition``; None keeps the profile."""
     vertices_mm, faces = expanded(catalogue.mesh_copy(record.labels.name).data)
     right, kind = as_right(vertices_mm, faces, record.side.side), record.pose.kind
     flare, upgraded_from = record.flare, record.upgraded_from
