@@ -1,12 +1,11 @@
-"""Sections of a docked foot and its last by the same planes, at named stations, and their sizes.
+"""Sections of a foot and the last around it by the same planes, and the sections' sizes.
 
 Both are canonical right shapes in mm. The stations are places along the foot, counted from its
-heel; the ball's plane is the upright one through the foot's own MT1 and MT5.
+heel. The ball's plane is the upright one through the foot's own MT1 and MT5.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
@@ -20,7 +19,7 @@ from footfit.geometry.numeric.arrays import Floats
 
 @dataclass(frozen=True, slots=True)
 class Station:
-    """A named place along the foot, over its length; ``oblique`` through MT1 and MT5 instead."""
+    """A named place along the foot: a share of its length, or ``oblique``, through MT1 and MT5."""
 
     name: str
     share: float
@@ -38,56 +37,54 @@ STATIONS = (
 
 
 @dataclass(frozen=True, slots=True)
-class OverlaySettings:
-    """``band`` over a section's lowest point, over the foot's length, is where widths are taken:
-    over it ankles stand out.
+class SectionSettings:
+    """Widths are taken up to ``band``, a share of the foot's length, over a section's lowest point:
+    ankles stand out above it.
     """
 
     band: float = 0.15
 
 
-OVERLAY = OverlaySettings()
-CUT = "at the {place} the section runs out of the {who}'s top, or is open"
-
-
-@dataclass(frozen=True, slots=True)
-class SectionSizes:
-    """What is measured of one section; ``medial`` and ``lateral`` are the edges' places across."""
-
-    width: MeasureValue
-    medial: MeasureValue
-    lateral: MeasureValue
-    height: MeasureValue
-    girth: MeasureValue
+SECTIONS = SectionSettings()
+SIZES = ("width", "medial", "lateral", "height", "girth")
+"""What is measured of a section; "medial" and "lateral" are the edges' places across."""
+CUT = "at the {place} the section runs out of the {kind}'s top, or is open"
 
 
 @dataclass(frozen=True, slots=True)
 class SectionPair:
-    """Foot and last cut by one plane: their outlines as (across, up), + across is medial."""
+    """Foot and last, cut by one plane: their outlines as (across, up), + across is medial.
+
+    ``foot_sizes`` and ``last_sizes`` are by name, in the order of ``SIZES``.
+    """
 
     station: Station
     x_mm: float
     foot: Outline
     last: Outline
-    foot_sizes: SectionSizes
-    last_sizes: SectionSizes
+    foot_sizes: dict[str, MeasureValue]
+    last_sizes: dict[str, MeasureValue]
 
 
 def section_pairs(
-    foot: Shape, last: Shape, settings: OverlaySettings = OVERLAY
+    foot: Shape, last: Shape, settings: SectionSettings = SECTIONS
 ) -> tuple[SectionPair, ...]:
-    """The sections of a docked foot and its last at every station."""
+    """The sections of a foot and the last around it, at every station."""
     return tuple(_pair(foot, last, station, settings) for station in STATIONS)
 
 
-def _pair(foot: Shape, last: Shape, station: Station, settings: OverlaySettings) -> SectionPair:
+def _pair(foot: Shape, last: Shape, station: Station, settings: SectionSettings) -> SectionPair:
     origin, axes = _plane(foot, station)
-    cuts = [shape.cut(origin, axes) for shape in (foot, last)]
     band_mm = settings.band * foot.length_mm
-    sizes = [
-        _sizes(shape, cut, station, band_mm) for shape, cut in zip((foot, last), cuts, strict=True)
-    ]
-    return SectionPair(station, float(origin[0]), cuts[0], cuts[1], sizes[0], sizes[1])
+    ours, theirs = foot.cut(origin, axes), last.cut(origin, axes)
+    return SectionPair(
+        station=station,
+        x_mm=float(origin[0]),
+        foot=ours,
+        last=theirs,
+        foot_sizes=_sizes(foot, ours, station, band_mm),
+        last_sizes=_sizes(last, theirs, station, band_mm),
+    )
 
 
 def _plane(foot: Shape, station: Station) -> tuple[Floats, Floats]:
@@ -97,24 +94,20 @@ def _plane(foot: Shape, station: Station) -> tuple[Floats, Floats]:
     return np.array([foot.x_mm(station.share), 0.0, 0.0]), AXES[1:]
 
 
-def _sizes(shape: Shape, cut: Outline, station: Station, band_mm: float) -> SectionSizes:
-    """Widths from the band over the sole; height and girth where the section is whole."""
-    who, points = shape.kind, cut.points
+def _sizes(
+    shape: Shape, section: Outline, station: Station, band_mm: float
+) -> dict[str, MeasureValue]:
+    """Widths from the band over the sole; height and girth only of a whole section."""
+    points = section.points
     if not len(points):
-        return SectionSizes(*[MeasureValue(None, f"the {who} does not reach so far")] * 5)
+        missing = MeasureValue(None, f"the {shape.kind} does not reach so far")
+        return dict.fromkeys(SIZES, missing)
     low = points[points[:, 1] <= points[:, 1].min() + band_mm, 0]
     medial, lateral = float(low.max()), float(low.min())
-    return SectionSizes(
-        width=MeasureValue(medial - lateral),
-        medial=MeasureValue(medial),
-        lateral=MeasureValue(lateral),
-        height=_whole(shape, cut, station, lambda: float(np.ptp(points[:, 1]))),
-        girth=_whole(shape, cut, station, lambda: hull_girth(points)),
-    )
-
-
-def _whole(shape: Shape, cut: Outline, station: Station, size: Callable[[], float]) -> MeasureValue:
-    """A size that only a section has that does not run out of the leg or over a last's top."""
-    if shape.topped(cut):
-        return MeasureValue(None, CUT.format(who=shape.kind, place=station.name))
-    return MeasureValue(size())
+    height = MeasureValue(float(np.ptp(points[:, 1])))
+    girth = MeasureValue(hull_girth(points))
+    if shape.topped(section):
+        cut = CUT.format(kind=shape.kind, place=station.name)
+        height = girth = MeasureValue(None, cut)
+    values = (MeasureValue(medial - lateral), MeasureValue(medial), MeasureValue(lateral))
+    return dict(zip(SIZES, (*values, height, girth), strict=True))

@@ -1,8 +1,8 @@
 """Shoe sizes from a foot's length, and a last's label against its geometry.
 
 Sources: [iso9407] for Mondopoint, [iso19407] for the conversions; ``docs/fit.md`` has the table.
-A size is ``(foot length + base) / step``. Lasts are longer than the feet they are for: the
-allowance is part of the system, since labels grew with the lasts.
+A size is ``(foot length - zero) / step``. A last is longer than the foot it is made for, and by how
+much is part of the system.
 """
 
 from __future__ import annotations
@@ -14,18 +14,18 @@ from dataclasses import dataclass
 PARIS_POINT_MM = 20.0 / 3.0
 BARLEYCORN_MM = 25.4 / 3.0
 LABEL_TOLERANCE_SIZES = 1.0
-"""A label further from its length than this is said to be off."""
+"""A label that is further off its last's length than this is reported."""
 
 
 @dataclass(frozen=True, slots=True)
 class SizeSystem:
     """One system: ``exact = (foot length - zero_mm) / step_mm``.
 
-    ``grid`` is the step in which sizes are sold, ``child_below`` the size under which it is a
-    child's; ``child_add`` is what a child's own numbering is ahead by, None where there is one
-    scale for all. ``least`` and ``largest`` bound what is made. ``allowance_mm`` is how much longer
-    a last of the size is than the foot, from and to. ``numbers_per_size`` is how far apart the
-    labels of two whole sizes are.
+    ``grid`` is the step in which sizes are sold. A size under ``child_below`` is a child's;
+    ``child_add`` is by how much the children's own numbers are higher, None if all have one scale.
+    ``least`` and ``largest`` are the smallest and the largest size made. ``allowance_mm`` is how
+    much longer a last of the size is than the foot, from and to. ``numbers_per_size`` is how far
+    apart the labels of two whole sizes are.
     """
 
     name: str
@@ -99,8 +99,9 @@ ALIASES = {"us": "us-men", "fr": "eu", "paris": "eu", "mondo": "mondopoint", "gb
 class Size:
     """A foot's size in one system.
 
-    ``exact`` is the formula's number, ``nearest`` the size as sold, in ``words``; ``beside`` are
-    the next smaller and larger, in words. ``within`` False: the system has no such size.
+    ``exact`` is the formula's number, ``nearest`` the nearest size that is sold, also in ``words``;
+    ``beside`` are the next smaller and larger, in words. ``within`` is False if no such size is
+    made.
     """
 
     system: str
@@ -114,8 +115,8 @@ class Size:
 
 @dataclass(frozen=True, slots=True)
 class LabelCheck:
-    """A last's label against its length: ``by_length`` is the size that its length has, ``off``
-    the label minus that in whole sizes; + is labelled larger than it is.
+    """A last's label against its length: ``by_length`` is the size that its length has, and ``off``
+    the label minus that, in whole sizes; + means that the label is too large.
     """
 
     system: str
@@ -143,7 +144,7 @@ def system_named(name: str | None) -> SizeSystem | None:
 
 
 def exact_size(foot_length_mm: float, system: SizeSystem) -> float:
-    """The formula's number, unrounded, on the adults' scale.
+    """The formula's number for a foot of this length (mm), unrounded, on the adults' scale.
 
     Examples
     --------
@@ -169,25 +170,24 @@ def foot_size(foot_length_mm: float, system: SizeSystem) -> Size:
     'over EU 52, the largest made'
     """
     exact = exact_size(foot_length_mm, system)
-    steps = _nearest_step(exact, system.grid)
-    nearest = steps * system.grid
+    nearest = _nearest_sold(exact, system)
+    smaller, words, larger = (
+        size_words(nearest + step * system.grid, system) for step in (-1.0, 0.0, 1.0)
+    )
     return Size(
         system=system.name,
         exact=exact,
         nearest=nearest,
-        words=size_words(nearest, system),
-        beside=(
-            size_words(nearest - system.grid, system),
-            size_words(nearest + system.grid, system),
-        ),
+        words=words,
+        beside=(smaller, larger),
         child=nearest < system.child_below,
         within=system.least <= nearest <= system.largest,
     )
 
 
-def _nearest_step(exact: float, grid: float) -> int:
-    """The nearest whole number of steps; half-way goes up, since a shoe is better long."""
-    return math.floor(exact / grid + 0.5 + 1e-9)
+def _nearest_sold(exact: float, system: SizeSystem) -> float:
+    """The nearest size that is sold; half-way goes up, since a shoe is better too long."""
+    return math.floor(exact / system.grid + 0.5 + 1e-9) * system.grid
 
 
 def foot_sizes(foot_length_mm: float) -> tuple[Size, ...]:
@@ -205,22 +205,14 @@ def size_words(size: float, system: SizeSystem) -> str:
     >>> size_words(7.5, SYSTEMS["us-men"]), size_words(0.5, SYSTEMS["uk"])
     ('US men 7.5', "UK child's 13.5")
     """
+    child_add = system.child_add or 0.0
     if size < system.least:
-        return f"under {system.title} child's {_number(_own(system.least, system))}, the least made"
+        return f"under {system.title} child's {system.least + child_add:g}, the least made"
     if size > system.largest:
-        return f"over {system.title} {_number(system.largest)}, the largest made"
-    if size >= system.child_below:
-        return f"{system.title} {_number(size)}"
-    return f"{system.title} child's {_number(_own(size, system))}"
-
-
-def _own(size: float, system: SizeSystem) -> float:
-    """A child's size in the children's own numbers."""
-    return size + (system.child_add or 0.0)
-
-
-def _number(size: float) -> str:
-    return f"{size:g}"
+        return f"over {system.title} {system.largest:g}, the largest made"
+    if size < system.child_below:
+        return f"{system.title} child's {size + child_add:g}"
+    return f"{system.title} {size:g}"
 
 
 _LABEL = re.compile(r"\s*(\d+(?:[.,]\d+)?)\s*(1/2|½)?\s*([cky])?\s*", re.IGNORECASE)
@@ -229,7 +221,7 @@ _LABEL = re.compile(r"\s*(\d+(?:[.,]\d+)?)\s*(1/2|½)?\s*([cky])?\s*", re.IGNORE
 def label_check(
     label: str | None, system_name: str | None, last_length_mm: float | None
 ) -> LabelCheck | None:
-    """A last's label against its length; None where the label or its system says no number, or
+    """A last's label against its length (mm); None if the label or its system says no number, or if
     the length is not known.
 
     A label that can be an adult's or a child's counts as the one that is nearer to the length.
@@ -245,28 +237,26 @@ def label_check(
     system, size = system_named(system_name), _labelled(label)
     if system is None or size is None or last_length_mm is None:
         return None
-    value, child = size
-    meant = [] if child else [value]
-    if system.child_add is not None:
-        meant.append(value - system.child_add)
-    elif child:
-        meant.append(value)
+    number, child = size
+    as_child = number - (system.child_add or 0.0)
+    meanings = {as_child} if child or system.child_add is None else {number, as_child}
     least, most = (
-        exact_size(last_length_mm - room, system) for room in reversed(system.allowance_mm)
+        exact_size(last_length_mm - allowance, system)
+        for allowance in reversed(system.allowance_mm)
     )
-    by_length = {one: min(max(one, least), most) for one in meant}
-    nearest = min(meant, key=lambda one: (abs(one - by_length[one]), one))
+    by_length = {size: min(max(size, least), most) for size in meanings}
+    nearest = min(meanings, key=lambda size: (abs(size - by_length[size]), size))
     off = (nearest - by_length[nearest]) / system.numbers_per_size
     return LabelCheck(system.name, by_length[nearest], off)
 
 
 def _labelled(label: str | None) -> tuple[float, bool] | None:
-    """The number of a label, and whether it says that it is a child's (12C, 12K)."""
-    found = _LABEL.fullmatch(label or "")
-    if found is None:
+    """The number of a label, and whether the label says that it is a child's (12C, 12K)."""
+    parts = _LABEL.fullmatch(label or "")
+    if parts is None:
         return None
-    number = float(found[1].replace(",", ".")) + (0.5 if found[2] else 0.0)
-    return number, (found[3] or "").lower() in ("c", "k")
+    number = float(parts[1].replace(",", ".")) + (0.5 if parts[2] else 0.0)
+    return number, (parts[3] or "").lower() in ("c", "k")
 
 
 def label_words(check: LabelCheck) -> str:
@@ -278,7 +268,7 @@ def label_words(check: LabelCheck) -> str:
     'labelled 4.0 sizes smaller than its length: it is EU 42 by its length'
     """
     system = SYSTEMS[check.system]
-    nearest = _nearest_step(check.by_length, system.grid) * system.grid
+    nearest = _nearest_sold(check.by_length, system)
     word = "larger" if check.off > 0 else "smaller"
     return (
         f"labelled {abs(check.off):.1f} sizes {word} than its length: "

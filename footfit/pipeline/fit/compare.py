@@ -8,7 +8,7 @@ from pathlib import Path
 
 from footfit.catalogue.store import open_catalogue
 from footfit.geometry.fit.clearance import ZoneClearance, foot_clearance, zone_clearances
-from footfit.geometry.fit.paired_sections import SectionPair, SectionSizes, section_pairs
+from footfit.geometry.fit.paired_sections import SIZES, SectionPair, section_pairs
 from footfit.geometry.fit.placement import Placement, placed, placement
 from footfit.geometry.measures.landmarks import Shape
 from footfit.geometry.measures.measure_table import measure_named
@@ -31,8 +31,6 @@ from footfit.results import (
     SizeDifference,
 )
 
-SIZES = ("width", "medial", "lateral", "height", "girth")
-"""What is compared of each section, in this order."""
 SD_FROM = {
     "width": "heel_width",
     "medial": "heel_width",
@@ -173,23 +171,24 @@ def _section(pair: SectionPair) -> SectionComparison:
         x_mm=pair.x_mm,
         foot_outline=pair.foot.loops,
         last_outline=pair.last.loops,
-        sizes=tuple(_size(name, pair.foot_sizes, pair.last_sizes) for name in SIZES),
+        sizes=tuple(_size(name, pair.foot_sizes[name], pair.last_sizes[name]) for name in SIZES),
     )
 
 
-def _size(name: str, foot: SectionSizes, last: SectionSizes) -> SizeDifference:
+def _size(name: str, foot: MeasureValue, last: MeasureValue) -> SizeDifference:
+    """One size of a section; + is space, so a lateral edge's difference is towards -Y."""
     sd = repeatability_mm(name)
-    here, there = (_measured(getattr(sizes, name), sd) for sizes in (foot, last))
+    here, there = (_measured(value, sd) for value in (foot, last))
     if here.value is None or there.value is None:
         reason = here.reason if here.value is None else there.reason
         return SizeDifference(name, here, there, Measured(None, reason=reason))
     more = there.value - here.value
-    outward = -more if name == "lateral" else more  # the lateral edge looks towards -Y
+    outward = -more if name == "lateral" else more
     return SizeDifference(name, here, there, Measured(outward, math.hypot(sd, sd)))
 
 
-def _measured(reading: MeasureValue, sd: float) -> Measured:
-    return Measured(reading.value, None if reading.value is None else sd, reading.reason)
+def _measured(value: MeasureValue, sd: float) -> Measured:
+    return Measured(value.value, None if value.value is None else sd, value.reason)
 
 
 def repeatability_mm(size: str) -> float:

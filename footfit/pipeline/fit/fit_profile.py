@@ -1,4 +1,4 @@
-"""Fit profiles: TOML files that say what kind of shoe is fitted, shipped or the user's own."""
+"""Fit profiles: TOML files, shipped or the user's own, that say what a kind of shoe asks for."""
 
 from __future__ import annotations
 
@@ -7,6 +7,7 @@ import json
 import math
 import tomllib
 from collections.abc import Mapping
+from dataclasses import asdict, replace
 from pathlib import Path
 from typing import Any
 
@@ -35,7 +36,7 @@ def fit_profile(name_or_path: str = "walking") -> FitProfile:
     BadOption
         There is no shipped profile of that name.
     UnreadableFile, BadProfile
-        The file is not there, or says what no profile can.
+        The file is not there, or is not a fit profile.
     """
     path = Path(name_or_path)
     if path.suffix != ".toml":
@@ -51,7 +52,7 @@ def fit_profile(name_or_path: str = "walking") -> FitProfile:
 
 def _text(path: Path) -> str:
     if not path.is_file():
-        raise UnreadableFile("is not a file; name a fit profile in TOML", str(path))
+        raise UnreadableFile("is not a file; give a fit profile in TOML", str(path))
     try:
         if path.stat().st_size > LARGEST_BYTES:
             raise BadProfile("is too large for a fit profile", str(path))
@@ -68,8 +69,8 @@ def profile_of(text: str, path: str | None = None) -> FitProfile:
     Raises
     ------
     BadProfile
-        It is no TOML, lacks a key, has one too many, or a range is out of order; the line says
-        which and what to write.
+        It is not TOML, lacks a key, has an unknown key, or a range is out of order. The message
+        says which, and what to write.
     """
     try:
         table = tomllib.loads(text)
@@ -87,7 +88,8 @@ class _Wrong(Exception):
 
 
 def _profile(table: Mapping[str, Any]) -> FitProfile:
-    _known(table, TOP_KEYS, "the profile")
+    """The profile of a TOML table; raises `_Wrong`."""
+    _check_keys(table, TOP_KEYS, "the profile")
     if table.get("schema") != SCHEMA:
         raise _Wrong(f"schema must be {SCHEMA!r}; another version may read it")
     zones = table.get("zones")
@@ -96,9 +98,6 @@ def _profile(table: Mapping[str, Any]) -> FitProfile:
     if "length" not in zones:
         raise _Wrong("has no [zones.length]: the length is always judged")
     rules = {name: _rule(name, asked) for name, asked in zones.items()}
-    tie_sds = _number(table.get("tie_sds", TIE_SDS), "tie_sds")
-    if not 0.0 <= tie_sds <= 10.0:
-        raise _Wrong("tie_sds must be between 0 and 10")
     version = table.get("version", 1)
     if not isinstance(version, int) or isinstance(version, bool):
         raise _Wrong("version must be a whole number")
@@ -107,7 +106,7 @@ def _profile(table: Mapping[str, Any]) -> FitProfile:
             name=_words(table.get("name"), "name"),
             version=version,
             summary=_words(table.get("summary", "-"), "summary"),
-            tie_sds=tie_sds,
+            tie_sds=_number(table.get("tie_sds", TIE_SDS), "tie_sds", 0.0, 10.0),
             zones=tuple(rules[name] for name in ZONES if name in rules),
             sha256="",
         )
@@ -116,57 +115,53 @@ def _profile(table: Mapping[str, Any]) -> FitProfile:
 
 def _rule(name: str, asked: object) -> ZoneRule:
     """The rule of one zone's table."""
+    where = f"[zones.{name}]"
     if name not in ZONES:
-        raise _Wrong(f"[zones.{name}] is no zone; the zones are {', '.join(ZONES)}")
-    where, end = f"[zones.{name}]", UNIT_KEYS[ZONES[name].unit]
+        raise _Wrong(f"{where} is no zone; the zones are {', '.join(ZONES)}")
     if not isinstance(asked, dict):
         raise _Wrong(f"{where} must be a table")
-    keys = {f"{key}{end}" for key in ("target", "cavity", *RANGES)} | {"weight", "required"}
-    _known(asked, keys, where)
-    for key in (f"target{end}", f"good{end}", f"acceptable{end}"):
-        if key not in asked:
-            raise _Wrong(f"{where} lacks {key}")
-    target = _number(asked[f"target{end}"], f"{where} target{end}")
+    keys = {key: f"{key}{UNIT_KEYS[ZONES[name].unit]}" for key in ("target", "cavity", *RANGES)}
+    _check_keys(asked, {*keys.values(), "weight", "required"}, where)
+    for key in ("target", "good", "acceptable"):
+        if keys[key] not in asked:
+            raise _Wrong(f"{where} lacks {keys[key]}")
+    target = _number(asked[keys["target"]], f"{where} {keys['target']}")
     ranges = {
-        key: _range(asked[f"{key}{end}"], f"{where} {key}{end}")
+        key: _range(asked[keys[key]], f"{where} {keys[key]}")
         for key in RANGES
-        if f"{key}{end}" in asked
+        if keys[key] in asked
     }
-    _nested(where, target, ranges)
-    weight = _number(asked.get("weight", 1.0), f"{where} weight")
-    if not 0.0 <= weight <= 100.0:
-        raise _Wrong(f"{where} weight must be between 0 and 100")
-    required = asked.get("required", False)
-    if not isinstance(required, bool):
+    _check_nested(where, target, ranges)
+    weight = _number(asked.get("weight", 1.0), f"{where} weight", 0.0, 100.0)
+    if not isinstance(required := asked.get("required", False), bool):
         raise _Wrong(f"{where} required must be true or false")
-    poor = ranges.get("poor")
-    if name == "length":
-        poor, weight = poor or ranges["acceptable"], _length_weight(weight)
-    cavity = _number(asked.get(f"cavity{end}", 0.0), f"{where} cavity{end}")
-    good, acceptable = ranges["good"], ranges["acceptable"]
-    return ZoneRule(name, target, good, acceptable, poor, weight, required, cavity)
+    if name == "length":  # the gate: a profile cannot switch it off
+        ranges = {"poor": ranges["acceptable"]} | ranges
+        if weight == 0.0:
+            raise _Wrong(f"{where} weight must be over 0: the length is always judged")
+    return ZoneRule(
+        zone=name,
+        target=target,
+        good=ranges["good"],
+        acceptable=ranges["acceptable"],
+        poor=ranges.get("poor"),
+        weight=weight,
+        required=required,
+        cavity=_number(asked.get(keys["cavity"], 0.0), f"{where} {keys['cavity']}"),
+    )
 
 
-def _length_weight(weight: float) -> float:
-    """The length is the gate: a profile cannot switch it off."""
-    if weight == 0.0:
-        raise _Wrong("[zones.length] weight must be over 0: the length is always judged")
-    return weight
-
-
-def _nested(where: str, target: float, ranges: Mapping[str, tuple[float, float]]) -> None:
+def _check_nested(where: str, target: float, ranges: Mapping[str, tuple[float, float]]) -> None:
     """Refuse ranges that do not lie in one another."""
     inner, name = (target, target), "target"
-    for key in RANGES:
-        if key not in ranges:
-            continue
-        low, high = ranges[key]
+    for key, (low, high) in ranges.items():
         if not (low <= inner[0] and inner[1] <= high):
             raise _Wrong(f"{where}: {key} [{low:g}, {high:g}] does not hold its {name}")
         inner, name = (low, high), f"{key} range"
 
 
-def _known(table: Mapping[str, Any], keys: set[str], where: str) -> None:
+def _check_keys(table: Mapping[str, Any], keys: set[str], where: str) -> None:
+    """Refuse a key that is not known, with the nearest one that is."""
     unknown = sorted(set(table) - keys)
     if not unknown:
         return
@@ -177,16 +172,18 @@ def _known(table: Mapping[str, Any], keys: set[str], where: str) -> None:
     raise _Wrong(f"{where} has an unknown key {unknown[0]!r}; {hint}")
 
 
-def _number(value: object, where: str) -> float:
+def _number(value: object, where: str, least: float = -math.inf, most: float = math.inf) -> float:
     if isinstance(value, bool) or not isinstance(value, int | float) or not math.isfinite(value):
         raise _Wrong(f"{where} must be a number")
+    if not least <= value <= most:
+        raise _Wrong(f"{where} must be between {least:g} and {most:g}")
     return float(value)
 
 
 def _range(value: object, where: str) -> tuple[float, float]:
     if not isinstance(value, list) or len(value) != 2:
         raise _Wrong(f"{where} must be two numbers, such as [-5, 0]")
-    low, high = (_number(one, where) for one in value)
+    low, high = (_number(end, where) for end in value)
     if low >= high:
         raise _Wrong(f"{where} must rise: [{low:g}, {high:g}] does not")
     return low, high
@@ -200,8 +197,6 @@ def _words(value: object, where: str) -> str:
 
 def _hashed(profile: FitProfile) -> FitProfile:
     """The profile with the hash of its values."""
-    from dataclasses import asdict, replace
-
     values = {key: value for key, value in asdict(profile).items() if key != "sha256"}
     text = json.dumps(values, sort_keys=True, ensure_ascii=False)
     return replace(profile, sha256=hashlib.sha256(text.encode("utf-8")).hexdigest())

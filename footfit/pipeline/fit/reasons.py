@@ -1,4 +1,4 @@
-"""A fit in words: one plain sentence a last, in terms of zone and mm."""
+"""A fit in words: one plain sentence for each last, with zones and mm."""
 
 from __future__ import annotations
 
@@ -10,24 +10,9 @@ from footfit.pipeline.fit.zones import ZONES
 from footfit.results import Notice, Profiled, ZoneFit, ZoneRule
 
 WORTH_SAYING = 0.5
-"""The score from which a zone is worth a word: half-way to the edge of good."""
+"""The score from which on a zone is named: half-way to the edge of good."""
 DEFAULT_SYSTEM = "eu"
 UNIT_WORDS = {"mm": " mm", "deg": " deg", "percent": " %", "ratio": ""}
-
-
-def length_words(clearance_mm: float, target_mm: float) -> str:
-    """The length clearance in words.
-
-    Examples
-    --------
-    >>> length_words(12.6, 13.0)
-    '12.6 mm toe room (asked 13)'
-    >>> length_words(-4.0, 13.0)
-    '4.0 mm shorter than the foot'
-    """
-    if clearance_mm < 0:
-        return f"{-clearance_mm:.1f} mm shorter than the foot"
-    return f"{clearance_mm:.1f} mm toe room (asked {target_mm:g})"
 
 
 def flare_words(delta_deg: float, sd_deg: float) -> str:
@@ -42,9 +27,8 @@ def flare_words(delta_deg: float, sd_deg: float) -> str:
     """
     if abs(delta_deg) <= sd_deg:
         return "turns inward as the foot does"
-    return (
-        f"turns {abs(delta_deg):.1f} deg {'more' if delta_deg > 0 else 'less'} inward than the foot"
-    )
+    more = "more" if delta_deg > 0 else "less"
+    return f"turns {abs(delta_deg):.1f} deg {more} inward than the foot"
 
 
 def zone_words(zone: str, clearance: float, target: float, sd: float = 0.0) -> str:
@@ -52,15 +36,19 @@ def zone_words(zone: str, clearance: float, target: float, sd: float = 0.0) -> s
 
     Examples
     --------
+    >>> zone_words("length", 12.6, 13.0), zone_words("length", -4.0, 13.0)
+    ('12.6 mm toe room (asked 13)', '4.0 mm shorter than the foot')
     >>> zone_words("ball_girth", -3.0, 0.0), zone_words("ball_line", 2.4, 0.0)
     ('ball girth 3.0 mm tighter than asked', 'ball line 2.4 % too far forward')
     """
-    if zone == "length":
-        return length_words(clearance, target)
-    if zone == "flare":
-        return flare_words(clearance, sd)
     kind, off = ZONES[zone], clearance - target
     word = kind.more if off > 0 else kind.less
+    if zone == "length" and clearance < 0:
+        return f"{-clearance:.1f} mm shorter than the foot"
+    if zone == "length":
+        return f"{clearance:.1f} mm toe room (asked {target:g})"
+    if zone == "flare":
+        return flare_words(clearance, sd)
     if kind.unit == "ratio":
         return f"{kind.label} differs by {clearance:.2f}"
     if kind.unit == "percent":
