@@ -234,16 +234,14 @@ def label_check(
     >>> label_check("38", "eu", 280.0).flagged, label_check("large", "eu", 280.0)
     (True, None)
     """
-    system, size = system_named(system_name), _labelled(label)
-    if system is None or size is None or last_length_mm is None:
+    system, labelled = system_named(system_name), _labelled(label)
+    if system is None or labelled is None or last_length_mm is None:
         return None
-    number, child = size
+    number, child = labelled
     as_child = number - (system.child_add or 0.0)
     meanings = {as_child} if child or system.child_add is None else {number, as_child}
-    least, most = (
-        exact_size(last_length_mm - allowance, system)
-        for allowance in reversed(system.allowance_mm)
-    )
+    shortest, longest = system.allowance_mm
+    least, most = (exact_size(last_length_mm - mm, system) for mm in (longest, shortest))
     by_length = {size: min(max(size, least), most) for size in meanings}
     nearest = min(meanings, key=lambda size: (abs(size - by_length[size]), size))
     off = (nearest - by_length[nearest]) / system.numbers_per_size

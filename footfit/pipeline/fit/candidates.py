@@ -1,4 +1,4 @@
-"""Which lasts a question is asked of: the filters, and what they mean where nothing has them."""
+"""The candidate lasts of a question, by the filters given."""
 
 from __future__ import annotations
 
@@ -12,28 +12,29 @@ from footfit.results import Library, Notice
 
 
 def choice(path: Path, style: str | None, size_system: str | None) -> Library:
-    """The lasts to match against. A size system that no last is labelled in is the customer's
-    own: all lasts are then ranked, and that is said.
+    """The lasts to match against.
+
+    If no last is labelled in the size system, it is only how the customer's sizes are shown: all
+    lasts are ranked, with a notice.
 
     Raises
     ------
     NoCatalogue, EmptyCatalogue
-        There is nothing to match against; the message says what to type.
+        There is nothing to match against. The message says what to type.
     BadOption
         Neither footfit nor any last's label knows the size system.
     """
-    found = library(path, style, size_system)
+    chosen = library(path, style, size_system)
     system = system_named(size_system)
-    if found.lasts or size_system is None:
-        return found
+    if chosen.lasts or size_system is None:
+        return chosen
     if system is None:
         if style is not None and library(path, None, size_system).lasts:
-            return found
-        known = ", ".join(SYSTEMS)
-        words = f"no size system is named {size_system!r}, nor is a last labelled in it"
-        raise BadOption(f"{words}; there are {known}")
+            return chosen
+        words = f"no size system is named {size_system!r}, and no last is labelled in it"
+        raise BadOption(f"{words}; there are {', '.join(SYSTEMS)}")
     everything = library(path, style, None)
     if not everything.lasts:
-        return found
-    words = f"no last is labelled in {SYSTEMS[system.name].title} sizes: all systems are ranked"
+        return chosen
+    words = f"no last is labelled in {system.title} sizes: lasts of all systems are ranked"
     return replace(everything, warnings=(*everything.warnings, Notice("other_systems", words)))
