@@ -63,7 +63,7 @@ def test_the_lid_is_a_lasts_cone_top_whatever_the_noise() -> None:
     noisy = Shape(white_noise(shape.vertices_mm, np.random.default_rng(1), 0.3), shape.faces)
     top_mm = shape.vertices_mm[:, 2].max()
     for one in (shape, noisy):
-        lid_mm = one.vertices_mm[one.faces[one.lid]].mean(axis=1)[:, 2]
+        lid_mm = one.vertices_mm[one.faces[one.top_cut]].mean(axis=1)[:, 2]
         assert len(lid_mm) > 20
         assert np.mean(lid_mm > top_mm - 12.0) > 0.9
 
@@ -71,7 +71,7 @@ def test_the_lid_is_a_lasts_cone_top_whatever_the_noise() -> None:
 def test_a_cut_that_is_left_open_has_no_lid_but_a_gap() -> None:
     vertices, faces = leg_cut(last().vertices_mm, last().faces, 60.0)
     shape = Shape(vertices, faces)
-    assert not shape.lid.any()
+    assert not shape.top_cut.any()
     assert shape.opened(shape.across(0.2))
     assert not shape.opened(shape.across(0.8))
 
@@ -92,7 +92,7 @@ def test_a_leg_that_is_cut_is_closed_by_its_lid_and_no_dorsum(thinning: float) -
     if thinning > 1.0:
         vertices, faces = decimated(vertices, faces, thinning)
     shape = Shape(vertices, faces)
-    lid, cut = shape.faces[shape.lid], whole.faces[whole.lid]
+    lid, cut = shape.faces[shape.top_cut], whole.faces[whole.top_cut]
     assert face_areas(vertices, lid).sum() == pytest.approx(
         face_areas(whole.vertices_mm, cut).sum(), rel=0.1
     )

@@ -113,7 +113,7 @@ def foot_clearance(foot: Shape, last: Shape, settings: ClearanceSettings = CLEAR
     compared = in_shoe(foot, settings)
     clearance_mm = np.full(len(foot.vertices_mm), np.nan)
     clearance_mm[compared] = signed_clearance(
-        foot.vertices_mm[compared], last.vertices_mm, last.faces, last.lid
+        foot.vertices_mm[compared], last.vertices_mm, last.faces, last.top_cut
     )
     return clearance_mm
 
@@ -125,7 +125,7 @@ def in_shoe(foot: Shape, settings: ClearanceSettings = CLEARANCE) -> Bools:
     limit = np.interp(at, share, height, right=np.inf) * foot.length_mm
     inside = foot.vertices_mm[:, 2] <= limit
     used = np.zeros(len(inside), dtype=bool)
-    used[foot.faces[~foot.lid]] = True
+    used[foot.faces[~foot.top_cut]] = True
     return np.asarray(inside & used)
 
 

@@ -18,8 +18,8 @@ def bottom_curvature(
     """Curvature times length of one longitudinal curve of the bottom, (stations,).
 
     The curve is the depth of each section at ``place`` of its width from the medial side; + is
-    convex, as on a ball of the foot. The line from seat to ball is taken out, so that a heel's
-    pitch does not shrink what the curve bends.
+    convex, as at the ball of a foot. The line from seat to ball is subtracted first, so that the
+    pitch of a heel does not make the bend smaller.
 
     Parameters
     ----------
@@ -32,8 +32,8 @@ def bottom_curvature(
     Returns
     -------
     (stations,) or None
-        None where less than ``found_least`` of the sections have a bottom there: a surface
-        that looks down.
+        None if less than ``found_least`` of the sections have a bottom there: a surface that looks
+        down.
     """
     bands = line.bands
     where = (1.0 - 2.0 * place) * bands.half_width + bands.offset

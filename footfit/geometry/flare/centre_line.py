@@ -1,8 +1,8 @@
 """The centre line of a bottom: in every section normal to it, it lies midway between the edges.
 
-The line is a cubic spline y(x), and the condition is solved by Gauss-Newton steps: the sections
-are cut across the line of the step before, and a step knows that a turned section meets the
-outline elsewhere. Cutting across X instead reads the bend of a flared last a quarter too low.
+The line is a cubic spline y(x). The condition is solved by Gauss-Newton steps: each step cuts the
+sections across the line of the step before, and takes into account that a turned section meets the
+outline at another place. Sections across X instead would give a quarter too little bend.
 
 Lengths are shares of L throughout.
 """
@@ -39,10 +39,11 @@ class _Graph:
 
 @dataclass(frozen=True, slots=True)
 class Bands:
-    """The sections of the last pass: ``across`` and ``height`` (m, 2) in their planes.
+    """The sections of the last step: ``across`` and ``height`` (m, 2) in their planes.
 
-    ``x`` (k,) where the line meets them, ``floor`` their lowest points, ``offset`` the mid-points
-    over the line and ``half_width``; NaN where a section has no band.
+    ``x`` (k,) is where the line meets them, ``floor`` (k,) their lowest points. ``offset`` (k,) is
+    how far the mid-points lie beside the line, ``half_width`` (k,) half the widths; NaN where a
+    section has no band.
     """
 
     segments: Segments
@@ -56,12 +57,13 @@ class Bands:
 
 @dataclass(frozen=True, slots=True)
 class CentreLine:
-    """y(x) = cubic splines with these ``coefficients``, tabulated for reading.
+    """The line: cubic splines y(x) with these ``coefficients``, and a table of it.
 
-    ``x``, ``y``, ``slope`` (g,) and ``station`` (g,), the share of the line's own length between
-    the ends of the shape; ``arc_length`` is that length. ``response`` (splines, k) says how the
-    coefficients follow the mid-points of the ``bands``, ``scatter`` (k,) is what the line leaves
-    of them (0 where there is none), ``freedom`` how many of them it leaves free.
+    The table is ``x``, ``y``, ``slope`` (g,) and ``station`` (g,), the share of the line's own
+    length between the ends of the shape; ``arc_length`` is that length. ``response`` (splines, k)
+    says how the coefficients follow the mid-points of the ``bands``. ``scatter`` (k,) is how far
+    the mid-points lie beside the line (0 where there is none), and ``freedom`` how many of them the
+    line leaves free.
     """
 
     coefficients: Floats
@@ -117,9 +119,9 @@ def centre_line(shape: BottomShape, definition: FlareDefinition) -> CentreLine:
 
 @dataclass(frozen=True, slots=True)
 class _Axis:
-    """The line of ``coefficients`` that ``bands`` are normal to, and what they say of it.
+    """The line of ``coefficients`` that ``bands`` are normal to, and how the bands lie beside it.
 
-    ``offset`` (k,) are the mid-points' offsets, 0 where not ``seen``; ``design`` (k, splines) how
+    ``offset`` (k,) are the mid-points' offsets, 0 if not ``seen``; ``design`` (k, splines) is how
     they follow the coefficients.
     """
 
@@ -167,7 +169,7 @@ def _seen(bands: Bands, definition: FlareDefinition) -> Bools:
     seen = np.isfinite(bands.offset)
     if seen.mean() < definition.found_least:
         raise HalfScan(
-            f"the bottom can be followed over {100 * seen.mean():.0f} % of the length only: "
+            f"the scan shows only {100 * seen.mean():.0f} % of the bottom's length: "
             "scan the whole foot again"
         )
     return seen
@@ -176,8 +178,8 @@ def _seen(bands: Bands, definition: FlareDefinition) -> Bools:
 def _stiffness(order: int, strength: float, definition: FlareDefinition) -> Floats:
     """Rows that penalise the mean square of a spline's derivative of this order.
 
-    Beyond ``toe_from`` they weigh ``toe_stiffness`` times as much: a section that steps from one
-    toe to the next would turn the line, and a turned line steps over more toes.
+    In front of ``toe_from`` they weigh ``toe_stiffness`` times as much. There a section may step
+    from one toe to the next, which turns the line, and a turned line steps over more toes.
     """
     pieces = definition.splines - 3
     rows = np.diff(np.eye(definition.splines), order, axis=0) * float(pieces) ** order
@@ -202,7 +204,7 @@ def _normal_bands(
     across = across - run[:, :, 0] * normals[segments.plane, 1, None]
     height = segments.points[:, :, 2]
     floor = lowest(height, segments)
-    # Over a gap in the sole the lowest thing is a leg: no band.
+    # At a gap in the sole the lowest part is a leg, which is not a band.
     limit = np.where(floor <= definition.length_height, floor + definition.band_height, np.nan)
     least, most = band_edges(across, height, limit, segments, definition.edge_depth)
     return Bands(
@@ -263,8 +265,8 @@ def _tabulated(
 def _exit(shape: BottomShape, graph: _Graph, at: float) -> float:
     """The x at which the line, straight on from x = ``at``, leaves the shape.
 
-    It is cut exactly along the line: the outermost point of a square toe lies elsewhere, as
-    soon as the line points a degree or two aside.
+    The shape is cut exactly along the line. The outermost point of a square toe is at another
+    place if the line points a degree or two aside.
     """
     y, slope = (float(np.interp(at, graph.x, values)) for values in (graph.y, graph.slope))
     ahead = np.array([1.0, slope, 0.0]) / np.hypot(1.0, slope)

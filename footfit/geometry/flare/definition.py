@@ -11,11 +11,11 @@ CHANNELS = ("plan", "bottom_20", "bottom_50", "bottom_80", "bottom_surface")
 
 @dataclass(frozen=True, slots=True)
 class FlareDefinition:
-    """All parameters of the flare profile: profiles compare only where every one is equal.
+    """All parameters of the flare profile. Two profiles compare only if all these are equal.
 
     Lengths are shares of the shape's length L, stations are shares of the centre line's own
     length (0 heel, 1 toe), headings and angles are degrees. ``docs/flare.md`` explains each.
-    The last block says how finely the same things are solved for and integrated.
+    The last block says how finely these things are solved and integrated.
 
     Examples
     --------
@@ -27,22 +27,22 @@ class FlareDefinition:
     version: str = "flare/1"
 
     # The band that counts as the bottom, and its edges.
-    length_height: float = 0.30  # L is the extent along x of what lies lower
+    length_height: float = 0.30  # L is the extent along x of the part that lies lower
     band_height: float = 0.10  # over each section's own lowest point: a raised heel has one too
-    edge_depth: float = 0.01  # an edge is the mean of what is not further inside than this
+    edge_depth: float = 0.01  # an edge is the mean of the outermost part, as deep as this
 
     # Where a shape stands: it is turned about x until these are level across.
     seat: tuple[float, float] = (0.08, 0.18)
     tread: tuple[float, float] = (0.64, 0.76)
     level_rounds: int = 10
     level_settled: float = 5e-5  # radians: 0.003 degrees
-    level_gain: tuple[float, float] = (0.3, 1.5)  # of a step: what it may be taken for
+    level_gain: tuple[float, float] = (0.3, 1.5)  # limits of a step's estimated gain
 
     # The centre line: cubic splines, the mid-points of the bands normal to it.
     sections: int = 180  # as many again move feet by 0.07 degrees RMS: where toes begin
     sections_from: float = 0.03
     sections_to: float = 0.96
-    trusted_to: float = 0.88  # beyond, a section's weight falls: toes end one by one
+    trusted_to: float = 0.88  # in front, a section's weight falls: toes end one by one
     trust_bandwidth: float = 0.04
     splines: int = 20
     axis_stiffness: float = 3e-6  # of the axis that the sections are cut across (2nd differences)
@@ -53,7 +53,7 @@ class FlareDefinition:
     settled: float = 2e-4  # the axis is settled when nothing moves more
     passes: int = 10
     full_steps: int = 4  # then half steps: a foot's toes can make whole ones swing for ever
-    straight_ends: tuple[float, float] = (0.05, 0.95)  # before and beyond, the line goes straight
+    straight_ends: tuple[float, float] = (0.05, 0.95)  # outside these the line is straight
     found_least: float = 0.6  # share of sections that must exist for a channel to be measured
 
     # What is read from it.
@@ -79,7 +79,7 @@ class FlareDefinition:
     last_straight_deg: tuple[float, float] = (4.0, 12.0)
     foot_straight_deg: tuple[float, float] = (11.5, 18.5)
 
-    # The angle's uncertainty: the scatter of the mid-points, and what scatter does not show.
+    # The angle's uncertainty: the scatter of the mid-points, and the frame's own.
     scatter_bandwidth: float = 0.02
     scatter_lags: int = 2
     frame_sd_deg: float = 0.05  # a frame wrong by half a degree of yaw: benchmarks/flare.py

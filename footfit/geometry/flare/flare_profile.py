@@ -44,7 +44,7 @@ def flare_profile(
     Raises
     ------
     HalfScan
-        The bottom cannot be followed over enough of the length.
+        The scan does not show enough of the bottom's length.
     """
     definition = FlareDefinition() if definition is None else definition
     shape = bottom_shape(vertices_mm, faces, definition)
@@ -100,10 +100,10 @@ def _flare_angle(line: CentreLine, definition: FlareDefinition) -> tuple[float, 
 def _angle_sd(line: CentreLine, gradient_deg: Floats, definition: FlareDefinition) -> float:
     """The angle's standard deviation, carried from how the mid-points scatter around the line.
 
-    The angle is linear in the mid-points near the solution. Of what the line leaves of them only
-    the part shorter than ``scatter_bandwidth`` is scatter: a toe is longer, and comes again in
-    the next scan. Neighbours share vertices, so that their products count too up to
-    ``scatter_lags`` sections apart, with falling weights (which keep the variance positive).
+    Near the solution the angle is linear in the mid-points. Their offsets from the line are scatter
+    only if they vary over less than ``scatter_bandwidth``: a toe is longer, and the next scan shows
+    it again. Neighbours share vertices, so their products count too, up to ``scatter_lags``
+    sections apart. The weights fall with the lag, which keeps the variance positive.
     """
     smooth, _ = local_quadratic(line.bands.x, line.bands.x, definition.scatter_bandwidth)
     rough = line.scatter - smooth @ line.scatter

@@ -1,4 +1,4 @@
-"""How far two flare profiles are apart, in units of what a rescan of one shape differs."""
+"""The distance of two flare profiles, in units of the difference of two scans of one shape."""
 
 from __future__ import annotations
 
@@ -16,9 +16,9 @@ class DistanceSettings:
     """Which stations count, and each channel's weight and repeatability, in CHANNELS' order.
 
     ``sd`` is the root mean square by which a channel differs between two scans of one shape
-    (dimensionless): the table of docs/flare.md, made by benchmarks/flare.py. The weights sum to 1
-    and are set so that between lasts the plan counts a little more than the bottom curves
-    together, and these more than the surface: by repeatability alone heel heights would drown it.
+    (dimensionless): the table of docs/flare.md, made by benchmarks/flare.py. The weights sum to 1.
+    With them the plan counts a little more between lasts than the bottom curves together, and these
+    more than the surface. By repeatability alone, heel heights would outweigh the plan.
     """
 
     stations: tuple[float, float] = (0.08, 0.80)
@@ -33,7 +33,7 @@ DISTANCE = DistanceSettings()
 class ProfileDistances:
     """Distances of one profile to k others: ``total`` (k,) is D, ``parts`` (k,) sum to D^2.
 
-    A part is NaN where a channel is missing from either profile; the others then carry its weight.
+    A part is NaN if either profile lacks the channel; the other channels then get its weight.
     """
 
     total: Floats

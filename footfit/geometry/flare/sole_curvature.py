@@ -1,11 +1,11 @@
 """The sole's mean curvature along the centre line: III.C, pooled over a stretch of sole.
 
-Twice the mean curvature is the divergence of the surface's normal. Averaged with a smooth weight
-that vanishes at the edges of the stretch, the divergence theorem moves the derivative from the
+Twice the mean curvature is the divergence of the surface's normal. It is averaged with a smooth
+weight that is 0 at the edges of the stretch. The divergence theorem moves the derivative from the
 noisy normals to the weight: the average is a sum of the faces' area vectors times the weight's
-gradient. So noise cancels, no neighbourhood is searched, and a subdivided facet says the same.
-One ring of concentrated curvatures, or normals fitted over a radius and then averaged, cost ten
-times as much for the same station means (docs/decisions/0031).
+gradient. So noise cancels, no neighbourhood is searched, and a subdivided facet gives the same.
+One ring of concentrated curvatures, or normals that are fitted over a radius and then averaged,
+cost ten times as much for the same station means (docs/decisions/0031).
 """
 
 from __future__ import annotations
@@ -32,8 +32,8 @@ def surface_curvature_profile(
     Returns
     -------
     (stations,) or None
-        None where less than ``found_least`` of the stations have a sole: a surface in the band
-        that looks down.
+        None if less than ``found_least`` of the stations have a sole: a surface in the band that
+        looks down.
     """
     points, vectors = _sole(shape, line, definition)
     if len(points) == 0:
@@ -121,17 +121,17 @@ def _window(points: Floats, line: CentreLine, definition: FlareDefinition) -> _W
     return _Window(inward**2 * fade, along, across, station, station_slope)
 
 
-def _fading(station: Floats, zero: float, one: float) -> tuple[Floats, Floats]:
+def _fading(station: Floats, start: float, end: float) -> tuple[Floats, Floats]:
     """A smooth rise from 0 to 1 at the heel, the same fall at the toe, and the slope."""
     at_heel = station < 0.5
     inward = np.where(at_heel, station, 1.0 - station)
-    t = np.clip((inward - zero) / (one - zero), 0.0, 1.0)
-    slope = 6.0 * t * (1.0 - t) / (one - zero)
+    t = np.clip((inward - start) / (end - start), 0.0, 1.0)
+    slope = 6.0 * t * (1.0 - t) / (end - start)
     return t**2 * (3.0 - 2.0 * t), np.where(at_heel, slope, -slope)
 
 
 def _binned(where: Floats, amounts: Floats, grid: Floats) -> Floats:
-    """Amounts (k, c) shared out to the two nearest points of an even grid, (g, c)."""
+    """Amounts (k, c), divided between the two nearest points of an even grid, (g, c)."""
     place = np.clip((where - grid[0]) / (grid[1] - grid[0]), 0.0, len(grid) - 1.001)
     left = place.astype(np.int64)
     share = place - left

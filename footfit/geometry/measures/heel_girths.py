@@ -15,26 +15,26 @@ from footfit.geometry.numeric.arrays import Floats
 
 @dataclass(frozen=True, slots=True)
 class HeelSettings:
-    """The search for the shortest girth, over planes ever steeper than the long girth's."""
+    """The search for the shortest girth: planes through the heel's base, steeper step by step."""
 
     steepest_deg: float = 80.0
     step_deg: float = 3.0
-    beyond: float = 2.0  # steps over the last whole section where the girth may turn
-    flat: float = 0.003  # of the length: a girth that falls less from there on is the least
+    beyond: float = 2.0  # the girth may turn so many steps after the last whole section
+    flat: float = 0.003  # of the length: the last whole girth serves if the girth falls less
 
 
 HEEL = HeelSettings()
 
 
 def angle_to_deg(shape: Shape, place: Floats) -> float:
-    """How steeply a place (3,) is seen from the heel's base."""
+    """The rise from the heel's base to a place (3,), in degrees."""
     rise = place - shape.heel_base
     return float(np.degrees(np.arctan2(rise[2], rise[0])))
 
 
 def around_heel(shape: Shape, angle_deg: float) -> Outline:
-    """The section around the heel by the plane across the foot through its base, which rises
-    forward by an angle.
+    """The section by the plane across the foot through the heel's base that rises forward by an
+    angle.
     """
     angle = np.radians(angle_deg)
     forward = np.cos(angle) * AXES[0] + np.sin(angle) * AXES[2]
@@ -44,8 +44,8 @@ def around_heel(shape: Shape, angle_deg: float) -> Outline:
 def shortest_around_heel(shape: Shape, settings: HeelSettings = HEEL) -> Outline | None:
     """The section around the heel with the smallest girth.
 
-    Of a last whose cone ends before the girth grows again, the section at the cone's front edge;
-    None for a foot whose leg is cut that low.
+    If a last's cone ends before the girth grows again, it is the section at the cone's front edge.
+    None for a foot if its leg is cut too low.
     """
     edge_deg = settings.steepest_deg
     if shape.kind == "last":
@@ -67,7 +67,7 @@ def shortest_around_heel(shape: Shape, settings: HeelSettings = HEEL) -> Outline
 def _whole_girths(
     shape: Shape, steepest_deg: float, step_deg: float
 ) -> tuple[list[float], list[float]]:
-    """Angles and girths of ever steeper sections, to one that grows or is not whole."""
+    """Angles and girths of steeper and steeper sections, until one grows or is not whole."""
     angles: list[float] = []
     girths: list[float] = []
     angle = angle_to_deg(shape, shape.instep)
@@ -84,8 +84,8 @@ def _whole_girths(
 
 
 class Turn(NamedTuple):
-    """Where girths turn from falling to growing: the angle, how many steps behind the last one
-    that was tried, and how far the girth falls from there.
+    """Where girths stop falling and grow: the angle, how many steps that is after the last girth
+    that was taken, and how far the girth falls between the two.
     """
 
     angle_deg: float
@@ -94,7 +94,7 @@ class Turn(NamedTuple):
 
 
 def _turn(angles: list[float], girths: list[float]) -> Turn | None:
-    """The least of the parabola through the last three girths; None where they only fall.
+    """The least of the parabola through the last three girths; None if they only fall.
 
     Examples
     --------

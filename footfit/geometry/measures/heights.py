@@ -51,7 +51,7 @@ def toe_height(shape: Shape) -> MeasureValue:
 def toe_spring(shape: Shape) -> MeasureValue:
     """The lowest point of the section at .94 of the length, over the ground.
 
-    A foot's ground is the contact plane, a last's the ground that it stands on.
+    A foot's ground is the contact plane; a last's is the ground that it stands on.
     """
     standing = FLAT_STANCE if shape.kind == "foot" else stance(shape)
     section = shape.across(HEIGHTS.toe_spring)

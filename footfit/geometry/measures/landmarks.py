@@ -11,7 +11,7 @@ from functools import cached_property
 import numpy as np
 
 from footfit.geometry.flare.levelled_bottom import low_length
-from footfit.geometry.measures.top_cut import lid_faces
+from footfit.geometry.measures.top_cut import top_cut_faces
 from footfit.geometry.mesh.outermost_point import Tip, tip
 from footfit.geometry.mesh.outlines import Outline, outline
 from footfit.geometry.numeric.arrays import Bools, Floats, Ints
@@ -24,14 +24,14 @@ BACK_AND_DOWN = np.array([-1.0, 0.0, -1.0]) / np.sqrt(2.0)
 class LandmarkSettings:
     """Where landmarks are looked for; heights and places over the length."""
 
-    length_height: float = 0.30  # what lies higher is leg
-    width_height: float = 0.20  # over the floor; over it ankles may stand out
+    length_height: float = 0.30  # higher parts are leg
+    width_height: float = 0.20  # over the floor; above it ankles may stand out
     inner_joint: tuple[float, float] = (0.60, 0.82)  # MT1 of a foot lies at .72, MT5 at .63
     outer_joint: tuple[float, float] = (0.52, 0.76)
     joint_edge: float = 0.008  # a joint this close to the edge of its search window is rejected
     instep: float = 0.50
     cone: float = 0.15  # a place on a last's cone
-    lid_crossed: float = 0.05  # a section that runs farther over the top cut is not measured
+    top_crossed: float = 0.05  # a section that runs farther over the top cut is not measured
     gap: float = 0.03  # a section with a wider gap is not measured
 
 
@@ -147,9 +147,9 @@ class Shape:
     # ------------------------------------------------------------ the top
 
     @cached_property
-    def lid(self) -> Bools:
-        """The faces (m,) that close the shape at its top: a leg's cut, a last's cone top."""
-        return lid_faces(self.vertices_mm, self.faces, self.length_mm, self.x_mm(0.0))
+    def top_cut(self) -> Bools:
+        """Which faces (m,) close the shape at its top: a leg's cut, a last's cone top."""
+        return top_cut_faces(self.vertices_mm, self.faces, self.length_mm, self.x_mm(0.0))
 
     @cached_property
     def at_instep(self) -> Outline:
@@ -197,8 +197,8 @@ class Shape:
 
     def topped(self, section: Outline) -> bool:
         """Whether a section runs over the shape's top cut, or out of its open top."""
-        lid_mm = float(section.length_mm[self.lid[section.face]].sum())
-        return lid_mm > LANDMARKS.lid_crossed * self.length_mm or self.opened(section)
+        top_mm = float(section.length_mm[self.top_cut[section.face]].sum())
+        return top_mm > LANDMARKS.top_crossed * self.length_mm or self.opened(section)
 
     @cached_property
     def _across(self) -> dict[float, Outline]:

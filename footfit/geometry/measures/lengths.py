@@ -10,13 +10,13 @@ from footfit.geometry.measures.underside import BOTTOM, underside
 from footfit.geometry.mesh.outermost_point import tip
 
 FOREPART = 0.7
-TURNS = 2  # of the stick towards the farthest toe; the second moves it by under .01 mm
+TURNS = 2  # of the direction towards the farthest toe; the second changes it by under .01 mm
 
 
 def length(shape: Shape) -> MeasureValue:
-    """From the pternion to the foremost point along X, of what is no leg (ISO 7250-1 foot length).
+    """From the pternion to the foremost point along X, without the leg (ISO 7250-1 foot length).
 
-    The stick length of a last.
+    Of a last it is the stick length.
     """
     return MeasureValue(shape.length_mm)
 
@@ -24,7 +24,7 @@ def length(shape: Shape) -> MeasureValue:
 def functional_length(shape: Shape) -> MeasureValue:
     """From the pternion to the tip of the toe that lies farthest from it, in plan.
 
-    The toe that touches first as a shoe gets shorter, whichever way the shoe turns about the heel.
+    If a shoe is too short, this toe touches it first, whichever way the shoe turns about the heel.
     """
     start = shape.pternion[:2]
     fore = shape.low[shape.vertices_mm[shape.low[:, 0], 0] > shape.x_mm(FOREPART)]
@@ -47,10 +47,10 @@ def ball_length(shape: Shape) -> MeasureValue:
 
 
 def tape_length(shape: Shape) -> MeasureValue:
-    """Along the middle of the bottom: what a tape laid along a last's bottom reads.
+    """Along the middle of the bottom, as a tape reads that lies along a last's bottom.
 
-    The length along X, and how much longer than its own run along X the bottom's curve is. The
-    curve is smoothed first, since 0.3 mm of ripple makes any path over it one per cent longer.
+    The length along X, plus how much longer the bottom's curve is than its run along X. The curve
+    is smoothed first, since 0.3 mm of ripple makes a path over it one per cent longer.
     """
     bottom = underside(shape, BOTTOM.whole, BOTTOM.middle_places)
     if bottom is None:

@@ -1,8 +1,8 @@
 """How a last stands: the ground under it when its tread lies level.
 
-The frame rests a last on seat and ball, which is no pose that it is worn in. On its heel it stands
-so that its bottom is level at the tread, and the tread is a place of the *standing* last: the
-higher the heel, the more the rear is foreshortened. So ground and place are found together.
+The frame rests a last on its seat and its ball, but a shoe is not worn like that. On its heel, a
+last stands with its bottom level at the tread. The tread is a place along the *standing* last: the
+higher the heel, the shorter its rear seems from above. So ground and place are found together.
 """
 
 from __future__ import annotations
@@ -18,11 +18,11 @@ from footfit.geometry.numeric.arrays import Floats
 
 @dataclass(frozen=True, slots=True)
 class StanceSettings:
-    """Where the bottom lies level and how its slope there is read, over the standing length.
+    """Where the bottom lies level, and how its slope there is read; over the standing length.
 
     ``tread`` is about the middle of the joint line. The slope is that of a polynomial of
-    ``degree`` through the bottom within ``reach``, which weighs less towards its ends: a straight
-    line would take the toe spring's rise or the shank's fall for the tread's.
+    ``degree`` through the bottom within ``reach``, with less weight towards its ends. A straight
+    line would mix in the rise of the toe spring or the fall of the shank.
     """
 
     tread: float = 0.69
@@ -44,7 +44,7 @@ class Ground:
     height_mm: float = 0.0
 
     def under_mm(self, x_mm: float, z_mm: float) -> float:
-        """How far a place lies over the ground, square to it.
+        """How far a place lies over the ground, at right angles to it.
 
         Examples
         --------
@@ -74,7 +74,7 @@ def stance(shape: Shape, settings: StanceSettings = STANCE) -> Stance | None:
     Returns
     -------
     Stance or None
-        None where the bottom is open at the heel or the ball.
+        None if the bottom is open at the heel or the ball.
     """
     fore = underside(shape, settings.bottom, BOTTOM.middle_places)
     rear = underside(shape, settings.seat, BOTTOM.middle_places)
@@ -88,7 +88,7 @@ def stance(shape: Shape, settings: StanceSettings = STANCE) -> Stance | None:
 
 
 def _level_tread(bottom: Underside, start: Floats, end: Floats, settings: StanceSettings) -> Ground:
-    """The tangent of a bottom at its tread, whose place is counted along that very tangent.
+    """The tangent of a bottom at its tread; the tread's place is counted along the same tangent.
 
     ``start`` and ``end`` (2,) are the ends of the last in the side view, as (x, z).
     """
@@ -106,7 +106,7 @@ def _level_tread(bottom: Underside, start: Floats, end: Floats, settings: Stance
             at[inside],
             (side_view @ up)[inside] / length,
             settings.degree,
-            w=np.sqrt(near[inside]),  # its square weighs the squares
+            w=np.sqrt(near[inside]),  # polyfit squares the weights
         )
         touching = place * along + curve[0] * length * up
         angle += float(np.arctan(curve[1]))

@@ -1,4 +1,4 @@
-"""What closes a shape at its top: the cut of a leg, the top of a last's cone.
+"""The top cut: the flat face that closes a leg, or the top of a last's cone.
 
 Canonical mm: x from heel to toe, z up.
 """
@@ -16,24 +16,27 @@ from footfit.geometry.numeric.planes import Plane, robust_plane
 
 
 @dataclass(frozen=True, slots=True)
-class LidSettings:
-    """Where a lid is looked for and how flat it is; lengths over L, areas over L squared.
+class TopCutSettings:
+    """Where a top cut is looked for and how flat it is; lengths over L, areas over L squared.
 
     Attributes
     ----------
     height, front : float
-        A leg is cut higher than the one and behind the other.
+        A leg is cut above this height, and behind this place along X.
     facing : float
-        Cosine to Z of what looks up; the dorsum is steeper there.
+        Faces look up from this cosine to Z on; the dorsum is steeper there.
+    calm_rounds : int
+        How often the normals are calmed first: noise turns small faces of the dorsum up.
     scale, rounds : float, int
-        The plane is fitted with Cauchy weights of that width: what else looks up has none.
+        The plane is fitted with Cauchy weights of this width, so that other faces that look up have
+        almost no weight.
     thickness, flat_share : float, float
-        How far from its plane a lid's face may lie, and how much of what looks up must lie so.
+        How far from its plane a face may lie, and how much of what looks up must lie so near.
     flatness : float
-        Cosine to the plane's normal of a lid's face. At its rim a triangle's normal is drawn
-        towards the wall's by calming, the more the coarser the mesh.
+        The least cosine of a face to the plane's normal. Calming draws the normals of the faces at
+        the rim towards the wall's; the coarser the mesh, the more.
     area : float
-        A leg's cut has .05.
+        The least area; a leg's cut has .05.
     """
 
     height: float = 0.15
@@ -48,20 +51,20 @@ class LidSettings:
     area: float = 0.01
 
 
-LIDS = LidSettings()
+TOP_CUT = TopCutSettings()
 
 
-def lid_faces(
+def top_cut_faces(
     vertices: Floats,
     faces: Ints,
     length: float,
     start_x: float,
-    settings: LidSettings = LIDS,
+    settings: TopCutSettings = TOP_CUT,
 ) -> Bools:
     """The faces (m,) that close a shape at its top.
 
-    What looks up behind the bend of the ankle or, where that lies in one plane, all that lies in
-    it, at any place.
+    These are the faces that look up behind the bend of the ankle. If those lie in one plane, then
+    all faces in that plane count.
 
     Parameters
     ----------
@@ -70,12 +73,12 @@ def lid_faces(
     length, start_x : float
         The shape's length, and where it begins along X.
     """
-    found = np.zeros(len(faces), dtype=bool)
+    on_top = np.zeros(len(faces), dtype=bool)
     a, b, c = (vertices[:, 2] > settings.height * length)[faces.T]
     candidates = np.flatnonzero(a & b & c)
     high = faces[candidates]
     vectors = area_vectors(vertices, high)
-    for _ in range(settings.calm_rounds):  # else noise turns the dorsum's small faces up
+    for _ in range(settings.calm_rounds):
         vectors = calmed(vectors, high, len(vertices))
     areas = np.sqrt(np.einsum("ij,ij->i", vectors, vectors))
     middles = (vertices[high[:, 0]] + vertices[high[:, 1]]) / 3.0 + vertices[high[:, 2]] / 3.0
@@ -83,7 +86,7 @@ def lid_faces(
     behind &= vectors[:, 2] > settings.facing * areas
     total = float(areas[behind].sum())
     if total <= settings.area * length**2:
-        return found
+        return on_top
     points, share = middles[behind], areas[behind]
     normal = vectors[behind].sum(axis=0)
     normal /= np.linalg.norm(normal)
@@ -92,5 +95,5 @@ def lid_faces(
     level = np.abs(plane.heights(middles)) < settings.thickness * length
     level &= vectors @ plane.normal > settings.flatness * areas
     flat = float(areas[behind & level].sum()) > settings.flat_share * total
-    found[candidates[level if flat else behind]] = True
-    return found
+    on_top[candidates[level if flat else behind]] = True
+    return on_top

@@ -18,8 +18,8 @@ class BottomSettings:
     """Where the underside is read, over the length; ``places`` over the width, 0 lateral."""
 
     step: float = 0.015  # from section to section
-    band: float = 0.10  # over the section's lowest point: the width the places are shares of
-    reach: float = 0.30  # what lies higher is no underside
+    band: float = 0.10  # over the section's lowest point: the places are shares of its width
+    reach: float = 0.30  # higher faces are not underside
     bandwidth: float = 0.03
     whole: tuple[float, float] = (0.04, 0.96)
     arch: tuple[float, float] = (0.28, 0.62)
@@ -38,7 +38,7 @@ class Underside:
     z_mm: Floats
 
     def smooth(self, spread_mm: float) -> Underside:
-        """The same curve, smoothed by local parabolas that weigh down over ``spread_mm``."""
+        """The same curve, smoothed by local parabolas with weights that fall over ``spread_mm``."""
         return Underside(self.x_mm, local_quadratic(self.x_mm, self.x_mm, spread_mm)[0] @ self.z_mm)
 
     def line(self) -> tuple[float, float]:

@@ -21,7 +21,7 @@ class WidthSettings:
     ball: float = 0.66
     beside: tuple[float, ...] = (-0.015, 0.0, 0.015)  # sections that are averaged
     bottom_beside: tuple[float, ...] = (-0.03, -0.015, 0.0, 0.015, 0.03)
-    height: float = 0.15  # over each section's lowest point; over it ankles may stand out
+    height: float = 0.15  # over each section's lowest point; above it ankles may stand out
 
 
 WIDTHS = WidthSettings()
@@ -77,19 +77,19 @@ def _mean_width(
 
 
 def _lower_width(section: Outline, length_mm: float) -> float:
-    """The extent across of what is not high over a section's lowest point."""
+    """The extent across of the part of a section that is low (``WidthSettings.height``)."""
     points = section.points
     low = points[:, 1] < points[:, 1].min() + WIDTHS.height * length_mm
     return float(np.ptp(points[low, 0]))
 
 
 def _feather_width(section: Outline, length_mm: float) -> float:  # noqa: ARG001
-    """Between the points of a section that lines of 45 degrees touch from below on either side."""
+    """Between the two points of a section that lines of 45 degrees touch from below."""
     return _touched(section, 1.0) - _touched(section, -1.0)
 
 
 def _touched(section: Outline, side: float) -> float:
-    """Where across a section a line of 45 degrees touches it from below on one side.
+    """Where across a section a line of 45 degrees touches it from below, on one side.
 
     Between the outline's points, by the parabola through the outermost and its neighbours.
     """

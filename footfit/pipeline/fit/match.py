@@ -146,20 +146,20 @@ def _answered(
 
 
 def _refuse_unknown_length(feet: Sequence[Profiled]) -> None:
-    """Raise HalfScan for a foot that was measured and whose length was not to be had: the length
-    is the gate, and a short one would open it to lasts that are too small.
+    """Raise HalfScan for a foot without a known length: the length is the gate, and lasts that are
+    too small would pass.
     """
     for foot in feet:
-        length = next((row.measured for row in foot.measures if row.name == "length"), None)
-        if length is not None and length.value is None:
-            path = foot.aligned.alignment.info.path
-            raise HalfScan(f"{length.reason}; no last is judged without it: scan again", path)
+        alignment = foot.aligned.alignment
+        if alignment.length.value is None:
+            words = f"{alignment.length.reason}; no last is judged without it: scan again"
+            raise HalfScan(words, alignment.info.path)
 
 
 def _best_verdict(judged: JudgedLasts, ranked: Ranking) -> Verdict | None:
     """The best verdict of the ranked lasts, which need not be the first's: length comes first.
 
-    A last that a required zone could not be judged in is left out: what is not known is no pass.
+    A last without a verdict in a required zone is left out: what is not known is not a pass.
     """
     if judged.by == "shape":
         return None
@@ -288,11 +288,11 @@ def _notices(
     ]
     if judged.by == "flare":
         notices.append(
-            Notice("scale_free", "a search by flare alone cannot tell sizes apart; look at length")
+            Notice("scale_free", "a search by flare knows no size: look at the length too")
         )
     if judged.by != "shape" and "last" in kinds:
         notices.append(
-            Notice("looks_like_a_last", "its shape is nearer to a last's; --by shape finds a last")
+            Notice("looks_like_a_last", "its shape is like a last's; use --by shape for a last")
         )
     if len(feet) == 2 and len(sides) == 1:
         notices.append(Notice("same_side", f"both feet of the pair are {sides.pop()} feet"))

@@ -165,9 +165,9 @@ def _distance(
 def size_squares(mesh: Profiled, lasts: Sequence[LastRecord]) -> Floats:
     """How far each last's measures are from the mesh's, (n,), in squared standard deviations.
 
-    The square of the extents' difference, and the mean square of the differences of the other
-    measures that both have. Measures of one shape move together: they count as INDEPENDENT ones,
-    however many there are.
+    It is the square of the extents' difference plus the mean square of the other measures'
+    differences, times INDEPENDENT: the measures of one shape are not independent of each other, so
+    their number does not matter.
     """
     ours = {m.name: m for m in mesh.measures if m.name != "length"}
     squares = []
@@ -187,7 +187,7 @@ def size_squares(mesh: Profiled, lasts: Sequence[LastRecord]) -> Floats:
 
 
 def own_side(lasts: Sequence[LastRecord], side: str | None) -> list[LastRecord]:
-    """Where both sides of one last are stored, the one of the foot's own side."""
+    """The lasts, without those of the other side whose twin of the foot's own side is stored."""
     own: dict[tuple[str | None, ...], list[LastRecord]] = {}
     for last in lasts:
         if last.side.side == side:
@@ -206,7 +206,7 @@ def _labels(last: LastRecord) -> tuple[str | None, ...]:
 
 
 def _twins(last: LastRecord, other: LastRecord) -> bool:
-    """Is one the other side's last of the same model and size? Their labels are alike."""
+    """Are two lasts with the same labels the two sides of one model and size?"""
     named = last.labels.style is not None and last.labels.size is not None
     return named and abs(last.extent_mm - other.extent_mm) < TWIN_LENGTH_MM
 

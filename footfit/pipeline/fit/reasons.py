@@ -128,12 +128,13 @@ def zone_list(names: Sequence[str]) -> str:
 
 
 ONE_CUSTOMER_MM = 20.0
-"""Two feet that differ by more are hardly of one person."""
+"""Two feet whose lengths differ by more are probably not of one person."""
 
 
 def pair_notice(feet: Sequence[Profiled], system_name: str | None) -> Notice | None:
-    """How a pair differs, with advice where it is by a size or more; None for one foot, or where
-    a length is not known.
+    """How the feet of a pair differ, with advice if it is by a size or more.
+
+    None for one foot, or if a length is not known.
     """
     known = [(foot.length_mm, foot) for foot in feet if foot.length_mm is not None]
     if len(known) != 2:

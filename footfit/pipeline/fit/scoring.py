@@ -24,7 +24,7 @@ UNKNOWN_SCORE = 1.0
 
 @dataclass(frozen=True, slots=True)
 class Column:
-    """One zone of one foot; ``counts`` False where another foot governs it or its weight is 0."""
+    """One zone of one foot; ``counts`` is False if the other foot governs it or its weight is 0."""
 
     foot: int
     rule: ZoneRule

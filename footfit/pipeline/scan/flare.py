@@ -44,7 +44,7 @@ def profiled(aligned: AlignedScan, definition: FlareDefinition | None = None) ->
     SideUndecided
         Neither the user nor the shape says which side it is.
     HalfScan
-        The bottom cannot be followed over enough of the length.
+        The scan does not show enough of the bottom's length.
     """
     alignment = aligned.alignment
     if alignment.side.side is None:
