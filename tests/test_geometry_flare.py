@@ -252,7 +252,7 @@ def test_a_shape_without_a_sole_has_no_bottom_channels(usual):
 def test_half_a_last_is_refused(usual):
     vertices, faces, _ = usual
     gap = np.abs(vertices[faces, 0].mean(axis=1) - 130.0) < 75.0
-    with pytest.raises(HalfScan, match="of the bottom.s length"):
+    with pytest.raises(HalfScan, match="length: scan the whole foot again"):
         flare_profile(vertices, faces[~gap])
 
 
