@@ -16,9 +16,10 @@ from footfit.report.csv import csv_text
 from footfit.report.json import json_line
 from footfit.report.page.compare_page import compare_report
 from footfit.report.pictures import figures
+from footfit.report.pictures.figures import svg_text
 from footfit.report.pictures.heat import heat_colours
-from footfit.report.pictures.heat_figure import heat_image
-from footfit.report.pictures.plots import heat_plot, sections_plot
+from footfit.report.pictures.heat_figure import heat_bytes, heat_image
+from footfit.report.pictures.section_figure import section_figure
 from footfit.report.pictures.shading import VIEWS, Frame
 from footfit.report.pictures.sides import own_side
 from footfit.report.terminal.comparison_tables import compare_table
@@ -83,7 +84,7 @@ def test_a_hostile_name_stays_a_name():
 
 
 def test_the_coloured_mesh_reads_back_with_its_room():
-    data = heat_plot(comparison(), "ply")
+    data = heat_bytes(comparison(), "ply")
     header = data[: data.index(b"end_header")].decode()
     assert "property float room_mm" in header
     assert "property uchar red" in header
@@ -121,8 +122,8 @@ def test_the_heat_picture_has_the_colour_of_each_place():
 
 
 def test_pictures_are_the_same_twice():
-    assert sections_plot(comparison(), "svg") == sections_plot(comparison(), "svg")
-    assert heat_plot(comparison(), "png") == heat_plot(comparison(), "png")
+    assert svg_text(section_figure(comparison())) == svg_text(section_figure(comparison()))
+    assert heat_bytes(comparison(), "png") == heat_bytes(comparison(), "png")
 
 
 def test_the_page_is_the_same_twice_small_and_has_no_outside_address():

@@ -13,7 +13,6 @@ from footfit.errors import BadOption
 from footfit.report.page.page_pictures import flare_picture
 from footfit.report.pictures import curvature_figure as curvature_module
 from footfit.report.pictures import frames_figure as frames_module
-from footfit.report.pictures import plots
 from footfit.report.pictures.curvature_figure import UNDEFINED, colour_reach, curvature_figure
 from footfit.report.pictures.drawn_outlines import SHADOW, side_outline, sole_outline
 from footfit.report.pictures.figures import picture_bytes, svg_text
@@ -44,22 +43,22 @@ def overlay(match, shapes=None):
     return overlay_figure(match.feet[0], lasts, "the best lasts")
 
 
-def all_plots():
+def all_figures():
     lasts = {"derby-42": answers.tube(271.5)}
     foot = answers.foot()
     return {
-        "frames": lambda kind: plots.frames_plot(foot.aligned, kind),
-        "flare": lambda kind: plots.flare_plot(foot, kind),
-        "curvature": lambda kind: plots.curvature_plot(answers.curvature(), kind),
-        "match": lambda kind: picture_bytes(overlay(answers.match(), lasts), kind),
+        "frames": lambda: frames_figure(foot.aligned),
+        "flare": lambda: flare_figure(foot),
+        "curvature": lambda: curvature_figure(answers.curvature()),
+        "match": lambda: overlay(answers.match(), lasts),
     }
 
 
 @pytest.mark.parametrize("name", ["frames", "flare", "curvature", "match"])
 def test_a_picture_is_the_same_twice_and_names_no_address(name: str) -> None:
-    draw = all_plots()[name]
-    data = draw("svg")
-    assert data == draw("svg")
+    draw = all_figures()[name]
+    data = picture_bytes(draw(), "svg")
+    assert data == picture_bytes(draw(), "svg")
     text = data.decode("utf-8")
     ElementTree.fromstring(text)
     addresses = set(re.findall(r"https?://[^\"' ]+", text))
@@ -69,22 +68,22 @@ def test_a_picture_is_the_same_twice_and_names_no_address(name: str) -> None:
         "http://www.w3.org/Graphics/SVG/1.1/DTD/svg11.dtd",
     }
     assert "<script" not in text
-    png = draw("png")
-    assert png == draw("png")
+    png = picture_bytes(draw(), "png")
+    assert png == picture_bytes(draw(), "png")
     assert png.startswith(b"\x89PNG")
 
 
 def test_another_format_is_refused() -> None:
     with pytest.raises(BadOption, match=r"\.svg or \.png"):
-        plots.flare_plot(answers.foot(), "jpg")
+        picture_bytes(flare_figure(answers.foot()), "jpg")
 
 
 def test_a_users_own_settings_do_not_change_a_picture() -> None:
     import matplotlib
 
-    usual = plots.flare_plot(answers.foot(), "svg")
+    usual = svg_text(flare_figure(answers.foot()))
     with matplotlib.rc_context({"font.size": 30, "svg.fonttype": "none", "axes.grid": True}):
-        assert plots.flare_plot(answers.foot(), "svg") == usual
+        assert svg_text(flare_figure(answers.foot())) == usual
 
 
 # ---------------------------------------------------------------- outlines

@@ -17,7 +17,10 @@ from footfit.pipeline.library import lasts
 from footfit.pipeline.scan.align import aligned
 from footfit.pipeline.scan.curvature import surface_curvature
 from footfit.pipeline.scan.flare import profiled
-from footfit.report.pictures.plots import curvature_plot, flare_plot, frames_plot
+from footfit.report.pictures.curvature_figure import curvature_figure
+from footfit.report.pictures.figures import png_bytes
+from footfit.report.pictures.flare_figure import flare_figure
+from footfit.report.pictures.frames_figure import frames_figure
 from footfit.results import Scan
 from tests.distortions import moved, random_pose, white_noise
 from tests.reading import read_scan
@@ -36,8 +39,8 @@ def pictures() -> dict[str, bytes]:
     thrown = replace(foot, vertices_mm=moved(foot.vertices_mm, random_pose(rng)))
     return {
         **method_pictures(thrown),
-        "flare-foot.png": flare_plot(profiled(aligned(foot)), "png"),
-        "flare-last.png": flare_plot(profiled(aligned(last)), "png"),
+        "flare-foot.png": png_bytes(flare_figure(profiled(aligned(foot)))),
+        "flare-last.png": png_bytes(flare_figure(profiled(aligned(last)))),
         **curvature_pictures(foot, rng),
     }
 
@@ -47,10 +50,10 @@ def method_pictures(scan: Scan) -> dict[str, bytes]:
     with tempfile.TemporaryDirectory() as folder:
         catalogue = demonstrate(Path(folder)).catalogue
         reference = lasts.alignment_reference(catalogue, "paper", None)
-    drawn = {"align-footfit.png": frames_plot(aligned(scan), "png")}
+    drawn = {"align-footfit.png": png_bytes(frames_figure(aligned(scan)))}
     for method in ("paper", "paper-literal"):
         shape = aligned(scan, method=method, reference=reference)  # type: ignore[arg-type]
-        drawn[f"align-{method}.png"] = frames_plot(shape, "png")
+        drawn[f"align-{method}.png"] = png_bytes(frames_figure(shape))
     return drawn
 
 
@@ -59,8 +62,8 @@ def curvature_pictures(foot: Scan, rng: np.random.Generator) -> dict[str, bytes]
     noisy = replace(foot, vertices_mm=white_noise(foot.vertices_mm, rng, NOISE_MM))
     view = aligned(foot).alignment.canonical_transform
     return {
-        "curvature-one-ring.png": curvature_plot(surface_curvature(noisy, 0.0), "png", view),
-        "curvature-pooled.png": curvature_plot(surface_curvature(noisy), "png", view),
+        "curvature-one-ring.png": png_bytes(curvature_figure(surface_curvature(noisy, 0.0), view)),
+        "curvature-pooled.png": png_bytes(curvature_figure(surface_curvature(noisy), view)),
     }
 
 

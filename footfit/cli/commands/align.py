@@ -99,10 +99,12 @@ def write_alignment(
     """Write the files that were asked for."""
     from footfit.cli.outputs import write_output
     from footfit.pipeline.export import PICTURE_KINDS, file_kind, mesh_bytes, method_vertices
-    from footfit.report.pictures.plots import frames_plot
+    from footfit.report.pictures.figures import picture_bytes
+    from footfit.report.pictures.frames_figure import frames_figure
 
     if output is not None:
         data = mesh_bytes(method_vertices(scan), scan.faces, output)
         write_output(output, data, force=force)
     if plot is not None:
-        write_output(plot, frames_plot(scan, file_kind(plot, PICTURE_KINDS)), force=force)
+        data = picture_bytes(frames_figure(scan), file_kind(plot, PICTURE_KINDS))
+        write_output(plot, data, force=force)

@@ -107,13 +107,16 @@ def write_comparison(
     from footfit.pipeline.drawables import drawable
     from footfit.pipeline.export import PICTURE_KINDS, file_kind
     from footfit.report.page.compare_page import compare_report
-    from footfit.report.pictures.plots import HEAT_KINDS, heat_plot, sections_plot
+    from footfit.report.pictures.figures import picture_bytes
+    from footfit.report.pictures.heat_figure import HEAT_KINDS, heat_bytes
+    from footfit.report.pictures.section_figure import section_figure
 
     if output is not None:
-        data = heat_plot(comparison, file_kind(output, HEAT_KINDS))
+        data = heat_bytes(comparison, file_kind(output, HEAT_KINDS))
         write_output(output, data, force=force)
     if plot is not None:
-        write_output(plot, sections_plot(comparison, file_kind(plot, PICTURE_KINDS)), force=force)
+        data = picture_bytes(section_figure(comparison), file_kind(plot, PICTURE_KINDS))
+        write_output(plot, data, force=force)
     if html is not None:
         write_output(html, compare_report(drawable(comparison)), force=force)
 

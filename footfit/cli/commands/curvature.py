@@ -81,13 +81,15 @@ def write_curvature(
     from footfit.cli.outputs import write_output
     from footfit.pipeline.drawables import canonical_view
     from footfit.pipeline.export import PICTURE_KINDS, curvature_bytes, file_kind
-    from footfit.report.pictures.curvature_figure import curvature_colours
-    from footfit.report.pictures.plots import curvature_plot
+    from footfit.report.pictures.curvature_figure import curvature_colours, curvature_figure
+    from footfit.report.pictures.figures import picture_bytes
 
     if output is not None:
         is_ply = output.suffix.lower() == ".ply"
         colours = curvature_colours(values) if is_ply else None
         write_output(output, curvature_bytes(values, output, colours), force=force)
     if plot is not None:
-        data = curvature_plot(values, file_kind(plot, PICTURE_KINDS), canonical_view(values))
+        data = picture_bytes(
+            curvature_figure(values, canonical_view(values)), file_kind(plot, PICTURE_KINDS)
+        )
         write_output(plot, data, force=force)

@@ -53,13 +53,15 @@ def demo_files(shown: Demonstration) -> dict[str, bytes | str]:
     from footfit.pipeline.drawables import best_comparisons, candidate_shapes
     from footfit.pipeline.export import mesh_bytes
     from footfit.report.page.match_page import match_report
-    from footfit.report.pictures.plots import flare_plot, frames_plot
+    from footfit.report.pictures.figures import picture_bytes
+    from footfit.report.pictures.flare_figure import flare_figure
+    from footfit.report.pictures.frames_figure import frames_figure
 
     aligned, match = shown.foot.aligned, shown.match
     drawn = candidate_shapes(shown.catalogue, match), best_comparisons(shown.catalogue, match)
     return {
         "aligned.stl": mesh_bytes(aligned.vertices_mm, aligned.faces, Path("aligned.stl")),
-        "frames.svg": frames_plot(aligned, "svg"),
-        "flare.svg": flare_plot(shown.foot, "svg"),
+        "frames.svg": picture_bytes(frames_figure(aligned), "svg"),
+        "flare.svg": picture_bytes(flare_figure(shown.foot), "svg"),
         "report.html": match_report(match, *drawn),
     }

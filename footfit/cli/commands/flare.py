@@ -46,7 +46,8 @@ def flare(
     from footfit.pipeline.export import PICTURE_KINDS, file_kind
     from footfit.pipeline.scan.reading import profiled_source
     from footfit.report.csv import csv_text
-    from footfit.report.pictures.plots import flare_plot
+    from footfit.report.pictures.figures import picture_bytes
+    from footfit.report.pictures.flare_figure import flare_figure
     from footfit.results import Profiled
 
     refuse_existing(plot, force=force, kinds=PICTURE_KINDS)
@@ -62,5 +63,9 @@ def flare(
     if csv is not None:
         write_or_answer(csv, csv_text(Profiled, shapes), force=force)
     if plot is not None and shapes:
-        write_output(plot, flare_plot(shapes[0], file_kind(plot, PICTURE_KINDS)), force=force)
+        write_output(
+            plot,
+            picture_bytes(flare_figure(shapes[0]), file_kind(plot, PICTURE_KINDS)),
+            force=force,
+        )
     raise typer.Exit(code)

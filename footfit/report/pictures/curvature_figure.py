@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any, Literal
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -19,15 +19,6 @@ if TYPE_CHECKING:
 
     from footfit.results import SurfaceCurvature
 
-Quantity = Literal["k1", "k2", "mean", "gaussian"]
-
-UNITS = {"k1": "1/mm", "k2": "1/mm", "mean": "1/mm", "gaussian": "1/mm2"}
-WORDS = {
-    "k1": "smallest normal curvature k1",
-    "k2": "largest normal curvature k2",
-    "mean": "mean curvature",
-    "gaussian": "Gaussian curvature",
-}
 SHOWN_QUANTILE = 0.95
 """The scale of colours reaches to this quantile of the size, so that a spike does not bleach it."""
 UNDEFINED = (0.62, 0.62, 0.62)
@@ -43,11 +34,9 @@ PANELS = {
 
 
 def curvature_figure(
-    curvature: SurfaceCurvature,
-    canonical_transform: Floats | None = None,
-    quantity: Quantity = "mean",
+    curvature: SurfaceCurvature, canonical_transform: Floats | None = None
 ) -> Figure:
-    """Four views of the surface coloured by one curvature.
+    """Four views of the surface coloured by its mean curvature.
 
     Parameters
     ----------
@@ -56,25 +45,23 @@ def curvature_figure(
     canonical_transform : (4, 4), optional
         The alignment's, from the file's coordinates to canonical mm. Without one the mesh is
         drawn along its longest and shortest directions, and the views are numbered.
-    quantity : {"mean", "k1", "k2", "gaussian"}
     """
     from matplotlib.figure import Figure
 
-    values: Floats = getattr(curvature, quantity)
-    reach = colour_reach(values)
-    points = _laid(curvature, canonical_transform)
+    points = _drawn_points(curvature, canonical_transform)
+    colours, scale = _colours(curvature.mean)
     with house_style():
         figure = Figure(figsize=(10.5, 6.6), layout="constrained")
-        grid = figure.add_gridspec(2, 2)
-        colours, scale = _colours(values, reach)
-        for index, (title, view) in enumerate(PANELS.items()):
-            axes = figure.add_subplot(grid[index])
+        panels = zip(figure.subplots(2, 2).flat, PANELS.items(), strict=True)
+        for number, (axes, (title, view)) in enumerate(panels, start=1):
             _panel(axes, points @ view.T, curvature.faces, colours)
-            axes.set_title(title if canonical_transform is not None else f"View {index + 1}")
+            axes.set_title(f"View {number}" if canonical_transform is None else title)
         bar = figure.colorbar(scale, ax=figure.axes, location="right", shrink=0.7, extend="both")
-        bar.set_label(f"{WORDS[quantity]} ({UNITS[quantity]}), + convex, - hollow")
+        bar.set_label("mean curvature (1/mm), + convex, - hollow")
         bar.outline.set_visible(False)
-        headline(figure, _title(curvature, quantity))
+        radius = curvature.radius_mm
+        around = f"over a radius of {plain(radius)} mm" if radius else "of one ring of neighbours"
+        headline(figure, f"{file_name(curvature.info.path)}   mean curvature {around}")
     return figure
 
 
@@ -86,17 +73,10 @@ def colour_reach(values: Floats) -> float:
 
 def curvature_colours(curvature: SurfaceCurvature) -> NDArray[np.uint8]:
     """The mean curvature of each vertex as red, green, blue (n, 3), on the picture's scale."""
-    colours, _ = _colours(curvature.mean, colour_reach(curvature.mean))
-    return np.rint(np.asarray(colours)[:, :3] * 255.0).astype(np.uint8)
+    return np.rint(_colours(curvature.mean)[0] * 255.0).astype(np.uint8)
 
 
-def _title(curvature: SurfaceCurvature, quantity: Quantity) -> str:
-    radius = curvature.radius_mm
-    scale = f"over a radius of {plain(radius)} mm" if radius else "of one ring of neighbours"
-    return f"{file_name(curvature.info.path)}   {WORDS[quantity]} {scale}"
-
-
-def _laid(curvature: SurfaceCurvature, canonical_transform: Floats | None) -> Floats:
+def _drawn_points(curvature: SurfaceCurvature, canonical_transform: Floats | None) -> Floats:
     """The vertices in the canonical frame, or along their own principal directions."""
     points = curvature.vertices_mm
     if canonical_transform is not None:
@@ -104,16 +84,16 @@ def _laid(curvature: SurfaceCurvature, canonical_transform: Floats | None) -> Fl
     centred = points - points.mean(axis=0)
     columns = np.linalg.eigh(centred.T @ centred)[1][:, ::-1]
     columns[:, 2] *= np.sign(np.linalg.det(columns))
-    laid: Floats = centred @ columns
-    return laid
+    return np.asarray(centred @ columns)
 
 
-def _colours(values: Floats, reach: float) -> tuple[Floats, Any]:
+def _colours(values: Floats) -> tuple[Floats, Any]:
     """One colour per vertex (n, 3), and the scale that gave it."""
     from matplotlib import colormaps
     from matplotlib.cm import ScalarMappable
     from matplotlib.colors import Normalize
 
+    reach = colour_reach(values)
     scale = ScalarMappable(Normalize(-reach, reach), colormaps[DIVERGING])
     colours = scale.to_rgba(np.nan_to_num(values, nan=0.0))[:, :3].astype(np.float64)
     colours[~np.isfinite(values)] = UNDEFINED

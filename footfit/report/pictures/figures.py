@@ -19,7 +19,6 @@ if TYPE_CHECKING:
 INK = "#22303c"
 QUIET = "#8a97a3"
 PAPER = "#ffffff"
-FOOT = "#22303c"
 FILL = "#e9edf0"
 SERIES = ("#d55e00", "#0072b2", "#009e73", "#cc79a7", "#e69f00")
 """Colours that the colour-blind tell apart (Okabe and Ito); each also has its own dash."""

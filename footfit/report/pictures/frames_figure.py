@@ -53,47 +53,36 @@ def frames_figure(mesh: AlignedScan) -> Figure:
     arrows = frame.eigenvectors * REACH * np.sqrt(frame.eigenvalues_mm2)[:, None]
     scaled = frame.centroid_mm / alignment.info.unit_scale
     centre = applied(alignment.transform, scaled[None])[0]
+    before = file_mm, frame.centroid_mm, arrows
+    after = aligned_mm, centre, arrows @ turn.T
+    oblique = axonometric_view(*EYE_DEG)
+    panels = (
+        ("Before: the file's axes", oblique, before),
+        (f"After: aligned ({alignment.method})", oblique, after),
+        ("After, from above", VIEWS["from_above"], after),
+        ("After, from the right", VIEWS["from_right"], after),
+    )
     with house_style():
         figure = Figure(figsize=(10.5, 7.4), layout="constrained")
-        grid = figure.add_gridspec(2, 2)
-        panels = (
-            ("Before: the file's axes", axonometric_view(*EYE_DEG), False),
-            (f"After: aligned ({alignment.method})", axonometric_view(*EYE_DEG), True),
-            ("After, from above", VIEWS["from_above"], True),
-            ("After, from the right", VIEWS["from_right"], True),
-        )
-        for index, (title, view, after) in enumerate(panels):
-            axes = figure.add_subplot(grid[index])
-            points = aligned_mm if after else file_mm
-            ends = arrows @ turn.T if after else arrows
-            origin = centre if after else frame.centroid_mm
-            _panel(axes, (points, mesh.faces), view, (origin, ends))
+        for axes, (title, view, state) in zip(figure.subplots(2, 2).flat, panels, strict=True):
+            points, origin, ends = (array @ view.T for array in state)
+            _panel(axes, (points, mesh.faces), origin, ends)
+            _triad(axes, view)
             axes.set_title(title)
-        headline(figure, _title(mesh))
+        spread = ", ".join(plain(float(value)) for value in np.sqrt(frame.eigenvalues_mm2))
+        words = f"{shape_words(alignment)}, {length_text(alignment.length)}"
+        headline(figure, f"{words}; spread along e1, e2, e3: {spread} mm")
     return figure
 
 
-def _title(mesh: AlignedScan) -> str:
-    alignment = mesh.alignment
-    deviations = np.sqrt(alignment.eigenframe.eigenvalues_mm2)
-    spread = ", ".join(plain(float(value)) for value in deviations)
-    length = length_text(alignment.length)
-    return f"{shape_words(alignment)}, {length}; spread along e1, e2, e3: {spread} mm"
-
-
-def _panel(
-    axes: Axes, mesh: tuple[Floats, Ints], view: Floats, arrows: tuple[Floats, Floats]
-) -> None:
-    """One shaded view with the eigenvectors over it and the axes' directions beside it."""
-    points, faces = mesh
-    projected = points @ view.T
-    origin, ends = arrows[0] @ view.T, arrows[1] @ view.T
+def _panel(axes: Axes, mesh: tuple[Floats, Ints], origin: Floats, ends: Floats) -> None:
+    """One shaded view with the eigenvectors over it; all in view coordinates."""
+    projected, faces = mesh
     frame = frame_around(np.concatenate([projected, origin + ends]), margin=0.07)
     show_image(axes, shaded_image(projected, faces, frame, COLUMNS, np.array(SKIN)), frame)
     for (name, colour), end in zip(ARROWS, ends, strict=True):
         _arrow(axes, origin[:2], end[:2], name, colour)
     scale_bar(axes, place=(0.03, 0.01))
-    _triad(axes, view)
 
 
 def _arrow(axes: Axes, origin: Floats, way: Floats, name: str, colour: str) -> None:

@@ -12,6 +12,7 @@ from footfit.report.pictures.figures import (
     INK,
     headline,
     house_style,
+    picture_bytes,
     scale_bar,
     show_image,
 )
@@ -33,6 +34,7 @@ if TYPE_CHECKING:
 
     from footfit.results import Comparison
 
+HEAT_KINDS = ("ply", "svg", "png")
 COLUMNS = 560
 PANELS = {
     "Sole": "from_below",
@@ -59,6 +61,22 @@ def heat_figure(comparison: Comparison, *, titled: bool = True) -> Figure:
             foot, last = comparison_names(comparison)
             headline(figure, f"{foot} in {last}: the clearance around the foot")
     return figure
+
+
+def heat_bytes(comparison: Comparison, kind: str) -> bytes:
+    """That figure as "svg" or "png"; or the coloured foot as "ply", in the last's frame.
+
+    The mesh is on the foot's own side and carries ``room_mm`` at every vertex, NaN where nothing
+    is compared.
+    """
+    from footfit.meshes.write import COLOUR, encoded_mesh
+
+    if kind != "ply":
+        return picture_bytes(heat_figure(comparison), kind)
+    (vertices, faces), _ = own_side(comparison)
+    clearance = comparison.clearance_mm
+    colours = np.rint(255.0 * heat_colours(clearance)).astype(np.uint8)
+    return encoded_mesh(vertices, faces, "ply", {"room_mm": clearance, COLOUR: colours})
 
 
 def _views(comparison: Comparison) -> dict[str, str]:

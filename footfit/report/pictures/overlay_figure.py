@@ -10,7 +10,7 @@ from footfit.report.pictures.drawn_outlines import ring, side_outline, sole_outl
 from footfit.report.pictures.figures import (
     DASHES,
     FILL,
-    FOOT,
+    INK,
     SERIES,
     bare,
     headline,
@@ -106,9 +106,9 @@ def _plan(axes: Axes, foot: Profiled, lasts: Sequence[DrawnLast]) -> None:
     """Seen from above with the toe up, heels together."""
     mesh, left = foot.aligned, is_left(foot)
     sole = sole_outline(mesh.vertices_mm, mesh.faces).closed()
-    axes.fill(*toe_up(sole), facecolor=FILL, edgecolor=FOOT, linewidth=1.6)
+    axes.fill(*toe_up(sole), facecolor=FILL, edgecolor=INK, linewidth=1.6)
     line = centre_line_mm(foot.flare, mesh.alignment.extent_mm, left=left)
-    axes.plot(*toe_up(line), color=FOOT)
+    axes.plot(*toe_up(line), color=INK)
     for index, last in enumerate(lasts):
         if last.mesh is not None:
             axes.plot(*toe_up(ring(sole_outline(*last.mesh).closed())), **_style(index))
@@ -127,7 +127,7 @@ def _plan(axes: Axes, foot: Profiled, lasts: Sequence[DrawnLast]) -> None:
 def _side(axes: Axes, foot: Profiled, lasts: Sequence[DrawnLast]) -> None:
     """Seen from the side with the toe on the right, heels together."""
     profile = side_outline(foot.aligned.vertices_mm, foot.aligned.faces).closed()
-    axes.fill(*profile.T, facecolor=FILL, edgecolor=FOOT, linewidth=1.6)
+    axes.fill(*profile.T, facecolor=FILL, edgecolor=INK, linewidth=1.6)
     for index, last in enumerate(lasts):
         if last.mesh is not None:
             axes.plot(*ring(side_outline(*last.mesh).closed()).T, **_style(index))
@@ -140,7 +140,7 @@ def _heading(axes: Axes, foot: Profiled, lasts: Sequence[DrawnLast]) -> None:
     flare = foot.flare
     curve_axes(axes, flare.definition, "heading (deg)\n+ to medial", "Heading of the centre line")
     label = f"foot, flare {angle_text(flare)}"
-    axes.plot(flare.stations, flare.heading_deg, color=FOOT, linewidth=2.2, label=label)
+    axes.plot(flare.stations, flare.heading_deg, color=INK, linewidth=2.2, label=label)
     for index, last in enumerate(lasts):
         curve = last.record.flare
         axes.plot(curve.stations, curve.heading_deg, label=_label(last, foot), **_style(index))
@@ -155,7 +155,7 @@ def _plan_curvature(axes: Axes, flare: FlareProfile, lasts: Sequence[DrawnLast])
     station_labels(axes)
     plan = flare.curvature["plan"]
     if plan is not None:
-        axes.plot(flare.stations, plan, color=FOOT, linewidth=2.2)
+        axes.plot(flare.stations, plan, color=INK, linewidth=2.2)
     for index, last in enumerate(lasts):
         curve = last.record.flare.curvature["plan"]
         if curve is not None:

@@ -9,7 +9,7 @@ import numpy as np
 from footfit.report.pictures.drawn_outlines import ring
 from footfit.report.pictures.figures import (
     FILL,
-    FOOT,
+    INK,
     QUIET,
     SERIES,
     bare,
@@ -70,7 +70,7 @@ def _panel(axes: Axes, section: SectionComparison, mirror: float, *, brief: bool
         across, up = (ring(loop) * [mirror, 1.0]).T
         label = "foot" if index == 0 else None
         axes.fill(
-            across, np.minimum(up, top), facecolor=FILL, edgecolor=FOOT, linewidth=1.5, label=label
+            across, np.minimum(up, top), facecolor=FILL, edgecolor=INK, linewidth=1.5, label=label
         )
     for index, loop in enumerate(section.last_outline):
         label = "last" if index == 0 else None
