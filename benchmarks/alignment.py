@@ -24,10 +24,10 @@ from footfit.geometry.mesh.topology import boundary_loops
 from footfit.geometry.numeric.rotations import angle_deg
 from footfit.geometry.pose import paper_frame
 from footfit.meshes.units import UNIT_SCALES
-from footfit.pipeline.scan.align import aligned
 from footfit.results import MeshInfo, Reference, Scan
 from tests import distortions, shapes
 from tests.reading import read_scan
+from tests.scans import aligned
 from tools.lasts import LastSpec, last_mesh, true_flare_deg
 
 SCANS = Path(__file__).resolve().parents[2] / "shared" / "scans"

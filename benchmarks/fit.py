@@ -26,11 +26,11 @@ from footfit.pipeline.fit.match import Question, matched
 from footfit.pipeline.fit.scoring import scales
 from footfit.pipeline.fit.zones import last_shape, pitch_gain_mm
 from footfit.pipeline.library.ingest import last_record
-from footfit.pipeline.scan.align import aligned
-from footfit.pipeline.scan.flare import measured, profiled, right_shape
+from footfit.pipeline.scan.flare import measured, profiled
 from footfit.results import LastLabels, LastRecord, Library, Profiled
 from tests.distortions import decimated, moved, random_pose, white_noise
 from tests.reading import read_scan
+from tests.scans import aligned, right_shape
 from tools.lasts import LastSpec, graded, last_mesh, varied
 
 SCANS = Path(__file__).resolve().parents[2] / "shared" / "scans" / "makehuman"

@@ -28,12 +28,13 @@ from footfit.geometry.flare.definition import CHANNELS, FlareDefinition, FlarePr
 from footfit.geometry.flare.flare_profile import flare_profile  # noqa: E402
 from footfit.geometry.flare.levelled_bottom import low_length  # noqa: E402
 from footfit.geometry.flare.profile_distance import DISTANCE  # noqa: E402
-from footfit.pipeline.scan.align import aligned  # noqa: E402
-from footfit.pipeline.scan.flare import as_right, profiled, right_shape  # noqa: E402
+from footfit.pipeline.scan.flare import profiled  # noqa: E402
+from footfit.pipeline.scan.preparation import closed_shape  # noqa: E402
 from footfit.results import Profiled  # noqa: E402
 from tests import distortions  # noqa: E402
 from tests.distortions import half_subdivided, rippled, white_noise  # noqa: E402
 from tests.reading import read_scan  # noqa: E402
+from tests.scans import aligned, right_shape  # noqa: E402
 from tools.lasts import LastSpec, last_mesh, true_heading_deg, varied  # noqa: E402
 
 SCANS = ROOT.parent / "shared" / "scans" / "makehuman"
@@ -66,7 +67,7 @@ def turned(axis: str, angle_deg: float) -> Change:
 
 def closed(change: Change) -> Change:
     """A change after which holes are closed, as they are between the frame and the flare."""
-    return lambda v, f, rng: as_right(*change(v, f, rng), "right")
+    return lambda v, f, rng: closed_shape(*change(v, f, rng))
 
 
 CHANGES: dict[str, Change] = {

@@ -24,10 +24,10 @@ from benchmarks.alignment import random_specs, scan_of
 from benchmarks.tables import markdown, put
 from footfit.errors import FootfitError
 from footfit.geometry.measures.measure_table import MEASURES
-from footfit.pipeline.scan.align import aligned
-from footfit.pipeline.scan.flare import measured, right_shape
+from footfit.pipeline.scan.flare import measured
 from tests import distortions
 from tests.reading import read_scan
+from tests.scans import aligned, right_shape
 from tools.lasts import last_mesh
 
 SCANS = Path(__file__).resolve().parents[2] / "shared" / "scans"

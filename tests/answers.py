@@ -9,7 +9,6 @@ import numpy as np
 from footfit.geometry.fit.clearance import ZoneClearance
 from footfit.geometry.flare.definition import CHANNELS, FlareDefinition, FlareProfile
 from footfit.results import (
-    AlignedScan,
     Alignment,
     Candidate,
     CatalogueFacts,
@@ -31,6 +30,7 @@ from footfit.results import (
     SurfaceClearance,
     SurfaceCurvature,
 )
+from tests.scans import aligned_of
 
 STATIONS = np.linspace(0.04, 0.96, 60)
 
@@ -148,7 +148,7 @@ def alignment(path="feet/anna.stl", left=False, length_mm=260.0, warnings=(), re
 def foot(path="feet/anna.stl", left=False, length_mm=260.0, turn_deg=10.0, **more):
     vertices, faces = tube(length_mm, turn_deg, left)
     measures = (Measure("length", Measured(length_mm, 0.4), "length/1"),)
-    aligned = AlignedScan(alignment(path, left, length_mm, **more), vertices, faces)
+    aligned = aligned_of(alignment(path, left, length_mm, **more), vertices, faces)
     return Profiled(aligned, profile(turn_deg), measures)
 
 

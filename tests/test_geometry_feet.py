@@ -7,8 +7,9 @@ import pytest
 
 from footfit.geometry.mesh.samples import quadrature
 from footfit.geometry.mesh.topology import boundary_loops
+from footfit.geometry.pose.facing import facing
 from footfit.geometry.pose.missing_parts import doubtful_end, missing_part
-from footfit.geometry.pose.pieces import comparable, facing, gap, part_of, pieces, stand_apart
+from footfit.geometry.pose.pieces import comparable, gap, part_of, pieces, stand_apart
 from tests import distortions, shapes
 from tools.lasts import LastSpec, last_mesh
 

@@ -9,12 +9,11 @@ import pytest
 
 from footfit.geometry.measures.landmarks import Shape
 from footfit.geometry.mesh.surface import face_areas
-from footfit.pipeline.scan.align import aligned
-from footfit.pipeline.scan.flare import right_shape
 from tests import shapes
 from tests.conftest import SAMPLES
 from tests.distortions import decimated, leg_cut, white_noise
 from tests.reading import read_scan
+from tests.scans import aligned, right_shape
 from tools.lasts import LastSpec, last_mesh
 
 

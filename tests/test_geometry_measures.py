@@ -14,11 +14,10 @@ from hypothesis import strategies as st
 from footfit.geometry.measures.landmarks import Shape
 from footfit.geometry.measures.measure_table import BOTH, MEASURES, of_kind, unusual
 from footfit.geometry.mesh import topology
-from footfit.pipeline.scan.align import aligned
-from footfit.pipeline.scan.flare import right_shape
 from tests.conftest import ROOT, SAMPLES
 from tests.distortions import axis_rotation, half_subdivided, leg_cut, moved, plane_cut, white_noise
 from tests.reading import read_scan
+from tests.scans import aligned, right_shape
 from tests.solids import is_consistently_wound
 from tests.strategies import seeds
 from tools.last_specs import ToeShape

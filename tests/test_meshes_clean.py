@@ -10,19 +10,19 @@ from hypothesis import strategies as st
 from footfit.errors import DamagedMesh, EmptyMesh
 from footfit.geometry.mesh.surface import unit
 from footfit.geometry.mesh.topology import is_closed
-from footfit.meshes.clean.cleaning import cleaned
 from tests import distortions, shapes
+from tests.scans import cleaned
 from tests.solids import is_consistently_wound, signed_volume, surface_area
 
 FOOT = shapes.ellipsoid((125.0, 50.0, 40.0), subdivisions=3)
 
 
 def codes(mesh):
-    return [notice.code for notice in mesh.warnings]
+    return [notice.code for notice in mesh.notices]
 
 
 def message(mesh, code):
-    (found,) = [notice.message for notice in mesh.warnings if notice.code == code]
+    (found,) = [notice.message for notice in mesh.notices if notice.code == code]
     return found
 
 
@@ -42,7 +42,7 @@ def posed(vertices, faces, seed=1):
 def test_a_clean_mesh_stays_as_it_is():
     vertices, faces = FOOT
     mesh = cleaned(vertices, faces)
-    assert mesh.warnings == ()
+    assert mesh.notices == ()
     assert mesh.watertight
     assert np.array_equal(mesh.vertices[mesh.faces], vertices[faces])
     assert np.array_equal(mesh.source_to_vertex, np.arange(len(vertices)))
@@ -51,7 +51,7 @@ def test_a_clean_mesh_stays_as_it_is():
 def test_soup_becomes_a_surface():
     vertices, faces = distortions.soup(*FOOT)
     mesh = cleaned(vertices, faces)
-    assert (len(mesh.vertices), mesh.watertight, mesh.warnings) == (len(FOOT[0]), True, ())
+    assert (len(mesh.vertices), mesh.watertight, mesh.notices) == (len(FOOT[0]), True, ())
     assert np.array_equal(mesh.vertices[mesh.source_to_vertex], vertices)
 
 

@@ -16,10 +16,10 @@ from hypothesis import strategies as st
 
 from footfit.errors import InputError
 from footfit.meshes.formats.known_formats import raw_mesh
-from footfit.meshes.read import scan_from_bytes
 from footfit.meshes.read_limits import LIMITS
 from tests import corpus, packed
 from tests.distortions import moved, random_pose
+from tests.reading import scan_from_bytes
 
 ROOT = Path(__file__).resolve().parents[1]
 
@@ -121,7 +121,7 @@ def test_nothing_but_the_bytes_is_touched():
     program = (
         "import sys, trimesh, zipfile, xml.parsers.expat\n"
         "from footfit.errors import InputError\n"
-        "from footfit.meshes.read import scan_from_bytes\n"
+        "from tests.reading import scan_from_bytes\n"
         "from tests import corpus\n"
         "names = ('other-file.glb', 'other-site.glb', 'outside-entity.3mf', 'other-part.3mf')\n"
         "files = [bad.make() for bad in corpus.BAD if bad.name in names]\n"

@@ -22,12 +22,12 @@ from footfit.errors import (
     UnknownUnits,
     UnreadableFile,
 )
-from footfit.meshes.file_bytes import stream_bytes
-from footfit.meshes.read import scan_from_bytes
+from footfit.meshes.file_bytes import file_bytes, stream_bytes
+from footfit.meshes.read import file_mesh
 from footfit.meshes.read_limits import LIMITS, Limits
 from footfit.meshes.write import encoded_mesh
 from tests import corpus
-from tests.reading import read_scan
+from tests.reading import read_scan, scan_from_bytes
 from tests.solids import surface_area
 
 ROOT = Path(__file__).resolve().parents[1]
@@ -160,7 +160,7 @@ def test_limits_hold_in_every_format(make, limits, tmp_path):
     if make in (corpus.stl, corpus.ascii_stl) and limits.vertices == 100:
         limits = Limits(faces=100)  # STL counts facets
     with pytest.raises(TooLarge):
-        read_scan(write(tmp_path, "foot", make()), limits=limits)
+        file_mesh(file_bytes(str(write(tmp_path, "foot", make())), limits), limits=limits)
 
 
 def test_the_hash_is_of_the_bytes_and_two_reads_are_equal(tmp_path):

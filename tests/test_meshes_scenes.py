@@ -9,11 +9,11 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from footfit.meshes.read import scan_from_bytes
 from footfit.meshes.write import encoded_mesh
 from tests import packed
 from tests.conftest import SAMPLES
 from tests.distortions import moved, random_pose
+from tests.reading import scan_from_bytes
 
 VERTICES, FACES = packed.VERTICES, packed.FACES
 SCALES = {"plain": None, "small": [0.5, 0.5, 0.5], "uneven": [2.0, 0.5, 1.0], "mirror": [-1, 1, 1]}

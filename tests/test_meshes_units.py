@@ -8,7 +8,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from footfit.errors import BadOption, UnknownUnits
-from footfit.meshes.clean.extents import principal_extents
+from footfit.geometry.pose.extents import principal_extents
 from footfit.meshes.units import (
     UNIT_SCALES,
     UNIT_SETTINGS,

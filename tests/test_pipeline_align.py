@@ -26,8 +26,7 @@ from footfit.geometry.mesh.moments import printed_covariance, surface_second_mom
 from footfit.geometry.numeric.rotations import angle_deg, applied
 from footfit.geometry.pose import paper_frame
 from footfit.meshes.units import UNIT_NAMES, UNIT_SCALES
-from footfit.pipeline.scan import align
-from footfit.pipeline.scan.align import aligned
+from footfit.pipeline.scan import preparation
 from footfit.pipeline.scan.flare import profiled
 from footfit.pipeline.scan.measure import measured_scan
 from footfit.pipeline.scan.settled_unit import unit_notes
@@ -35,6 +34,7 @@ from footfit.results import MeshInfo, Notice, Reference, Scan
 from tests import distortions, shapes
 from tests.conftest import SAMPLES
 from tests.reading import read_scan
+from tests.scans import aligned
 from tools.lasts import LastSpec, last_mesh
 
 SCANS = Path(__file__).resolve().parents[2] / "shared" / "scans"
@@ -63,7 +63,9 @@ def scan_of(vertices_mm, faces, *, units="mm", source="detected", scale=None):
 def test_many_faces_lie_as_they_would_if_nothing_were_gathered(last, monkeypatch):
     fine = distortions.subdivided(*distortions.subdivided(*last))
     whole = aligned(scan_of(*fine)).alignment
-    monkeypatch.setattr(align, "ALIGN", replace(align.ALIGN, many_points=len(fine[1]) - 1))
+    monkeypatch.setattr(
+        preparation, "FRAMING", replace(preparation.FRAMING, many_points=len(fine[1]) - 1)
+    )
     gathered = aligned(scan_of(*fine)).alignment
     there, here = gathered.canonical_transform, whole.canonical_transform
     assert 0.0 < angle_deg(there[:3, :3], here[:3, :3]) < 0.01

@@ -22,6 +22,7 @@ from footfit.pipeline.scan.reading import profiled_source
 from tests import answers
 from tests.answers import turned
 from tests.comparisons import comparison, last
+from tests.scans import aligned_of
 from tools.lasts import LastSpec, last_mesh
 
 LAST = "loafer-40"
@@ -55,7 +56,7 @@ def test_the_room_in_a_wider_copy_is_what_was_added_along_the_normals():
     spec = LastSpec(length_mm=272.0, flare_deg=8.0, rings=60, segments=48)
     vertices, faces = last_mesh(spec)
     foot = comparison().foot
-    inside = replace(foot, aligned=replace(foot.aligned, vertices_mm=vertices, faces=faces))
+    inside = replace(foot, aligned=aligned_of(foot.aligned.alignment, vertices, faces))
     found = compared(inside, replace(last(), vertices_mm=vertices * [1.0, 1.06, 1.0]))
     normals, areas = vertex_normals(vertices, faces), vertex_areas(vertices, faces)
     added = 0.06 * vertices[:, 1] * normals[:, 1]

@@ -13,10 +13,10 @@ from footfit.errors import SideUndecided
 from footfit.geometry.flare.definition import CHANNELS, FlareDefinition
 from footfit.geometry.flare.flare_profile import flare_profile
 from footfit.geometry.flare.levelled_bottom import low_length
-from footfit.pipeline.scan.align import aligned
-from footfit.pipeline.scan.flare import profiled, right_shape
+from footfit.pipeline.scan.flare import profiled
 from tests import distortions
 from tests.reading import read_scan
+from tests.scans import aligned, aligned_of, right_shape
 from tests.solids import signed_volume
 
 SCANS = Path(__file__).resolve().parents[2] / "shared" / "scans" / "makehuman"
@@ -35,9 +35,7 @@ def as_left(one):
     """The mirror image of an aligned right shape, as an aligned left one."""
     vertices, faces = distortions.mirrored(one.vertices_mm, one.faces)
     side = replace(one.alignment.side, side="left")
-    return replace(
-        one, vertices_mm=vertices, faces=faces, alignment=replace(one.alignment, side=side)
-    )
+    return aligned_of(replace(one.alignment, side=side), vertices, faces)
 
 
 def test_a_left_foots_profile_is_its_mirror_images(right):
@@ -52,8 +50,8 @@ def test_a_left_foots_profile_is_its_mirror_images(right):
 
 def test_a_right_shape_stays_and_a_left_one_is_turned_over(right):
     vertices, faces = right_shape(right)
-    assert vertices is right.vertices_mm
-    assert faces is right.faces
+    assert np.array_equal(vertices, right.vertices_mm)
+    assert np.array_equal(faces, right.faces)
     left = as_left(right)
     mirrored = right_shape(left)
     assert np.allclose(mirrored[0], vertices)
@@ -83,7 +81,8 @@ def test_measures_carry_their_sd_and_definition(right):
 def test_what_is_not_there_has_a_reason_and_no_sd(right):
     centres = right.vertices_mm[right.faces].mean(axis=1)
     start = right.vertices_mm[:, 0].min() + right.alignment.extent_mm / 6.0
-    holed = replace(right, faces=right.faces[np.abs(centres[:, 0] - start) > 8.0])
+    kept = right.faces[np.abs(centres[:, 0] - start) > 8.0]
+    holed = aligned_of(right.alignment, right.vertices_mm, kept)
     heel = next(m for m in profiled(holed).measures if m.name == "heel_width")
     assert (heel.measured.value, heel.measured.sd) == (None, None)
     assert "open at the heel" in heel.measured.reason
@@ -124,7 +123,7 @@ def test_a_flare_that_no_foot_has_is_said(right):
     assert profiled(right).suspects == ()
     vertices = right.vertices_mm
     turned = bends.bent(vertices, bends.x_axis(right.alignment.extent_mm), 30.0)
-    (found,) = profiled(replace(right, vertices_mm=turned)).suspects
+    (found,) = profiled(aligned_of(right.alignment, turned, right.faces)).suspects
     assert found.code == "suspect_flare"
     assert "(-3 to +33)" in found.message
 

@@ -16,14 +16,14 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from footfit.geometry.numeric.rotations import applied
-from footfit.meshes.read import scan_from_bytes
 from footfit.meshes.units import UNIT_SCALES
 from footfit.meshes.write import encoded_mesh
-from footfit.pipeline.scan.align import aligned
 from footfit.pipeline.scan.curvature import surface_curvature
 from footfit.pipeline.scan.flare import profiled
 from tests import distortions
 from tests.conftest import SAMPLES
+from tests.reading import scan_from_bytes
+from tests.scans import aligned
 from tools.lasts import LastSpec, last_mesh
 
 RADIUS_MM = 12.0

@@ -12,7 +12,6 @@ import pytest
 from footfit.errors import HalfScan, SideUndecided
 from footfit.pipeline.fit.candidates import choice
 from footfit.pipeline.fit.match import Question, matched
-from footfit.pipeline.scan.align import aligned
 from footfit.pipeline.scan.flare import profiled
 from footfit.pipeline.scan.measure import measured_scan, suspects
 from footfit.results import Measure, Measured
@@ -27,6 +26,7 @@ from tests.distortions import (
     white_noise,
 )
 from tests.reading import read_scan
+from tests.scans import aligned, aligned_of
 
 AHEAD = np.array([1.0, 0.0, 0.0])
 BOUNDS_MM = {"length": 0.5, "width": 1.0, "girth": 2.0}
@@ -69,7 +69,7 @@ def test_in_one_frame_the_mirror_image_measures_the_same_whatever_the_faces_orde
     vertices, faces = mirrored(scan.vertices_mm, scan.faces)
     right = replace(scan.alignment, side=replace(scan.alignment.side, side="right"))
     order = np.random.default_rng(2).permutation(len(faces))
-    twin = replace(scan, alignment=right, vertices_mm=vertices, faces=faces[order][:, [1, 2, 0]])
+    twin = aligned_of(right, vertices, faces[order][:, [1, 2, 0]])
     pairs = zip(measured_scan(scan).measures, measured_scan(twin).measures, strict=True)
     for one, other in pairs:
         assert one.measured.reason == other.measured.reason

@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 
 from footfit.meshes.write import encoded_mesh
+from tests import packed, shapes
 from tests.conftest import SAMPLES, Footfit
 from tests.distortions import floor_plate, in_metres, joined, moved, random_pose
 from tests.reading import read_scan
@@ -70,3 +71,38 @@ def test_two_feet_in_one_file_can_be_one_customer(
         "match", both, "--split", "--pair", "--catalogue", stocked, "--json"
     ).document
     assert sorted(foot["side"] for foot in document["feet"]) == ["left", "right"]
+
+
+def test_split_keeps_the_declared_unit_and_the_notices_of_the_file(
+    footfit: Footfit, both: Path, tmp_path: Path
+) -> None:
+    scan = read_scan(both)
+    faces = scan.faces.copy()
+    faces[::2] = faces[::2, ::-1]  # some look inward: the reader turns them and says so
+    path = tmp_path / "both.3mf"
+    model = packed.model(scan.vertices_mm / 25.4, faces, 'unit="inch"')
+    path.write_bytes(packed.threemf(model))
+    lines = footfit("align", path, "--split", "--json").lines
+    assert [line["mesh"]["path"] for line in lines] == [f"{path}#1", f"{path}#2"]
+    for line in lines:
+        assert (line["mesh"]["units"], line["mesh"]["units_source"]) == ("in", "declared")
+        assert line["mesh"]["sha256"] == read_scan(path).info.sha256
+        assert line["mesh"]["watertight"]
+        assert "winding_fixed" in {notice["code"] for notice in line["warnings"]}
+    faces_of_both = sum(line["mesh"]["faces"] for line in lines)
+    assert faces_of_both == len(scan.faces)
+
+
+def test_split_says_what_was_left_out_beside_the_feet(
+    footfit: Footfit, both: Path, tmp_path: Path
+) -> None:
+    scan = read_scan(both)
+    third = shapes.ellipsoid((30.0, 20.0, 20.0), subdivisions=3)
+    away = scan.vertices_mm.max(axis=0) + 100.0
+    vertices, faces = joined((scan.vertices_mm, scan.faces), (third[0] + away, third[1]))
+    path = tmp_path / "three.ply"
+    path.write_bytes(encoded_mesh(vertices, faces, "ply"))
+    lines = footfit("align", path, "--split", "--json").lines
+    assert len(lines) == 2
+    for line in lines:
+        assert "pieces_removed" in {notice["code"] for notice in line["warnings"]}

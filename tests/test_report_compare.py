@@ -11,7 +11,6 @@ from functools import cache
 import numpy as np
 import pytest
 
-from footfit.meshes.read import scan_from_bytes
 from footfit.report.csv import csv_text
 from footfit.report.json import json_line
 from footfit.report.page.compare_page import compare_report
@@ -27,6 +26,7 @@ from footfit.report.terminal.scan_tables import terminal_text
 from footfit.results import Comparison, Notice
 from tests import browsing, shapes
 from tests.comparisons import comparison
+from tests.reading import scan_from_bytes
 
 
 @cache

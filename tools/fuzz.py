@@ -16,9 +16,9 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from footfit.errors import InputError
-from footfit.meshes.read import scan_from_bytes
 from footfit.pipeline.batch.work_limits import WorkLimits, limited
 from tests import corpus, packed
+from tests.reading import scan_from_bytes
 
 LIMITS = WorkLimits(seconds=2.0, address_bytes=500_000_000)
 FORMATS = {

@@ -14,7 +14,6 @@ import numpy as np
 
 from footfit.pipeline.demo import demonstrate
 from footfit.pipeline.library import lasts
-from footfit.pipeline.scan.align import aligned
 from footfit.pipeline.scan.curvature import surface_curvature
 from footfit.pipeline.scan.flare import profiled
 from footfit.report.pictures.curvature_figure import curvature_figure
@@ -24,6 +23,7 @@ from footfit.report.pictures.frames_figure import frames_figure
 from footfit.results import Scan
 from tests.distortions import moved, random_pose, white_noise
 from tests.reading import read_scan
+from tests.scans import aligned
 
 ROOT = Path(__file__).resolve().parents[1]
 SAMPLES = ROOT / "sample_data"

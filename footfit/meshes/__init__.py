@@ -1,1 +1,1 @@
-"""The only owner of mesh files: read, units, clean, decimate, write."""
+"""The only owner of mesh files: read, weld, units, decimate, write."""

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 from footfit.errors import BadOption, UnknownUnits
 from footfit.geometry.numeric.arrays import Floats
-from footfit.meshes.clean.extents import principal_extents
+from footfit.geometry.pose.extents import principal_extents
 from footfit.results import Notice
 
 UNIT_SCALES = {"mm": 1.0, "cm": 10.0, "in": 25.4, "m": 1000.0}

@@ -15,7 +15,7 @@ from footfit.geometry.numeric.arrays import Floats, Ints
 from footfit.meshes.copies.compact_copy import expanded
 from footfit.meshes.copies.lighter import lighter_mesh
 from footfit.pipeline.fit.compare import best_comparison
-from footfit.pipeline.scan.align import aligned
+from footfit.pipeline.scan.preparation import prepared_scan
 from footfit.results import Comparison, Match, Scan, SurfaceCurvature
 
 DRAWN_LASTS = 3
@@ -74,6 +74,6 @@ def canonical_view(curvature: SurfaceCurvature) -> Floats | None:
     """
     scan = Scan(curvature.info, curvature.vertices_mm, curvature.faces, ())
     try:
-        return aligned(scan).alignment.canonical_transform
+        return prepared_scan(scan).canonical_transform
     except FootfitError:
         return None

@@ -9,6 +9,7 @@ from footfit.results.alignment import (
     Alignment,
     Eigenframe,
     PoseQuality,
+    PreparedScan,
     Reference,
     SideVerdict,
 )
@@ -75,6 +76,7 @@ __all__ = [
     "Method",
     "Notice",
     "PoseQuality",
+    "PreparedScan",
     "Profiled",
     "Reference",
     "ReferenceOutcome",

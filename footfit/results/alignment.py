@@ -93,6 +93,55 @@ class Reference:
 
 
 @dataclass(frozen=True, slots=True)
+class PreparedScan:
+    """One foot or last, as every method takes it: made once per file.
+
+    Cleaned, freed of loose pieces and of the floor plate, its faces outward, its small holes
+    closed, its unit settled.
+
+    Attributes
+    ----------
+    info : MeshInfo
+        With the settled unit; ``vertices`` and ``faces`` count what was scanned, without caps.
+    side : SideVerdict
+    pose : PoseQuality
+    canonical_transform : (4, 4) float64
+        From the file's coordinates to the canonical frame in mm; never a mirror.
+    length : Measured
+        The measured length.
+    extent_mm : float
+        How far the mesh reaches along X.
+    file_vertices_mm : (k, 3) float64
+        The scanned vertices in the file's own axes.
+    vertices_mm, faces : (n, 3) float64, (m, 3) int64
+        The right-side copy in the canonical frame: a left shape is mirrored. What was scanned
+        comes first, the caps that close its holes come last.
+    notices : tuple of Notice
+        What was done, and what should be known.
+    """
+
+    info: MeshInfo
+    side: SideVerdict
+    pose: PoseQuality
+    canonical_transform: Floats
+    length: Measured
+    extent_mm: float
+    file_vertices_mm: Floats
+    vertices_mm: Floats
+    faces: Ints
+    notices: tuple[Notice, ...]
+
+    @property
+    def scanned(self) -> tuple[Floats, Ints]:
+        """The canonical mesh as it was scanned: on its own side, without caps."""
+        vertices_mm = self.vertices_mm[: self.info.vertices]
+        faces = self.faces[: self.info.faces]
+        if self.side.side != "left":
+            return vertices_mm, faces
+        return vertices_mm * (1.0, -1.0, 1.0), faces[:, ::-1]
+
+
+@dataclass(frozen=True, slots=True)
 class Alignment:
     """One mesh, aligned.
 
@@ -149,14 +198,20 @@ class Alignment:
 
 @dataclass(frozen=True, slots=True)
 class AlignedScan:
-    """An alignment with its mesh in the canonical frame.
-
-    ``vertices_mm`` (n, 3) canonical and not mirrored, ``faces`` (m, 3) wound outward.
-    """
+    """An alignment with the prepared scan that it is of."""
 
     alignment: Alignment
-    vertices_mm: Floats
-    faces: Ints
+    prepared: PreparedScan
+
+    @property
+    def vertices_mm(self) -> Floats:
+        """The scanned vertices (n, 3), canonical and not mirrored."""
+        return self.prepared.scanned[0]
+
+    @property
+    def faces(self) -> Ints:
+        """The scanned faces (m, 3), wound outward."""
+        return self.prepared.scanned[1]
 
     def to_dict(self) -> Json:
         """``footfit.align/2``: the alignment; the mesh is in no document."""

@@ -9,6 +9,7 @@ from footfit.results.documents import Json, fields, part
 
 if TYPE_CHECKING:
     from footfit.geometry.numeric.arrays import Floats, Ints
+    from footfit.geometry.pose.pose_search import Orientation
     from footfit.results.values import Notice
 
 
@@ -43,7 +44,8 @@ class Scan:
 
     ``vertices_mm`` is (n, 3) float64 in the file's own axes, ``faces`` is (m, 3) int64.
     ``source_to_vertex`` is, for each vertex of the file, its row of ``vertices_mm``, -1 where it
-    was dropped; None for a scan that no file stands behind.
+    was dropped; None for a scan that no file stands behind. ``pose`` is known of a shape that
+    was told apart from others in its file, and None of all others.
     """
 
     info: MeshInfo
@@ -51,6 +53,7 @@ class Scan:
     faces: Ints
     warnings: tuple[Notice, ...]
     source_to_vertex: Ints | None = None
+    pose: Orientation | None = None
 
 
 @dataclass(frozen=True, slots=True)

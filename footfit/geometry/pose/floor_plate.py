@@ -1,4 +1,4 @@
-"""A floor plate that was scanned with the foot: found by its plane, and cut away."""
+"""A floor plate that was scanned with the foot: a piece of its own, or grown to the foot."""
 
 from __future__ import annotations
 
@@ -10,24 +10,94 @@ from footfit.geometry.mesh.surface import area_vectors
 from footfit.geometry.mesh.topology import boundary_edges
 from footfit.geometry.numeric.arrays import Bools, Floats, Ints
 from footfit.geometry.numeric.planes import robust_plane
+from footfit.geometry.pose.extents import principal_extents
 
 
 @dataclass(frozen=True, slots=True)
 class PlateSettings:
-    """Everything numeric of the plate; distances over the mesh's size."""
+    """Everything numeric of a floor plate.
 
+    Attributes
+    ----------
+    thickness, foot_thickness : float
+        Beside a piece thicker than ``foot_thickness`` (relative to its longest extent) one
+        thinner than ``thickness`` may be a plate.
+    cover : float
+        A plate reaches this far along both its directions, relative to the foot on it (the lid of
+        a leg does not).
+    side, sinking : float
+        The share of the foot's vertices that lie on one side of the plate, those not counted that
+        have sunk in by less than ``sinking`` of the plate's extent: a sole is noisy.
+    least_share : float
+        Of the largest piece's area: a smaller piece is no plate.
+    most_pieces : int
+        A scan with more pieces of comparable size is no foot on a plate.
+    flat : float
+        Of a scan known to hold a foot: a piece thinner than this is no part of the foot.
+    rounds, scale : int, float
+        Of the plane through a mesh's boundary, by Cauchy weights, over the mesh's size.
+    near, boundary_share, parallel, area_share : float
+        So near this plane, over the size, lies so much of the boundary, and facing it by this
+        cosine so much of the area, where a plate has grown to the foot.
+    beyond_share : float
+        Of a plate that reaches beyond the foot; of a sole with holes: none.
+    cut : float
+        What lies nearer to the plane than this, over the size, goes with the plate.
+    """
+
+    thickness: float = 0.025
+    foot_thickness: float = 0.12
+    cover: float = 0.80
+    side: float = 0.95
+    sinking: float = 0.01
+    least_share: float = 0.10
+    most_pieces: int = 16
+    flat: float = 0.04
     rounds: int = 12
     scale: float = 0.01
     near: float = 0.015
     boundary_share: float = 0.60
     parallel: float = 0.95
     area_share: float = 0.10
+    beyond_share: float = 0.10
     cut: float = 0.02
-    beyond_share: float = 0.10  # of a plate that reaches beyond the foot; of a holed sole: none
-    flat: float = 0.04  # thickness over length of a piece that is a plate by itself
 
 
 PLATE = PlateSettings()
+
+
+def plate_pieces(
+    vertices: Floats, faces: Ints, labels: Ints, areas: Floats, settings: PlateSettings = PLATE
+) -> Bools:
+    """Which pieces are a flat plate that the largest thick piece stands on, (k,).
+
+    ``labels`` (m,) is the piece of each face, ``areas`` (k,) are the pieces' areas.
+    """
+    plates = np.zeros(len(areas), dtype=bool)
+    big = np.flatnonzero(areas >= settings.least_share * areas.max())
+    points = {
+        piece: vertices[np.unique(faces[labels == piece])] for piece in big[: settings.most_pieces]
+    }
+    shapes = {piece: principal_extents(found) for piece, found in points.items()}
+    thickness = {piece: _thickness(extents) for piece, (extents, _) in shapes.items()}
+    thick = [piece for piece in thickness if thickness[piece] > settings.foot_thickness]
+    if not thick:
+        return plates
+    foot = points[max(thick, key=lambda piece: float(areas[piece]))]
+    for piece, (_, axes) in shapes.items():
+        if thickness[piece] < settings.thickness:
+            plates[piece] = _carries(points[piece], axes, foot, settings)
+    return plates
+
+
+def _carries(plate: Floats, axes: Floats, foot: Floats, settings: PlateSettings) -> bool:
+    """Whether the foot stands on one side of the plate and within its reach."""
+    centre = plate.mean(axis=0)
+    on_plate, above = (plate - centre) @ axes.T, (foot - centre) @ axes.T
+    covered = np.ptp(on_plate[:, :2], axis=0) >= settings.cover * np.ptp(above[:, :2], axis=0)
+    sunk = settings.sinking * np.ptp(on_plate[:, 0])
+    side = max(np.mean(above[:, 2] > -sunk), np.mean(above[:, 2] < sunk))
+    return bool(covered.all() and side >= settings.side)
 
 
 def without_plate(vertices: Floats, faces: Ints, settings: PlateSettings = PLATE) -> Bools:
@@ -61,12 +131,13 @@ def without_plate(vertices: Floats, faces: Ints, settings: PlateSettings = PLATE
     return np.asarray(left)
 
 
-def is_flat(vertices: Floats, settings: PlateSettings = PLATE) -> bool:
+def is_flat(points: Floats, settings: PlateSettings = PLATE) -> bool:
     """Whether points (n, 3) of one piece are a plate by themselves: thin in one direction."""
-    away = vertices - vertices.mean(axis=0)
-    directions = np.linalg.eigh(away.T @ away)[1]
-    extents = np.ptp(away @ directions, axis=0)
-    return bool(extents[0] < settings.flat * extents[2])
+    return _thickness(principal_extents(points)[0]) < settings.flat
+
+
+def _thickness(extents: Floats) -> float:
+    return float(extents[2] / extents[0])
 
 
 def _beyond(middles: Floats, left: Bools, normal: Floats) -> Bools:

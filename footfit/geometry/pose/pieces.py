@@ -1,4 +1,4 @@
-"""What a scan holds besides one whole foot: several pieces, inside-out faces, a mere sheet."""
+"""The pieces of a scan: the numbers that say what belongs to a shape, and how pieces lie."""
 
 from __future__ import annotations
 
@@ -6,35 +6,84 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from footfit.geometry.mesh.surface import area_vectors, face_areas, unit
+from footfit.geometry.mesh.surface import face_areas
 from footfit.geometry.mesh.topology import face_components
 from footfit.geometry.mesh.welding import without_unused_vertices
 from footfit.geometry.numeric.arrays import Bools, Floats, Ints
 
 
 @dataclass(frozen=True, slots=True)
-class PiecesSettings:
-    """Everything numeric of the pieces."""
+class PieceSettings:
+    """What of a scan belongs to the foot or last: every number of the preparation.
 
-    comparable: float = 0.25  # of the largest piece's area
+    A share is one of the largest piece's area, a distance one of its size, where nothing else is
+    said.
+
+    Attributes
+    ----------
+    large : float
+        In a surface of any kind a piece with this share stays, wherever it lies.
+    patch, patch_gap : float
+        A smaller piece stays from this share on if its box comes within ``patch_gap`` (of the
+        diagonal) of the largest piece's box: it is a patch of a cracked scan.
+    specks : float
+        Where all specks together hold more than this share of the whole area, the scan is in
+        pieces: then only what stands off by ``patch_gap`` from all that stays is removed.
+    most_pieces, most_specks : int
+        More pieces than this that stay are not a surface. More pieces than ``most_specks`` are
+        not one either, where the specks hold more than ``specks``.
+    speck : float
+        A foot or last is looked for among the pieces from this share on.
+    comparable, most_comparable : float, int
+        From this share on a piece may be a foot of its own; so many are looked at one by one.
+    apart : float
+        Two pieces stand beside each other if the middles of their boxes are farther apart.
+    gap : float
+        A piece farther off than this is something else than the foot.
+    gap_few, gap_many : int
+        How many points of the other piece and of the foot the gap is measured with.
+    inside_out : float
+        Faces that look outward by less than this, or inward, may be inside out.
+    own_centre : float
+        Outside is judged from a piece's own middle from this share on; a smaller open patch is
+        judged from the whole's.
+    wide_open : float
+        An opening wider than this is named when a shape is refused.
+    sheet : float
+        The length of the sum of the area vectors over the area: a sheet has more. A foot that is
+        cut at the leg has 0.1.
+    shell, flat_shell : float
+        Between these two, by the same ratio, a foot may lack its sole.
+    upward : float
+        The least cosine with Z of where the faces of such a foot look on the whole.
+    """
+
+    large: float = 0.10
+    patch: float = 0.005
+    patch_gap: float = 0.02
+    specks: float = 0.10
+    most_pieces: int = 100
+    most_specks: int = 1000
     speck: float = 0.01
-    most: int = 8  # comparable pieces that are looked at one by one
-    apart: float = 0.25  # of the larger piece's size, between the middles of their boxes
-    gap: float = 0.06  # of the largest piece's size: what is farther off is something else
+    comparable: float = 0.25
+    most_comparable: int = 8
+    apart: float = 0.25
+    gap: float = 0.06
     gap_few: int = 150
     gap_many: int = 1500
     inside_out: float = 0.20
-    wide_open: float = 0.30  # of the size: a loop that is worth a word
-    sheet: float = 0.40  # |sum of area vectors| over the area; a foot cut at the leg has .1
-    shell: float = 0.20  # from here on a foot may lack its sole
-    flat_shell: float = 0.60  # the most that a foot without sole has; a sheet has more
-    upward: float = 0.80  # cosine with Z of where the faces of such a foot look on the whole
+    own_centre: float = 0.10
+    wide_open: float = 0.30
+    sheet: float = 0.40
+    shell: float = 0.20
+    flat_shell: float = 0.60
+    upward: float = 0.80
 
 
-PIECES = PiecesSettings()
+PIECES = PieceSettings()
 
 
-def pieces(vertices: Floats, faces: Ints, settings: PiecesSettings = PIECES) -> list[Ints]:
+def pieces(vertices: Floats, faces: Ints, settings: PieceSettings = PIECES) -> list[Ints]:
     """The faces of each connected piece that is no speck, largest area first."""
     label = face_components(faces, len(vertices))
     area = np.bincount(label, weights=face_areas(vertices, faces))
@@ -44,7 +93,7 @@ def pieces(vertices: Floats, faces: Ints, settings: PiecesSettings = PIECES) -> 
 
 
 def comparable(
-    vertices: Floats, faces: Ints, found: list[Ints], settings: PiecesSettings = PIECES
+    vertices: Floats, faces: Ints, found: list[Ints], settings: PieceSettings = PIECES
 ) -> list[Ints]:
     """Of the pieces (largest first), those of an area comparable with the largest."""
     if len(found) == 1:
@@ -57,7 +106,7 @@ def comparable(
     ]
 
 
-def stand_apart(first: Floats, second: Floats, settings: PiecesSettings = PIECES) -> bool:
+def stand_apart(first: Floats, second: Floats, settings: PieceSettings = PIECES) -> bool:
     """Whether pieces of points (n, 3), (k, 3) are beside each other, not one inside the other."""
     boxes = [(points.min(axis=0), points.max(axis=0)) for points in (first, second)]
     middles = [(low + high) / 2 for low, high in boxes]
@@ -65,7 +114,7 @@ def stand_apart(first: Floats, second: Floats, settings: PiecesSettings = PIECES
     return float(np.linalg.norm(middles[0] - middles[1])) > settings.apart * size
 
 
-def gap(first: Floats, second: Floats, settings: PiecesSettings = PIECES) -> float:
+def gap(first: Floats, second: Floats, settings: PieceSettings = PIECES) -> float:
     """The distance between two pieces' points (n, 3) and (k, 3), about: by a sample of each."""
     few, many = (
         points[:: max(1, len(points) // count)]
@@ -73,48 +122,6 @@ def gap(first: Floats, second: Floats, settings: PiecesSettings = PIECES) -> flo
     )
     squares = ((few[:, None, :] - many[None, :, :]) ** 2).sum(axis=2)
     return float(np.sqrt(squares.min()))
-
-
-@dataclass(frozen=True, slots=True)
-class Facing:
-    """Where a mesh's faces look.
-
-    ``outward`` is about 1 for a convex body and -1 for one turned inside out; ``one_way`` is
-    |sum of area vectors| over the area: 0 for a closed surface, 1 for a flat sheet; ``toward``
-    (3,) is the direction of that sum.
-    """
-
-    outward: float
-    one_way: float
-    toward: Floats
-
-
-def facing(vertices: Floats, faces: Ints) -> Facing:
-    """Where the faces of a mesh look, on the whole."""
-    vectors = area_vectors(vertices, faces)
-    areas = np.sqrt(np.einsum("ij,ij->i", vectors, vectors))
-    away = vertices[faces].mean(axis=1)
-    away -= areas @ away / areas.sum()
-    distance = float(areas @ np.sqrt(np.einsum("ij,ij->i", away, away)))
-    outward = float(np.einsum("ij,ij->", away, vectors))
-    total = vectors.sum(axis=0)
-    return Facing(
-        outward=outward / distance if distance > 0.0 else 0.0,  # one face has no middle to leave
-        one_way=float(np.linalg.norm(total) / areas.sum()),
-        toward=unit(total[None])[0],
-    )
-
-
-def lacks_its_sole(
-    toward: Floats, one_way: float, up: Floats, settings: PiecesSettings = PIECES
-) -> bool:
-    """Whether faces that look ``toward`` on the whole are a foot's without the sole.
-
-    Area vectors of a closed surface add up to nothing: what is missing is what they add up to,
-    turned over. A missing sole leaves them looking up (3,); a sole alone looks down.
-    """
-    within = settings.shell < one_way < settings.flat_shell
-    return within and float(toward @ up) > settings.upward
 
 
 def part_of(vertices: Floats, faces: Ints, kept: Ints | Bools) -> tuple[Floats, Ints]:

@@ -1,1 +1,1 @@
-"""From raw triangles to a surface: welded, without debris, wound outward."""
+"""From raw triangles to a mesh: equal corners welded, each triangle once, spikes pressed back."""

@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import BinaryIO
 
 from footfit.errors import BadOption, UnreadableFile
+from footfit.results import Scan
 
 MESH_SUFFIXES = (".stl", ".obj", ".ply", ".off", ".glb", ".3mf")
 GLOB_CHARACTERS = frozenset("*?[")
@@ -15,11 +16,15 @@ GLOB_CHARACTERS = frozenset("*?[")
 
 @dataclass(frozen=True, slots=True)
 class Source:
-    """One mesh to read: a path, or bytes that came by standard input (``path`` None)."""
+    """One mesh to read: a path, or bytes that came by standard input (``path`` None).
+
+    ``scan`` is one shape of a file that holds several: it has been read already.
+    """
 
     path: str | None
     data: bytes | None = None
     format: str | None = None
+    scan: Scan | None = field(default=None, compare=False)
 
 
 @dataclass(frozen=True, slots=True)

@@ -14,10 +14,9 @@ from footfit.geometry.measures.landmarks import Shape
 from footfit.geometry.measures.measure_table import measure_named
 from footfit.geometry.measures.measure_value import MeasureValue
 from footfit.geometry.numeric.arrays import Floats, Ints
-from footfit.meshes.copies.compact_copy import expanded
 from footfit.pipeline.batch.sources import ReadingOptions, Source
 from footfit.pipeline.library.ingest import last_record
-from footfit.pipeline.scan.flare import as_right, right_shape
+from footfit.pipeline.scan.preparation import stored_shape
 from footfit.pipeline.scan.reading import profiled_source
 from footfit.results import (
     Comparison,
@@ -45,7 +44,7 @@ FAR_MM = 40.0
 
 @dataclass(frozen=True, slots=True)
 class LastShape:
-    """A last to compare with: its record, and its mesh, canonical mm, on its own side."""
+    """A last to compare with: its record, and its right shape, canonical mm, holes closed."""
 
     record: LastRecord
     vertices_mm: Floats
@@ -61,7 +60,8 @@ def stored_last(path: Path, name: str) -> LastShape:
         It is not there, or its copy is not sound.
     """
     with open_catalogue(path) as catalogue:
-        return LastShape(catalogue.record(name), *expanded(catalogue.mesh_copy(name).data))
+        record = catalogue.record(name)
+        return LastShape(record, *stored_shape(catalogue.mesh_copy(name).data, record.side.side))
 
 
 def scanned_last(source: Source, reading: ReadingOptions) -> LastShape:
@@ -73,10 +73,8 @@ def scanned_last(source: Source, reading: ReadingOptions) -> LastShape:
         As in reading, aligning and profiling any last.
     """
     shape = profiled_source(source, reading)
-    name = Path(source.path or "last").stem
-    return LastShape(
-        last_record(shape, LastLabels(name)), shape.aligned.vertices_mm, shape.aligned.faces
-    )
+    record = last_record(shape, LastLabels(Path(source.path or "last").stem))
+    return LastShape(record, shape.aligned.prepared.vertices_mm, shape.aligned.prepared.faces)
 
 
 @dataclass(frozen=True, slots=True)
@@ -100,8 +98,8 @@ def placed_foot(foot: Profiled, last: LastShape) -> PlacedFoot:
     NoSole
         One of the two has no bottom to rest on.
     """
-    around = Shape(*as_right(last.vertices_mm, last.faces, last.record.side.side), "last")
-    vertices_mm, faces = right_shape(foot.aligned)
+    around = Shape(last.vertices_mm, last.faces, "last")
+    vertices_mm, faces = foot.aligned.prepared.vertices_mm, foot.aligned.prepared.faces
     place = placement(Shape(vertices_mm, faces, "foot"), around)
     inside = Shape(placed(vertices_mm, place), faces, "foot")
     clearance_mm = foot_clearance(inside, around)

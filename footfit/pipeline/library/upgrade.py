@@ -7,9 +7,9 @@ from pathlib import Path
 from footfit.catalogue.store import Catalogue, open_catalogue
 from footfit.geometry.flare.definition import FlareDefinition
 from footfit.geometry.flare.flare_profile import flare_profile
-from footfit.meshes.copies.compact_copy import expanded
 from footfit.pipeline.library.lasts import has_other_measures
-from footfit.pipeline.scan.flare import as_right, measured
+from footfit.pipeline.scan.flare import measured
+from footfit.pipeline.scan.preparation import stored_shape
 from footfit.results import LastRecord, UpgradeOutcome
 
 
@@ -48,8 +48,8 @@ def upgrade(path: Path) -> UpgradeOutcome:
 
 def _renew(catalogue: Catalogue, record: LastRecord, definition: FlareDefinition | None) -> None:
     """Measure a last again, and profile it by ``definition``; None keeps the profile."""
-    vertices_mm, faces = expanded(catalogue.mesh_copy(record.labels.name).data)
-    right, kind = as_right(vertices_mm, faces, record.side.side), record.pose.kind
+    copy, kind = catalogue.mesh_copy(record.labels.name), record.pose.kind
+    right = stored_shape(copy.data, record.side.side)
     flare, upgraded_from = record.flare, record.upgraded_from
     if definition is not None:
         flare, upgraded_from = flare_profile(*right, definition, kind), flare.definition.version

@@ -10,7 +10,7 @@ from footfit.errors import BadOption
 from footfit.geometry.curvature.one_ring import one_ring_curvature
 from footfit.geometry.curvature.pooled_curvature import longest_radius, pooled_curvature
 from footfit.geometry.mesh.topology import edges
-from footfit.meshes.clean.extents import principal_extents
+from footfit.geometry.pose.extents import principal_extents
 from footfit.results import Notice, Scan, SurfaceCurvature
 
 

@@ -10,13 +10,10 @@ import numpy as np
 from footfit.errors import SideUndecided
 from footfit.geometry.flare.definition import FlareDefinition
 from footfit.geometry.flare.flare_profile import flare_profile
-from footfit.geometry.flare.levelled_bottom import low_length
 from footfit.geometry.measures import measure_table
 from footfit.geometry.measures.landmarks import Shape
-from footfit.geometry.mesh.holes import filled
 from footfit.geometry.numeric.arrays import Floats, Ints
-from footfit.geometry.pose.frame import FRAME
-from footfit.results import AlignedScan, Measure, Measured, Notice, Profiled, SideName
+from footfit.results import AlignedScan, Measure, Measured, Notice, Profiled
 
 FOOT_SD_DEG = 0.2
 """The least that is said of a foot: a smooth scan does not show what noise does to its toes."""
@@ -52,7 +49,7 @@ def profiled(aligned: AlignedScan, definition: FlareDefinition | None = None) ->
             "the shape does not tell left from right: say --side left or --side right",
             alignment.info.path,
         )
-    vertices_mm, faces = right_shape(aligned)
+    vertices_mm, faces = aligned.prepared.vertices_mm, aligned.prepared.faces
     flare = flare_profile(vertices_mm, faces, definition, alignment.pose.kind)
     kind = alignment.pose.kind
     sd_deg = angle_sd_deg(flare.angle_sd_deg, kind, sole=alignment.pose.sole)
@@ -89,29 +86,6 @@ def flare_suspects(angle_deg: float, kind: str) -> tuple[Notice, ...]:
     ask = "does the scan show the whole foot, standing?" if kind == "foot" else "is it whole?"
     words = f"flare {angle_deg:+.1f} deg is hardly a {kind}'s ({least:+.0f} to {most:+.0f}): {ask}"
     return (Notice("suspect_flare", words),)
-
-
-def right_shape(aligned: AlignedScan) -> tuple[Floats, Ints]:
-    """The canonical mesh as a right one, as :func:`as_right` makes it."""
-    return as_right(aligned.vertices_mm, aligned.faces, aligned.alignment.side.side)
-
-
-def as_right(vertices_mm: Floats, faces: Ints, side: SideName | None) -> tuple[Floats, Ints]:
-    """A canonical mesh as a right one, wound outward, its small holes closed.
-
-    A left mesh is mirrored, its faces turned over. Without holes the vertices and their order
-    stay as they are; the caps' come last.
-
-    Parameters
-    ----------
-    vertices_mm : (n, 3)
-    faces : (m, 3)
-    side : {"left", "right"} or None
-    """
-    if side == "left":
-        vertices_mm, faces = vertices_mm * np.array([1.0, -1.0, 1.0]), faces[:, ::-1]
-    whole = filled(vertices_mm, faces, low_length(vertices_mm, FRAME.length_height)[1])
-    return whole.vertices, whole.faces
 
 
 END_MEASURES = frozenset({"length", "functional_length", "tape_length", "ball_length"})

@@ -7,7 +7,7 @@ from collections.abc import Iterable
 from footfit.errors import SideUndecided
 from footfit.geometry.measures.measure_table import MEASURES, unusual
 from footfit.pipeline.batch.sources import ReadingOptions, Source
-from footfit.pipeline.scan.flare import believed, measured, right_shape
+from footfit.pipeline.scan.flare import believed, measured
 from footfit.pipeline.scan.reading import aligned_source
 from footfit.results import AlignedScan, Measure, MeasuredScan, Notice
 
@@ -26,7 +26,7 @@ def measured_scan(aligned: AlignedScan) -> MeasuredScan:
             "the shape does not tell left from right: say --side left or --side right",
             alignment.info.path,
         )
-    measures = measured(*right_shape(aligned), alignment.pose.kind)
+    measures = measured(aligned.prepared.vertices_mm, aligned.prepared.faces, alignment.pose.kind)
     measures = believed(measures, alignment.warnings)
     return MeasuredScan(alignment, measures, suspects(measures, alignment.pose.kind))
 

@@ -1,220 +1,272 @@
-"""From a scan to the one shape in it: plate off, pieces told apart, faces outward, pose found."""
+"""From a scan to a prepared scan: what every method takes, made once per file."""
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from itertools import combinations
+from functools import lru_cache
+from typing import Literal
 
 import numpy as np
 
-from footfit.errors import HalfScan, NotAFoot, SeveralFeet
-from footfit.geometry.mesh.caps import extent_of
-from footfit.geometry.mesh.topology import boundary_loops
+from footfit.errors import HalfScan
+from footfit.geometry.flare.levelled_bottom import low_length
+from footfit.geometry.measures.landmarks import Shape
+from footfit.geometry.measures.measure_table import measure_named
+from footfit.geometry.mesh.holes import Filled, filled
+from footfit.geometry.mesh.samples import SurfaceSample, gathered, quadrature
 from footfit.geometry.numeric.arrays import Floats, Ints
-from footfit.geometry.pose.floor_plate import is_flat, without_plate
-from footfit.geometry.pose.pieces import (
-    PIECES,
-    Facing,
-    comparable,
-    facing,
-    gap,
-    lacks_its_sole,
-    part_of,
-    pieces,
-    stand_apart,
+from footfit.geometry.numeric.rotations import applied, nearest_rotation, transform
+from footfit.geometry.pose.frame import FRAME, canonical_frame, length_of, turned_sample
+from footfit.geometry.pose.missing_parts import doubtful_end, missing_part
+from footfit.geometry.pose.side import confidence, side_score
+from footfit.meshes.copies.compact_copy import expanded
+from footfit.pipeline.scan.one_shape import PosedShape, shape_in
+from footfit.pipeline.scan.settled_unit import (
+    info_with_unit,
+    length_notices,
+    length_windows,
+    read_notices,
 )
-from footfit.geometry.pose.pose_search import SOLELESS, Orientation, orientation
-from footfit.pipeline.scan.shipped_templates import shipped_references
-from footfit.results import Notice, Scan
-
-_STRAYS = Notice("pieces_removed", "pieces beside the foot were left out")
-
-Windows = tuple[tuple[float, float], ...]
+from footfit.results import (
+    Confidence,
+    Measured,
+    Notice,
+    PoseQuality,
+    PreparedScan,
+    Scan,
+    SideName,
+    SideVerdict,
+)
 
 
 @dataclass(frozen=True, slots=True)
-class Posed:
-    """The one foot or last of a scan: mesh (provisional mm, file axes), its pose, what was done."""
+class FramingSettings:
+    """How finely the frame is integrated, and what it takes for a leg cut low."""
 
-    vertices: Floats
-    faces: Ints
-    orientation: Orientation
-    sheet: bool
-    notices: tuple[Notice, ...]
+    quadrature_edge: float = 0.03  # over L
+    many_points: int = 200_000  # more are gathered: a million moved the frame by .01 mm, .001 deg
+    gathered_edge: float = 0.0025  # over L
+    settling_rounds: int = 2  # more of the frame from the frame: two poses agree to 1e-8 mm
+    low_leg: float = 0.24  # of L: what ends lower is a leg cut low
 
 
-def posed(scan: Scan, windows: Windows) -> Posed:
-    """The one foot or last of a scan, with its rough pose.
+FRAMING = FramingSettings()
+STORED_SHAPES = 32
+"""So many stored lasts are kept ready for a further comparison: 0.7 MB each."""
+_MISSING = {
+    "heel": "no heel: the surface ends there in a cut; scan the whole foot",
+    "toes": "no toes: the surface ends there in a cut; scan the whole foot",
+    "side": "one side is cut off along the foot; scan the whole foot",
+    "upper part": "only the lowest part of a foot or last; scan at least 50 mm from the floor up",
+}
+
+
+def prepared_scan(
+    scan: Scan,
+    side: Literal["auto", "left", "right"] = "auto",
+    known_length_mm: float | None = None,
+) -> PreparedScan:
+    """The one foot or last of a scan, as every method takes it.
 
     Parameters
     ----------
     scan : Scan
-    windows : pairs of float
-        Plausible lengths in the scan's provisional mm; empty: any.
+        Its unit may be provisional (``units_source`` "detected"): the length found confirms or
+        corrects it.
+    side : {"auto", "left", "right"}
+        A side given wins; a contradiction is a notice.
+    known_length_mm : float, optional
+        The measured length that the shape is scaled to: a stick measures the foot, not its mesh.
 
     Raises
     ------
-    SeveralFeet
-        If two comparable pieces beside each other each look like a foot or last.
-    HalfScan
-        If it is a sheet: a sole without the rest.
-    NotAFoot
-        If nothing in it looks like a foot or last.
+    NotAFoot, SeveralFeet, HalfScan
+        If it is not one whole foot or last.
+    UnknownUnits, ImplausibleSize
+        If no unit, or not the declared one, gives it a plausible length.
     """
-    body = _without_floor(scan)
-    found = comparable(body.vertices, body.faces, body.pieces)
-    if len(found) == 1:
-        alone = _without_strays(body)
-        shape = _oriented(alone.vertices, alone.faces, windows, alone.notices)
-    else:
-        shape = _the_one_foot(body, found, windows)
-    if shape.orientation.accepted and shape.sheet:
-        raise HalfScan("this is a sheet, like a scan of the sole alone; scan the whole foot")
-    if not shape.orientation.accepted:
-        raise NotAFoot(
-            "neither a foot nor a last, as far as the shape tells"
-            f" (cost {shape.orientation.cost:.2f}, margin {shape.orientation.margin:.2f}"
-            f"{_opening_words(shape)}); check that the file holds one whole foot or last"
-        )
-    return shape
+    shape = shape_in(scan, length_windows(scan.info, known_length_mm))
+    closed = filled(shape.vertices, shape.faces, shape.orientation.length)
+    frame = _Framed.of(shape, closed)
+    _refuse_half(closed, frame)
+    verdict = _verdict(frame, side)
+    known = known_length_mm
+    info = info_with_unit(scan.info, frame.extent if known is None else frame.length, known)
+    info = replace(info, vertices=len(shape.vertices), faces=len(shape.faces))
+    factor = info.unit_scale / scan.info.unit_scale
+    points_mm, extent_mm = factor * frame.points, factor * frame.extent
+    open_ends = _end_notices(closed, frame)
+    length = _length(factor * frame.length, open_ends)
+    vertices_mm, faces = right_copy(points_mm, closed.faces, verdict.side)
+    height_mm = float(points_mm[: len(shape.vertices), 2].max())
+    notices = (
+        *read_notices(scan, info, length.value),
+        *shape.notices,
+        *_hole_notices(closed, factor),
+        *open_ends,
+        *_notices(frame, height_mm, extent_mm, verdict),
+        *length_notices(info, factor * frame.length),
+    )
+    return PreparedScan(
+        info=info,
+        side=verdict,
+        pose=frame.quality,
+        canonical_transform=transform(frame.rotation, factor * frame.shift, info.unit_scale),
+        length=length,
+        extent_mm=extent_mm,
+        file_vertices_mm=factor * shape.vertices,
+        vertices_mm=vertices_mm,
+        faces=faces,
+        notices=tuple(dict.fromkeys(notices)),
+    )
 
 
-def _opening_words(shape: Posed) -> str:
-    """How wide the surface is open, where that is wide enough to be a part of something."""
-    rims = [shape.vertices[rim] for rim in boundary_loops(shape.faces)]
-    widest = max((extent_of(rim) for rim in rims), default=0.0)
-    share = widest / float(np.ptp(shape.vertices, axis=0).max())
-    return f", open over {100 * share:.0f} % of its size" if share > PIECES.wide_open else ""
+def right_copy(vertices_mm: Floats, faces: Ints, side: SideName | None) -> tuple[Floats, Ints]:
+    """A canonical mesh as a right one: a left mesh is mirrored, its faces turned over."""
+    if side != "left":
+        return vertices_mm, faces
+    return vertices_mm * np.array([1.0, -1.0, 1.0]), faces[:, ::-1]
+
+
+@lru_cache(maxsize=STORED_SHAPES)
+def stored_shape(data: bytes, side: SideName | None) -> tuple[Floats, Ints]:
+    """A stored last's mesh copy as a right shape, its small holes closed.
+
+    Parameters
+    ----------
+    data : bytes
+        The mesh copy as the catalogue keeps it.
+    side : {"left", "right"} or None
+        The last's.
+
+    Raises
+    ------
+    CatalogueDamaged
+        The copy is not sound.
+    """
+    return closed_shape(*right_copy(*expanded(data), side))
+
+
+def closed_shape(vertices_mm: Floats, faces: Ints) -> tuple[Floats, Ints]:
+    """A canonical shape with its small holes closed; the vertices of the caps come last."""
+    closed = filled(vertices_mm, faces, low_length(vertices_mm, FRAME.length_height)[1])
+    return closed.vertices, closed.faces
+
+
+# ---------------------------------------------------------------- the frame
 
 
 @dataclass(frozen=True, slots=True)
-class _Body:
-    """A mesh without its floor plate, its pieces' faces (largest first), and what was done."""
+class _Framed:
+    """The canonical frame in provisional mm: points = rotation @ vertices + shift, caps included.
 
-    vertices: Floats
-    faces: Ints
-    pieces: list[Ints]
-    notices: tuple[Notice, ...]
-
-
-def _without_floor(scan: Scan) -> _Body:
-    """The scan without its plate, which may be a piece by itself or grown to the foot."""
-    vertices, faces = scan.vertices_mm, scan.faces
-    found = pieces(vertices, faces)
-    if len(found) == 1 and without_plate(vertices, faces).all():
-        return _Body(vertices, faces, found, ())
-    flat = [is_flat(part_of(vertices, faces, piece)[0]) for piece in found]
-    removed = any(flat) and not all(flat)
-    if removed:
-        found = [piece for piece, thin in zip(found, flat, strict=True) if not thin]
-    kept = [part_of(vertices, faces, piece) for piece in found]
-    masks = [without_plate(*mesh) for mesh in kept]
-    removed = removed or not all(mask.all() for mask in masks)
-    if not removed:
-        return _Body(vertices, faces, found, ())
-    # Cutting a plate away may leave crumbs and, where two feet stood on it, two pieces.
-    chosen = np.sort(np.concatenate([p[mask] for p, mask in zip(found, masks, strict=True)]))
-    vertices, faces = part_of(vertices, faces, chosen)
-    notice = Notice("plate_removed", "a floor plate was cut away")
-    return _Body(vertices, faces, pieces(vertices, faces), (notice,))
-
-
-def _without_strays(body: _Body) -> _Body:
-    """The largest piece with what lies close to it; lesser things beside it are left out."""
-    if len(body.pieces) == 1:
-        return body
-    near = _near(body, part_of(body.vertices, body.faces, body.pieces[0])[0])
-    if len(near) == len(body.pieces):
-        return body
-    vertices, faces = part_of(body.vertices, body.faces, np.sort(np.concatenate(near)))
-    return _Body(vertices, faces, near, (*body.notices, _STRAYS))
-
-
-def _near(body: _Body, points: Floats) -> list[Ints]:
-    """The pieces that come close to points (n, 3) of the shape, itself among them."""
-    size = float(np.ptp(points, axis=0).max())
-    return [
-        piece
-        for piece in body.pieces
-        if gap(points, part_of(body.vertices, body.faces, piece)[0]) < PIECES.gap * size
-    ]
-
-
-def separate_feet(scan: Scan, windows: Windows) -> list[tuple[Floats, Ints]]:
-    """The meshes of the feet or lasts that stand beside each other in a scan, the largest first.
-
-    Empty where there are not at least two: the scan is then one shape, or none.
+    ``surface`` is the whole surface as points with areas, ``extent`` how far the mesh reaches along
+    X below the leg, ``length`` the measured length, whether or not its ends were scanned.
     """
-    body = _without_floor(scan)
-    found = comparable(body.vertices, body.faces, body.pieces)
-    if not 1 < len(found) <= PIECES.most:
+
+    points: Floats
+    surface: SurfaceSample
+    rotation: Floats
+    shift: Floats
+    extent: float
+    length: float
+    quality: PoseQuality
+
+    @classmethod
+    def of(cls, shape: PosedShape, closed: Filled) -> _Framed:
+        """Refine the rough pose of a shape, by its surface with its holes closed."""
+        rough = shape.orientation
+        about = applied(transform(rough.rotation, rough.shift), closed.vertices)
+        # The edge in steps of a tenth: two poses of one shape get the same points.
+        step = np.round(np.log(rough.length) / np.log(1.1))
+        edge = FRAMING.quadrature_edge * float(1.1**step)
+        sample = quadrature(about, closed.faces, edge)
+        if len(sample.areas) > FRAMING.many_points:
+            sample = gathered(sample, FRAMING.gathered_edge * rough.length)
+        fine = canonical_frame(sample, rough.length)
+        rotation, shift = fine.rotation, fine.shift
+        for _ in range(FRAMING.settling_rounds):  # until the pose it came from is forgotten
+            turned = turned_sample(sample, rotation)
+            surface = replace(turned, points=turned.points + shift)
+            fine = canonical_frame(surface, fine.length)
+            rotation, shift = fine.rotation @ rotation, fine.rotation @ shift + fine.shift
+        turned = turned_sample(sample, rotation)
+        surface = replace(turned, points=turned.points + shift)
+        shift = rotation @ rough.shift + shift
+        rotation = nearest_rotation(rotation @ rough.rotation)
+        points = applied(transform(rotation, shift), closed.vertices)
+        quality = PoseQuality(rough.cost, rough.margin, fine.support, fine.sole, rough.kind)
+        extent = length_of(points, 0.0, fine.length)
+        length = Shape(points, closed.faces, rough.kind).length_mm
+        return cls(points, surface, rotation, shift, extent, length, quality)
+
+
+def _refuse_half(closed: Filled, frame: _Framed) -> None:
+    """Raise HalfScan where a part was cut off, since length and flare would be another's."""
+    rims = [frame.points[rim] for rim in closed.rims]
+    missing = missing_part(frame.surface, rims, frame.extent)
+    if missing is not None:
+        raise HalfScan(_MISSING[missing])
+
+
+def _end_notices(closed: Filled, frame: _Framed) -> list[Notice]:
+    """The end, if any, that may be longer than it was scanned."""
+    end = doubtful_end(frame.surface, [frame.points[rim] for rim in closed.rims], frame.extent)
+    if end is None:
         return []
-    feet = _feet(body, found, windows)
-    return [(foot.vertices, foot.faces) for foot in feet] if _beside(feet) else []
+    return [Notice("open_end", f"the surface is open at the {end}: its length may be short")]
 
 
-def _feet(body: _Body, found: list[Ints], windows: Windows) -> list[Posed]:
-    """The pieces that each look like a foot or last, the largest first."""
-    parts = (part_of(body.vertices, body.faces, piece) for piece in found)
-    shapes = [_oriented(*part, windows, body.notices) for part in parts]
-    return [shape for shape in shapes if shape.orientation.accepted]
+def _length(length_mm: float, open_ends: Sequence[Notice]) -> Measured:
+    """The measured length; no value, with the reason, where an end was not scanned."""
+    if open_ends:
+        return Measured(None, reason=open_ends[0].message)
+    return Measured(length_mm, measure_named("length").sd)
 
 
-def _beside(feet: list[Posed]) -> bool:
-    """Does one of them stand beside another?"""
-    pairs = combinations(feet, 2)
-    return any(stand_apart(one.vertices, other.vertices) for one, other in pairs)
+def _verdict(frame: _Framed, side: str) -> SideVerdict:
+    """The side detected, or the one given with what the shape says of it."""
+    score = side_score(frame.surface.points, frame.extent).score
+    word: Confidence = confidence(score)
+    detected: SideName = "right" if score >= 0 else "left"
+    if side == "auto":
+        return SideVerdict(None if word == "undecided" else detected, word, score, "detected")
+    given: SideName = "left" if side == "left" else "right"
+    contradicted = word != "undecided" and detected != given
+    return SideVerdict(given, "low" if contradicted else "sure", score, "given")
 
 
-def _the_one_foot(body: _Body, found: list[Ints], windows: Windows) -> Posed:
-    """The foot among comparable pieces, or the pieces together where they are one cracked scan."""
-    if len(found) > PIECES.most:  # no shelf of feet: looking at each would take minutes
-        return _oriented(body.vertices, body.faces, windows, body.notices)
-    feet = _feet(body, found, windows)
-    if _beside(feet):
-        raise SeveralFeet(f"{len(feet)} feet or lasts in one file; add --split to take them apart")
-    if not feet:
-        return _oriented(body.vertices, body.faces, windows, body.notices)
-    best = feet[0]  # the largest: of two shells of one surface always the same
-    together = _near(body, best.vertices)
-    if len(together) == 1:
-        return replace(best, notices=(*best.notices, _STRAYS))
-    notices = body.notices if len(together) == len(body.pieces) else (*body.notices, _STRAYS)
-    chosen = np.sort(np.concatenate(together))
-    whole = _oriented(*part_of(body.vertices, body.faces, chosen), windows, notices)
-    if whole.orientation.accepted and whole.orientation.cost <= best.orientation.cost:
-        return whole
-    return replace(best, notices=(*best.notices, _STRAYS))
+def _hole_notices(closed: Filled, factor: float) -> list[Notice]:
+    """What was closed, if anything."""
+    if not closed.extents:
+        return []
+    count, widest_mm = len(closed.extents), factor * closed.extents[0]
+    holes = "a hole" if count == 1 else f"{count} holes"
+    return [Notice("holes_filled", f"{holes} of up to {widest_mm:.0f} mm bridged")]
 
 
-def _oriented(
-    vertices: Floats, faces: Ints, windows: Windows, notices: tuple[Notice, ...]
-) -> Posed:
-    """One mesh with its pose; its faces turned over where they look inward."""
-    looks = facing(vertices, faces)
-    turned = (*notices, Notice("winding_fixed", "the faces looked inward and were turned"))
-    ways = []
-    if looks.outward > -PIECES.inside_out:
-        ways.append((faces, 1.0, notices))
-    if looks.outward < PIECES.inside_out:
-        ways.append((faces[:, [0, 2, 1]], -1.0, turned))
-    shapes = [
-        _wound(vertices, wound, windows, replace(looks, toward=sign * looks.toward), said)
-        for wound, sign, said in ways
-    ]
-    return min(shapes, key=lambda shape: shape.orientation.cost)
-
-
-def _wound(
-    vertices: Floats, faces: Ints, windows: Windows, looks: Facing, notices: tuple[Notice, ...]
-) -> Posed:
-    """One mesh, wound as it is; where it fits badly, tried again as one without its sole."""
-    references = shipped_references()
-    found = orientation(vertices, faces, references, windows)
-    if not found.accepted and looks.one_way > PIECES.shell:
-        again = orientation(vertices, faces, references, windows, SOLELESS)
-        if again.accepted and lacks_its_sole(looks.toward, looks.one_way, again.rotation[2]):
-            found = again
-    open_below = lacks_its_sole(looks.toward, looks.one_way, found.rotation[2])
-    sheet = looks.one_way > PIECES.sheet and not open_below
-    return Posed(vertices, faces, found, sheet, notices)
+def _notices(frame: _Framed, top_mm: float, extent_mm: float, verdict: SideVerdict) -> list[Notice]:
+    """What the alignment found that a person should know."""
+    found = []
+    if not frame.quality.sole:
+        found.append(Notice("no_sole", "there is no sole: the frame rests on the lowest rim"))
+    if top_mm < FRAMING.low_leg * extent_mm:
+        found.append(Notice("leg_cut_low", f"the scan ends {top_mm:.0f} mm above the floor"))
+    if verdict.source == "detected" and verdict.confidence != "sure":
+        found.append(
+            Notice(
+                "low_side_confidence",
+                f"left or right is {verdict.confidence}"
+                f" (score {verdict.score:.2f}); say --side left|right",
+            )
+        )
+    if verdict.source == "given" and verdict.confidence == "low":
+        found.append(
+            Notice(
+                "side_contradicted",
+                f"given as {verdict.side}, but the shape looks like the other"
+                f" (score {verdict.score:.2f})",
+            )
+        )
+    return found

@@ -1,4 +1,4 @@
-"""From a source to a scan, an aligned scan, a profiled scan."""
+"""From a source to a scan, a prepared scan, an aligned scan, a profiled scan."""
 
 from __future__ import annotations
 
@@ -8,14 +8,26 @@ from typing import Literal, cast
 
 from footfit.errors import UnknownUnits
 from footfit.meshes.file_bytes import file_bytes
-from footfit.meshes.read import scan_from_bytes
+from footfit.meshes.read import file_mesh
 from footfit.meshes.read_limits import LIMITS
+from footfit.meshes.units import checked_options
 from footfit.pipeline.batch.sources import ReadingOptions, Source
-from footfit.pipeline.scan.align import aligned
+from footfit.pipeline.scan.align import aligned_scan
+from footfit.pipeline.scan.cleaning import scan_of
 from footfit.pipeline.scan.curvature import surface_curvature
 from footfit.pipeline.scan.flare import profiled
-from footfit.results import AlignedScan, Method, Profiled, Reference, Scan, SurfaceCurvature
+from footfit.pipeline.scan.preparation import prepared_scan
+from footfit.results import (
+    AlignedScan,
+    Method,
+    PreparedScan,
+    Profiled,
+    Reference,
+    Scan,
+    SurfaceCurvature,
+)
 
+AS_FOUND = ReadingOptions()
 ANY_LENGTH_MM = 250.0
 """What a shape of unknown scale is taken to be, to look at the shape alone."""
 
@@ -27,18 +39,41 @@ def source_bytes(source: Source) -> bytes:
 
 def content_hash(source: Source) -> str:
     """SHA-256 of the source's bytes: what a last is known by."""
+    if source.scan is not None:
+        return source.scan.info.sha256
     return hashlib.sha256(source_bytes(source)).hexdigest()
 
 
-def read(source: Source, reading: ReadingOptions) -> Scan:
-    """Read one mesh, whichever way it came."""
-    return scan_from_bytes(
-        source_bytes(source),
-        path=source.path,
-        format=source.format,
-        units=reading.units,
-        known_length_mm=reading.known_length_mm,
-    )
+def read(source: Source, reading: ReadingOptions = AS_FOUND) -> Scan:
+    """Read one mesh, whichever way it came: in mm, welded, cleaned, its faces outward.
+
+    Raises
+    ------
+    InputError
+        UnreadableFile, UnknownFormat, DamagedMesh, EmptyMesh, TooLarge or UnknownUnits.
+    BadOption
+        The options contradict each other, or the source's format.
+    """
+    checked_options(reading.units, reading.known_length_mm)
+    if source.scan is not None:
+        return source.scan
+    file = file_mesh(source_bytes(source), source.path, source.format)
+    return scan_of(file, source.path, reading.units, reading.known_length_mm)
+
+
+def prepared_source(source: Source, reading: ReadingOptions) -> PreparedScan:
+    """Read and prepare one mesh.
+
+    Where no unit makes it a foot's length, its shape is asked first: half a foot, a cube or two
+    feet in one file is refused as what it is, and only a foot or last as of an unknown unit.
+    """
+    try:
+        scan = read(source, reading)
+    except UnknownUnits:
+        prepared_scan(read(source, replace(reading, known_length_mm=ANY_LENGTH_MM)))
+        raise
+    side = cast(Literal["auto", "left", "right"], reading.side)
+    return prepared_scan(scan, side, reading.known_length_mm)
 
 
 def aligned_source(
@@ -47,23 +82,8 @@ def aligned_source(
     method: Method = "footfit",
     reference: Reference | None = None,
 ) -> AlignedScan:
-    """Read and align one mesh.
-
-    Where no unit makes it a foot's length, its shape is asked first: half a foot, a cube or two
-    feet in one file is refused as what it is, and only a foot or last as of an unknown unit.
-    """
-    try:
-        scan = read(source, reading)
-    except UnknownUnits:
-        aligned(read(source, replace(reading, known_length_mm=ANY_LENGTH_MM)))
-        raise
-    return aligned(
-        scan,
-        method=method,
-        side=cast(Literal["auto", "left", "right"], reading.side),
-        reference=reference,
-        known_length_mm=reading.known_length_mm,
-    )
+    """Read, prepare and align one mesh."""
+    return aligned_scan(prepared_source(source, reading), method, reference)
 
 
 def profiled_source(source: Source, reading: ReadingOptions) -> Profiled:

@@ -6,7 +6,7 @@ from dataclasses import dataclass, replace
 
 from footfit.errors import ImplausibleSize, UnknownUnits
 from footfit.meshes.units import UNIT_NAMES, UNIT_SCALES
-from footfit.pipeline.scan.preparation import Windows
+from footfit.pipeline.scan.one_shape import Windows
 from footfit.results import MeshInfo, Notice, Scan
 
 

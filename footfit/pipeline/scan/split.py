@@ -5,9 +5,8 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from footfit.errors import FootfitError
-from footfit.meshes.write import encoded_mesh
 from footfit.pipeline.batch.sources import ReadingOptions, Source
-from footfit.pipeline.scan.preparation import separate_feet
+from footfit.pipeline.scan.one_shape import scans_in
 from footfit.pipeline.scan.reading import read
 from footfit.pipeline.scan.settled_unit import length_windows
 
@@ -24,12 +23,7 @@ def split_sources(sources: Sequence[Source], reading: ReadingOptions) -> list[So
 def _parts(source: Source, reading: ReadingOptions) -> list[Source]:
     try:
         scan = read(source, reading)
-        feet = separate_feet(scan, length_windows(scan.info, reading.known_length_mm))
+        scans = scans_in(scan, length_windows(scan.info, reading.known_length_mm))
     except FootfitError:
         return [source]
-    scale = scan.info.unit_scale
-    parts = [
-        Source(f"{source.path or '-'}#{i}", encoded_mesh(vertices / scale, faces, "stl"), "stl")
-        for i, (vertices, faces) in enumerate(feet, start=1)
-    ]
-    return parts or [source]
+    return [Source(each.info.path, scan=each) for each in scans] or [source]

@@ -1,0 +1,130 @@
+"""From a file's triangles to a mesh: equal corners welded, each triangle once."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from footfit.geometry.mesh.topology import boundary_edges, rows_differ
+from footfit.geometry.mesh.welding import has_distinct_corners, welded
+from footfit.geometry.numeric.arrays import Bools, Floats, Ints
+from footfit.meshes.clean.spikes import pressed_spikes
+from footfit.results import Notice
+
+
+@dataclass(frozen=True, slots=True)
+class WeldSettings:
+    """When nearly equal corners are one.
+
+    Attributes
+    ----------
+    loose_ratio : float
+        More vertices per face than this after the exact weld (a closed surface has 0.5) and the
+        corners were rounded apart: they are welded once more within the tolerance below.
+    near_extent, near_coordinate : float
+        That tolerance: the larger of this share of the diagonal and of the largest coordinate.
+    """
+
+    loose_ratio: float = 1.2
+    near_extent: float = 1e-5
+    near_coordinate: float = 5e-7
+
+
+WELD_SETTINGS = WeldSettings()
+
+
+@dataclass(frozen=True, slots=True)
+class WeldedMesh:
+    """A mesh in the file's numbers, whose faces share vertices and stand there once.
+
+    ``source_to_vertex`` (vertices of the file,) is the row of ``vertices`` that each became.
+    ``collapsed`` counts the faces that were dropped since two of their corners were one.
+    """
+
+    vertices: Floats
+    faces: Ints
+    source_to_vertex: Ints
+    collapsed: int
+    notices: tuple[Notice, ...]
+
+
+def welded_mesh(
+    vertices: Floats, faces: Ints, settings: WeldSettings = WELD_SETTINGS
+) -> WeldedMesh:
+    """Weld, drop what is no triangle or stands twice, press spikes back.
+
+    Parameters
+    ----------
+    vertices : (n, 3) float64
+        Finite, in any unit.
+    faces : (m, 3) int64
+    settings : WeldSettings
+
+    Returns
+    -------
+    WeldedMesh
+        With notices ``near_vertices_welded``, ``duplicates_removed``, ``spikes_pressed``.
+    """
+    vertices, faces, source, notices = _welded(vertices, faces, settings)
+    distinct = has_distinct_corners(faces)
+    faces = faces[distinct]
+    once = _first_of_equals(faces)
+    notices += counted("duplicates_removed", int((~once).sum()), "faces stood in the file twice")
+    faces = faces[once]
+    vertices, pressed = pressed_spikes(vertices, faces)
+    notices += counted("spikes_pressed", pressed, "spikes were pressed back into the surface")
+    return WeldedMesh(vertices, faces, source, int((~distinct).sum()), notices)
+
+
+def counted(code: str, count: int, words: str) -> tuple[Notice, ...]:
+    """A notice of how many there were, none where there were none."""
+    return (Notice(code, f"{count:,} {words}"),) if count else ()
+
+
+def _welded(
+    vertices: Floats, faces: Ints, settings: WeldSettings
+) -> tuple[Floats, Ints, Ints, tuple[Notice, ...]]:
+    """The exact weld, and where it leaves the faces apart the weld of nearly equal corners."""
+    points, joined, source = welded(vertices, faces)
+    if len(points) <= settings.loose_ratio * len(faces):
+        return points, joined, source, ()
+    corners = points[np.unique(joined)]
+    diagonal = float(np.linalg.norm(np.ptp(corners, axis=0)))
+    far = float(np.abs(corners).max())
+    tolerance = max(settings.near_extent * diagonal, settings.near_coordinate * far)
+    if not tolerance > 0.0:
+        return points, joined, source, ()
+    near, nearly, merged = _nearly_welded(points, joined, tolerance)
+    if 2 * len(boundary_edges(nearly)) > len(boundary_edges(joined)):
+        return points, joined, source, ()
+    message = f"corners up to {tolerance:.2g} (the file's unit) apart were taken as one"
+    return near, nearly, merged[source], (Notice("near_vertices_welded", message),)
+
+
+def _nearly_welded(vertices: Floats, faces: Ints, tolerance: float) -> tuple[Floats, Ints, Ints]:
+    """Merge vertices that share a cell of a grid, then of the grid moved by half a cell."""
+    source = np.arange(len(vertices))
+    for shift in (0.0, 0.5):
+        cells = np.floor(vertices / tolerance + shift)
+        _, faces, group = welded(cells, faces)
+        first = np.unique(group, return_index=True)[1]
+        vertices, source = vertices[first], group[source]
+    return vertices, faces, source
+
+
+def _first_of_equals(faces: Ints) -> Bools:
+    """False for every face whose three vertices an earlier face has, in any order, (m,)."""
+    ordered = np.sort(faces, axis=1)
+    span = int(faces.max(initial=0)) + 1
+    pair = ordered[:, 0] * span + ordered[:, 1]
+    if span**3 < np.iinfo(np.int64).max:
+        keys = np.sort(pair * span + ordered[:, 2])
+        if not (keys[1:] == keys[:-1]).any():
+            return np.ones(len(faces), dtype=bool)
+    order = np.lexsort((ordered[:, 2], pair))
+    again = np.zeros(len(faces), dtype=bool)
+    again[1:] = ~rows_differ(ordered[order[1:]], ordered[order[:-1]])
+    first = np.empty(len(faces), dtype=bool)
+    first[order] = ~again  # the sort is stable: of equals the earliest comes first
+    return first

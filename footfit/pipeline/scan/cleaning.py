@@ -1,0 +1,132 @@
+"""From a file's mesh to a scan: specks and a floor plate off, faces outward, in mm."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from footfit.errors import EmptyMesh
+from footfit.geometry.mesh.surface import area_vectors
+from footfit.geometry.mesh.topology import boundary_edges, edges, face_components
+from footfit.geometry.mesh.welding import without_unused_vertices
+from footfit.geometry.numeric.arrays import Floats, Ints
+from footfit.geometry.pose.facing import outward_faces
+from footfit.geometry.pose.loose_pieces import KeptPieces, kept_pieces
+from footfit.meshes.clean.triangles import WeldedMesh, counted
+from footfit.meshes.read import FileMesh
+from footfit.meshes.units import settled_units
+from footfit.results import MeshInfo, Notice, Scan
+
+SLIVER = 1e-12
+"""A face whose area is below this share of the mean area has none."""
+PLATE_REMOVED = Notice("plate_removed", "a floor plate was taken off")
+
+
+@dataclass(frozen=True, slots=True)
+class CleanSurface:
+    """A surface in the file's numbers, without specks, its faces outward.
+
+    ``source_to_vertex`` (vertices of the file,) is the row of ``vertices`` that each became, -1
+    where it was dropped. ``watertight``: every edge lies in exactly two faces (counted before
+    faces without an area go, since those close a surface too).
+    """
+
+    vertices: Floats
+    faces: Ints
+    source_to_vertex: Ints
+    watertight: bool
+    notices: tuple[Notice, ...]
+
+
+def clean_surface(mesh: WeldedMesh) -> CleanSurface:
+    """Keep the pieces that matter, turn the faces outward, drop what has no area.
+
+    Of a surface of any kind: whether there is a foot in it is not asked here.
+
+    Raises
+    ------
+    EmptyMesh
+        No face has an area.
+    DamagedMesh
+        The surface is in far too many pieces.
+    """
+    vertices, faces = mesh.vertices, mesh.faces
+    vectors = area_vectors(vertices, faces)
+    areas = np.sqrt(np.einsum("ij,ij->i", vectors, vectors))
+    flat = areas <= SLIVER * areas.mean() if len(areas) else areas == 0.0
+    if flat.all():
+        raise EmptyMesh("no triangle of the file has an area: export the mesh again")
+    labels = face_components(faces, len(vertices))
+    kept = kept_pieces(vertices, faces, labels, areas)
+    if not kept.faces.all():
+        faces, vectors = faces[kept.faces], vectors[kept.faces]
+        labels, flat = labels[kept.faces], flat[kept.faces]
+    faces, turned = outward_faces(vertices, faces, vectors, labels)
+    removed = mesh.collapsed + int(flat.sum())
+    open_notices = _open_notices(faces)
+    notices = (
+        *mesh.notices,
+        *_piece_notices(kept),
+        *turned_notices(turned),
+        *counted("degenerate_removed", removed, "faces without an area were removed"),
+        *open_notices,
+    )
+    vertices, faces, number = without_unused_vertices(vertices, faces[~flat])
+    return CleanSurface(vertices, faces, number[mesh.source_to_vertex], not open_notices, notices)
+
+
+def scan_of(
+    file: FileMesh, path: str | None, units: str = "auto", known_length_mm: float | None = None
+) -> Scan:
+    """A file's mesh as a scan in mm; the unit, where it is detected, is provisional.
+
+    Raises
+    ------
+    EmptyMesh, DamagedMesh, UnknownUnits
+        As :func:`clean_surface` and :func:`footfit.meshes.units.settled_units` do.
+    BadOption
+        ``units`` or ``known_length_mm`` cannot be carried out.
+    """
+    surface = clean_surface(file.mesh)
+    unit = settled_units(surface.vertices, units, known_length_mm, file.unit)
+    info = MeshInfo(
+        path=path,
+        sha256=file.sha256,
+        format=file.format,
+        vertices=len(surface.vertices),
+        faces=len(surface.faces),
+        watertight=surface.watertight,
+        units=unit.name,
+        units_source=unit.source,
+        unit_scale=unit.scale,
+    )
+    notices = file.notices + surface.notices + unit.warnings
+    scaled = surface.vertices * unit.scale
+    return Scan(info, scaled, surface.faces, notices, surface.source_to_vertex)
+
+
+def _piece_notices(kept: KeptPieces) -> tuple[Notice, ...]:
+    """What was taken off, and whether the rest is in pieces."""
+    notices = [PLATE_REMOVED] if kept.plates else []
+    if kept.loose > 1:
+        message = f"the surface is in {kept.loose} pieces that touch nowhere: all are kept"
+        notices.append(Notice("many_pieces", message))
+    share = f"{100.0 * kept.specks_share:.2g} % of the area"
+    words = f"small loose pieces ({share}) were removed"
+    return (*notices, *counted("specks_removed", kept.specks, words))
+
+
+def turned_notices(count: int) -> tuple[Notice, ...]:
+    """What to say of faces that were turned over, if any."""
+    return counted("winding_fixed", count, "faces looked inward and were turned over")
+
+
+def _open_notices(faces: Ints) -> tuple[Notice, ...]:
+    """What to say where not every edge has exactly two faces."""
+    rims = len(boundary_edges(faces))
+    crowded = 3 * len(faces) - rims - 2 * (len(edges(faces)) - rims)
+    return (
+        *counted("non_manifold", crowded, "times more than two faces share an edge"),
+        *counted("open_mesh", rims, "edges have one face only: the surface is open"),
+    )
