@@ -41,6 +41,7 @@ The whole tree (a test compares this drawing with the classes)::
 
 from __future__ import annotations
 
+import re
 from enum import IntEnum
 from typing import ClassVar
 
@@ -75,6 +76,11 @@ class FootfitError(Exception):
 
     code: ClassVar[str] = "error"
     exit: ClassVar[ExitCode] = ExitCode.BUG
+
+    def __init_subclass__(cls) -> None:
+        """Name the code after the class, unless the class names it: BadOption is bad_option."""
+        if "code" not in vars(cls):
+            cls.code = re.sub(r"(?<!^)(?=[A-Z])", "_", cls.__name__).lower()
 
     def __init__(self, message: str, path: str | None = None) -> None:
         super().__init__(message)
@@ -111,19 +117,13 @@ class UsageError(FootfitError):
 class BadOption(UsageError):
     """An option's value is outside what the option takes."""
 
-    code = "bad_option"
-
 
 class NameTaken(UsageError):
     """The name, or the content, is in the catalogue already under another label."""
 
-    code = "name_taken"
-
 
 class OutputExists(UsageError):
     """The output file exists and ``--force`` was not given."""
-
-    code = "output_exists"
 
 
 class InputError(FootfitError):
@@ -136,176 +136,122 @@ class InputError(FootfitError):
 class UnreadableFile(InputError):
     """The path is missing, not a regular file, or may not be read."""
 
-    code = "unreadable_file"
-
 
 class UnknownFormat(InputError):
     """The content is no mesh format that footfit reads."""
-
-    code = "unknown_format"
 
 
 class DamagedMesh(InputError):
     """The file breaks its own format: truncated, lying counts, NaN, bad indices."""
 
-    code = "damaged_mesh"
-
 
 class EmptyMesh(InputError):
     """Nothing with an area is left in the file."""
-
-    code = "empty_mesh"
 
 
 class TooLarge(InputError):
     """The file is past a stated limit of size or memory."""
 
-    code = "too_large"
-
 
 class TooSlow(InputError):
     """The work on the file takes longer than one file may."""
-
-    code = "too_slow"
 
 
 class UnknownUnits(InputError):
     """No unit makes the scan a plausible length, and none was declared."""
 
-    code = "unknown_units"
-
 
 class ImplausibleSize(InputError):
     """With the declared unit the scan is no foot's and no last's length."""
-
-    code = "implausible_size"
 
 
 class BadManifest(InputError):
     """The manifest CSV cannot be understood."""
 
-    code = "bad_manifest"
-
 
 class BadProfile(InputError):
     """The fit profile's TOML cannot be understood."""
-
-    code = "bad_profile"
 
 
 class NotInCatalogue(FootfitError):
     """The catalogue, or what was asked of it, is not there."""
 
     exit = ExitCode.NOT_IN_CATALOGUE
-    code = "not_in_catalogue"
 
 
 class NoCatalogue(NotInCatalogue):
     """There is no catalogue at that path."""
 
-    code = "no_catalogue"
-
 
 class EmptyCatalogue(NotInCatalogue):
     """The catalogue holds no last."""
-
-    code = "empty_catalogue"
 
 
 class UnknownLast(NotInCatalogue):
     """No last of that name."""
 
-    code = "unknown_last"
-
 
 class NoReference(NotInCatalogue):
     """A paper method needs a reference last and none is set."""
 
-    code = "no_reference"
-
 
 class NoCandidate(NotInCatalogue):
     """No last of the catalogue passes the filters given."""
-
-    code = "no_candidate"
 
 
 class GeometryRefused(FootfitError):
     """The mesh is well formed and is not what the command needs."""
 
     exit = ExitCode.GEOMETRY_REFUSED
-    code = "geometry_refused"
 
 
 class NotAFoot(GeometryRefused):
     """Neither a foot nor a last, as far as its shape tells."""
 
-    code = "not_a_foot"
-
 
 class SeveralFeet(GeometryRefused):
     """More than one foot in one file."""
-
-    code = "several_feet"
 
 
 class HalfScan(GeometryRefused):
     """Only a part of a foot: a plantar sheet, a forefoot."""
 
-    code = "half_scan"
-
 
 class SideUndecided(GeometryRefused):
     """The shape does not tell left from right, and the answer depends on it."""
 
-    code = "side_undecided"
-
 
 class NoSole(GeometryRefused):
     """The scan has no sole, and the answer needs one."""
-
-    code = "no_sole"
 
 
 class CatalogueUnusable(FootfitError):
     """The catalogue file cannot be opened or written."""
 
     exit = ExitCode.CATALOGUE_UNUSABLE
-    code = "catalogue_unusable"
 
 
 class CatalogueLocked(CatalogueUnusable):
     """Another process holds the catalogue past the timeout."""
 
-    code = "catalogue_locked"
-
 
 class CatalogueNotWritable(CatalogueUnusable):
     """The file or its folder is read-only, or the disk is full."""
-
-    code = "catalogue_not_writable"
 
 
 class NotACatalogue(CatalogueUnusable):
     """The file is something else."""
 
-    code = "not_a_catalogue"
-
 
 class CatalogueDamaged(CatalogueUnusable):
     """SQLite cannot read the file."""
 
-    code = "catalogue_damaged"
-
 
 class NewerCatalogue(CatalogueUnusable):
     """A later version of footfit wrote the file."""
-
-    code = "newer_catalogue"
 
 
 class CheckFailed(FootfitError):
     """A check was asked for and is not met."""
 
     exit = ExitCode.CHECK_FAILED
-    code = "check_failed"
