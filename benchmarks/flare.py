@@ -287,11 +287,11 @@ def curve_rows(shapes: list[Shape], seed: int) -> Iterator[list[str]]:
 
 def seconds(shapes: list[Shape]) -> tuple[float, float]:
     """One core's time of the profile and, in turn with it, of a weld: read the ratio."""
-    from footfit.geometry.mesh.welding import welded
+    from footfit.geometry.mesh.welding import welded_vertices
 
     times: tuple[list[float], list[float]] = ([], [])
     for shape in shapes[:6]:
-        for into, work in zip(times, (flare_profile, welded), strict=True):
+        for into, work in zip(times, (flare_profile, welded_vertices), strict=True):
             start = time.process_time()
             work(shape.vertices, shape.faces)
             into.append(time.process_time() - start)

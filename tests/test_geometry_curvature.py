@@ -14,7 +14,7 @@ from footfit.geometry.curvature.pooled_curvature import (
     pooled_curvature,
 )
 from footfit.geometry.mesh.topology import boundary_vertices
-from footfit.geometry.mesh.welding import welded
+from footfit.geometry.mesh.welding import welded_vertices
 from footfit.geometry.numeric.angles import angle_between
 from footfit.geometry.numeric.polylines import curvature_density
 from tests import implicit, shapes
@@ -185,7 +185,7 @@ def test_a_mirror_and_another_order_change_nothing(kind, mesh, seed):
 def test_duplicate_vertices_change_nothing_after_the_weld(mesh, seed):
     vertices, faces = shuffled(*mesh, np.random.default_rng(seed))
     still = pooled_curvature(vertices, faces, RADIUS)
-    merged, merged_faces, source = welded(*soup(vertices, faces))
+    merged, merged_faces, source = welded_vertices(*soup(vertices, faces))
     found = pooled_curvature(merged, merged_faces, RADIUS)
     np.testing.assert_allclose(found.mean[source], still.mean[faces.ravel()], atol=1e-9)
 

@@ -8,7 +8,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from footfit.geometry.mesh.samples import quadrature
-from footfit.geometry.mesh.welding import welded
+from footfit.geometry.mesh.welding import welded_vertices
 from footfit.geometry.numeric.planes import LEVEL, Plane, fitted_plane
 from footfit.geometry.pose.floor_plate import is_flat, without_plate
 from footfit.geometry.pose.sole_plane import sole_plane, support
@@ -49,7 +49,7 @@ def test_a_plate_grown_to_a_last_is_cut_away():
     cut = distortions.plane_cut(vertices, faces, np.array([0, 0, 6.0]), np.array([0, 0, -1.0]))
     ground = distortions.floor_plate(*cut)
     pose = distortions.random_pose(np.random.default_rng(4))
-    plated = welded(distortions.moved(ground[0], pose), ground[1])[:2]
+    plated = welded_vertices(distortions.moved(ground[0], pose), ground[1])[:2]
     left = without_plate(*plated)
     assert not left[len(cut[1]) :].any()
     assert left[: len(cut[1])].mean() > 0.85

@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 
 from footfit.geometry.mesh.samples import quadrature
 from footfit.geometry.numeric.quantiles import area_quantile
-from footfit.geometry.numeric.rotations import angle_deg, turned_by
+from footfit.geometry.numeric.rotations import angle_deg, rotations_about
 from footfit.geometry.pose.frame import about_z, canonical_frame, levelling
 from tests import distortions, shapes
 from tools.lasts import LastSpec, last_mesh
@@ -27,7 +27,7 @@ def frame_of(vertices, faces, length=270.0):
 def test_a_box_stands_on_its_side_with_its_long_axis_along_x():
     vertices, faces = shapes.cube(1.0, 8)
     box = (vertices + np.array([0.5, 0.0, 0.5])) * [260.0, 90.0, 60.0]
-    tilt = turned_by(np.array([[0.06, -0.05, 0.08]]))[0]
+    tilt = rotations_about(np.array([[0.06, -0.05, 0.08]]))[0]
     frame = frame_of(box @ tilt.T + [3.0, -4.0, 2.0], faces, 260.0)
     assert frame.sole
     assert angle_deg(frame.rotation @ tilt, np.eye(3)) < 0.01
@@ -45,7 +45,7 @@ def test_a_box_stands_on_its_side_with_its_long_axis_along_x():
 def test_the_frame_forgets_the_pose_it_was_started_from(last, seed):
     vertices, faces = last
     home = frame_of(vertices, faces)
-    turn = turned_by(np.random.default_rng(seed).uniform(-0.1, 0.1, (1, 3)))[0]
+    turn = rotations_about(np.random.default_rng(seed).uniform(-0.1, 0.1, (1, 3)))[0]
     frame = frame_of(vertices @ turn.T, faces)
     assert angle_deg(frame.rotation @ turn, home.rotation) < 0.05
     placed = vertices @ turn.T @ frame.rotation.T + frame.shift

@@ -10,7 +10,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from footfit.geometry.mesh.samples import even_sample
-from footfit.geometry.numeric.rotations import turned_by
+from footfit.geometry.numeric.rotations import rotations_about
 from footfit.geometry.pose.icp import FIT, Poses, _plane_part, _point_part, icp_steps, levelled
 from footfit.geometry.pose.icp import moved as pose_fit_moved
 from footfit.geometry.pose.pose_search import (
@@ -54,7 +54,7 @@ def test_icp_finds_back_a_small_known_motion():
     shape = shipped_references().shapes[0]
     body = shape.points[:, 2] < 0.4
     points, normals = shape.points[body][::8], shape.normals[body][::8]
-    turn = turned_by(np.array([[0.10, -0.08, 0.12]]))[0]
+    turn = rotations_about(np.array([[0.10, -0.08, 0.12]]))[0]
     moved = (points @ turn.T + [0.02, -0.01, 0.015]).astype(np.float32)
     start = Poses(
         np.eye(3, dtype=np.float32)[None], np.zeros((1, 3), np.float32), np.ones(1, np.float32)

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 
-from footfit.geometry.mesh.outlines import closed_loops, outline, smoothed
+from footfit.geometry.mesh.outlines import closed_loops, outline, smooth_loop
 from tests import shapes
 from tests.distortions import joined, shuffled, subdivided, white_noise
 from tests.strategies import seeds, surfaces
@@ -32,9 +32,11 @@ def test_a_sphere_is_cut_in_a_circle(x_mm: float) -> None:
 def test_smoothing_halves_the_noise_and_does_not_shrink() -> None:
     angle = np.linspace(0.0, 2.0 * np.pi, 200, endpoint=False)
     circle = 35.0 * np.column_stack([np.cos(angle), np.sin(angle)])
-    assert np.linalg.norm(smoothed(circle, LENGTH_MM), axis=1).mean() == pytest.approx(35, abs=0.02)
+    assert np.linalg.norm(smooth_loop(circle, LENGTH_MM), axis=1).mean() == pytest.approx(
+        35, abs=0.02
+    )
     noisy = circle + np.random.default_rng(5).normal(0.0, 0.3, circle.shape)
-    radius = np.linalg.norm(smoothed(noisy, LENGTH_MM), axis=1)
+    radius = np.linalg.norm(smooth_loop(noisy, LENGTH_MM), axis=1)
     assert np.std(radius) < 0.15
     assert radius.mean() == pytest.approx(35.0, abs=0.1)
 

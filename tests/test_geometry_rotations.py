@@ -9,8 +9,8 @@ from hypothesis import strategies as st
 from footfit.geometry.numeric.rotations import (
     angle_deg,
     nearest_rotation,
+    rotations_about,
     super_fibonacci,
-    turned_by,
 )
 from tests import distortions
 
@@ -36,7 +36,7 @@ def test_the_grid_holds_rotations_without_a_gap():
 )
 def test_turning_by_a_vector_turns_by_its_length(axis, angle):
     vector = np.array(axis) / np.linalg.norm(axis) * angle
-    turn = turned_by(vector[None])[0]
+    turn = rotations_about(vector[None])[0]
     assert abs(np.radians(angle_deg(np.eye(3), turn)) - angle) < 1e-9
     np.testing.assert_allclose(turn @ vector, vector, atol=1e-12)
 

@@ -7,7 +7,12 @@ from dataclasses import astuple
 import numpy as np
 import pytest
 
-from footfit.geometry.mesh.samples import SurfaceSample, farthest_points, gathered, quadrature
+from footfit.geometry.mesh.samples import (
+    SurfaceSample,
+    farthest_points,
+    gathered_sample,
+    quadrature,
+)
 from tests import distortions, shapes
 from tests.solids import surface_area
 
@@ -31,8 +36,8 @@ def test_quadrature_stops_after_its_rounds():
 def test_gathered_points_keep_area_and_moments_in_any_order():
     whole = quadrature(*shapes.ellipsoid((130.0, 50.0, 40.0), 5), 10.0)
     shuffled = np.random.default_rng(1).permutation(len(whole.areas))
-    fewer = gathered(whole, 5.0)
-    again = gathered(SurfaceSample(*(part[shuffled] for part in astuple(whole))), 5.0)
+    fewer = gathered_sample(whole, 5.0)
+    again = gathered_sample(SurfaceSample(*(part[shuffled] for part in astuple(whole))), 5.0)
     assert len(fewer.areas) < len(whole.areas) / 5
     assert fewer.areas.sum() == pytest.approx(whole.areas.sum())
     assert fewer.areas @ fewer.points == pytest.approx(whole.areas @ whole.points, abs=1e-3)
@@ -45,7 +50,7 @@ def test_gathered_points_keep_area_and_moments_in_any_order():
 def test_points_of_two_sides_of_a_thin_sheet_are_not_gathered_into_one():
     points, normals = np.zeros((2, 3)), np.array([[0.0, 0, 1], [0, 0, -1]])
     sheet = SurfaceSample(points, normals, np.ones(2))
-    assert gathered(sheet, 1.0).normals.tolist() == [[0, 0, -1], [0, 0, 1]]
+    assert gathered_sample(sheet, 1.0).normals.tolist() == [[0, 0, -1], [0, 0, 1]]
 
 
 def test_noise_does_not_enlarge_the_areas():

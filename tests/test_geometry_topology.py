@@ -9,7 +9,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from footfit.geometry.mesh import topology, welding
-from footfit.geometry.mesh.welding import welded
+from footfit.geometry.mesh.welding import welded_vertices
 from tests import shapes
 from tests.distortions import joined, plane_cut, shuffled, soup
 from tests.solids import euler_characteristic, is_consistently_wound, signed_volume
@@ -21,7 +21,7 @@ from tests.strategies import seeds, surfaces
 def test_welding_a_soup_gives_the_mesh_back(mesh, seed):
     vertices, faces = shuffled(*mesh, np.random.default_rng(seed))
     loose, corners = soup(vertices, faces)
-    found, welded_faces, source = welded(loose, corners)
+    found, welded_faces, source = welded_vertices(loose, corners)
     assert len(found) == len(np.unique(vertices, axis=0))
     np.testing.assert_array_equal(found[source], loose)
     np.testing.assert_array_equal(found[welded_faces], vertices[faces])
@@ -30,7 +30,7 @@ def test_welding_a_soup_gives_the_mesh_back(mesh, seed):
 
 def test_welding_keeps_first_occurrences_in_order_and_minus_zero_is_zero():
     points = np.array([[3.0, 0, 0], [0.0, 1, 0], [3.0, -0.0, 0], [0.0, 1, 5e-324], [-0.0, 1, 0]])
-    found, _, source = welded(points, np.array([[0, 1, 3]]))
+    found, _, source = welded_vertices(points, np.array([[0, 1, 3]]))
     assert source.tolist() == [0, 1, 0, 2, 1]
     np.testing.assert_array_equal(found, points[[0, 1, 3]])
 
@@ -38,20 +38,20 @@ def test_welding_keeps_first_occurrences_in_order_and_minus_zero_is_zero():
 def test_welding_survives_equal_hashes(monkeypatch):
     monkeypatch.setattr(welding, "_MIX", np.zeros(3, dtype=np.uint64))
     vertices, faces = soup(*shapes.sphere(50.0, 1))
-    found, _, source = welded(vertices, faces)
+    found, _, source = welded_vertices(vertices, faces)
     assert len(found) == 42
     np.testing.assert_array_equal(found[source], vertices)
 
 
 def test_nothing_at_all_is_no_accident():
     none, points = np.empty((0, 3), dtype=np.int64), np.empty((0, 3))
-    assert len(welded(points, none)[0]) == 0
+    assert len(welded_vertices(points, none)[0]) == 0
     assert len(topology.edges(none)) == len(topology.boundary_edges(none)) == 0
     assert topology.boundary_loops(none) == []
     assert len(topology.face_components(none, 0)) == 0
     assert not topology.is_closed(none)
     assert not topology.closed_fan_vertices(none, 4).any()
-    assert len(topology.consistently_wound(none)) == 0
+    assert len(topology.consistent_faces(none)) == 0
 
 
 @pytest.mark.parametrize(
@@ -131,7 +131,7 @@ def test_turned_faces_are_turned_back_and_no_others(mesh, seed, share):
     turned = rng.permutation(len(faces)) < share * len(faces)
     damaged = faces.copy()
     damaged[turned] = damaged[turned][:, ::-1]
-    mended = topology.consistently_wound(damaged)
+    mended = topology.consistent_faces(damaged)
     assert is_consistently_wound(mended)
     assert signed_volume(vertices, mended) == pytest.approx(signed_volume(vertices, faces))
 
@@ -141,7 +141,7 @@ def test_each_piece_is_wound_by_its_own_majority():
     _, faces = joined(first, (second[0], second[1][:, ::-1]))
     damaged = faces.copy()
     damaged[[3, 100]] = damaged[[3, 100]][:, ::-1]
-    mended = topology.consistently_wound(damaged)
+    mended = topology.consistent_faces(damaged)
     cyclic = [np.sort(np.stack([np.roll(f, -k, axis=1) for k in range(3)]), axis=0)[0]
               for f in (mended, faces)]  # fmt: skip
     np.testing.assert_array_equal(*cyclic)
@@ -155,7 +155,7 @@ def test_a_moebius_band_is_left_as_it_is():
     band = np.concatenate(
         [np.stack([top, low, after_top], 1), np.stack([after_top, low, after_low], 1)]
     )
-    np.testing.assert_array_equal(topology.consistently_wound(band), band)
+    np.testing.assert_array_equal(topology.consistent_faces(band), band)
     assert not is_consistently_wound(band)
 
 

@@ -13,7 +13,7 @@ from footfit.geometry.mesh.moments import (
     printed_covariance,
     vertex_mean,
 )
-from footfit.geometry.numeric.rotations import angle_deg, applied, transform, turned_by
+from footfit.geometry.numeric.rotations import angle_deg, moved_points, rotations_about, transform
 from footfit.geometry.pose import paper_frame
 from tests import distortions
 from tools.lasts import LastSpec, last_mesh
@@ -50,7 +50,7 @@ def test_the_literal_reading_equals_om_e_v_prime(last, seed, left):
         P_c, R = paper_frame.mirrored_frame(P_c, R)
     found = paper_frame.paper_transform(P_c, R, OM_E, np.zeros(3), 1.0, literal=True)
     expected = (moved - vertex_mean(moved)) @ OM_E.T
-    assert np.abs(applied(found, moved) - expected).max() < 1e-9
+    assert np.abs(moved_points(found, moved) - expected).max() < 1e-9
 
 
 def test_what_the_literal_reading_costs(last):
@@ -66,7 +66,7 @@ def test_what_the_literal_reading_costs(last):
         wrong = paper_frame.paper_transform(centroid, axes, OM_E, reference, 1.0, literal=True)
         right = paper_frame.paper_transform(centroid, axes, OM_E, reference, 1.0)
         for found, displacement in ((wrong, literal), (right, consistent)):
-            away = np.linalg.norm(applied(found, moved) - vertices, axis=1)
+            away = np.linalg.norm(moved_points(found, moved) - vertices, axis=1)
             displacement.append(np.median(away))
     assert np.median(literal) > 40.0
     assert max(consistent) < 1e-6
@@ -78,10 +78,10 @@ def test_step_5_turns_the_covariance_diagonal(last, seed):
     """In its own frame (OM_E = 1) the aligned mesh has the printed covariance of its values."""
     moved, centroid, axes, _ = posed_frame(last, np.random.default_rng(seed))
     found = paper_frame.paper_transform(centroid, axes, np.eye(3), np.zeros(3), 1.0)
-    C_M = printed_covariance(applied(found, moved), last[1])
+    C_M = printed_covariance(moved_points(found, moved), last[1])
     values = moments_along(printed_covariance(moved, last[1]), axes)
     np.testing.assert_allclose(C_M, np.diag(values), atol=1e-8)
-    assert np.abs(applied(found, moved).mean(axis=0)).max() < 1e-9
+    assert np.abs(moved_points(found, moved).mean(axis=0)).max() < 1e-9
 
 
 @settings(max_examples=15, deadline=None)
@@ -91,7 +91,7 @@ def test_the_frames_angle_is_the_planted_turn(seed):
     rng = np.random.default_rng(seed)
     canonical, angle = distortions.random_rotation(rng), rng.uniform(0.01, 3.1)
     axis = rng.normal(size=3)
-    turn = turned_by(angle * axis[None] / np.linalg.norm(axis))[0]
+    turn = rotations_about(angle * axis[None] / np.linalg.norm(axis))[0]
     paper = turn @ canonical
     of_mirrored = paper_frame.CANONICAL_MIRROR @ paper @ paper_frame.FILE_MIRROR
     for found, mirrored in ((paper, False), (of_mirrored, True)):
@@ -113,10 +113,10 @@ def test_a_left_last_lands_on_its_right_twin(last, seed, scale):
     as_right = paper_frame.mirrored_frame(left_centroid, left_axes)
     found = paper_frame.paper_transform(*as_right, OM_E, reference, scale)
     file = left / scale * [-1.0, 1.0, 1.0]
-    assert np.abs(applied(found, file) - last[0]).max() < 1e-6
+    assert np.abs(moved_points(found, file) - last[0]).max() < 1e-6
     direct = paper_frame.unmirrored(found, mirrored=True)
     assert np.linalg.det(direct[:3, :3]) > 0
-    assert np.abs(applied(direct, left / scale) - twin[0]).max() < 1e-6
+    assert np.abs(moved_points(direct, left / scale) - twin[0]).max() < 1e-6
     left_canonical = left_canonical @ np.diag([scale, scale, scale, 1.0])
     assert angle_deg(paper_frame.om_e(left_axes, left_canonical, mirrored=True), OM_E) < 1e-6
     of_left = paper_frame.canonical_centroid_mm(left_centroid, left_canonical, scale, mirrored=True)
@@ -128,7 +128,7 @@ def test_a_left_last_lands_on_its_right_twin(last, seed, scale):
 def test_settled_axes_are_a_rotation_whatever_order_and_signs_came(seed):
     rng = np.random.default_rng(seed)
     canonical = distortions.random_rotation(rng)
-    near = turned_by(rng.uniform(-0.2, 0.2, (1, 3)))[0]
+    near = rotations_about(rng.uniform(-0.2, 0.2, (1, 3)))[0]
     axes = near @ canonical
     shuffled = axes[rng.permutation(3)] * rng.choice([-1.0, 1.0], 3)[:, None]
     np.testing.assert_allclose(paper_frame.settled(shuffled, canonical), axes, atol=1e-12)

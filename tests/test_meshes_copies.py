@@ -14,7 +14,7 @@ from hypothesis import strategies as st
 from footfit.errors import CatalogueDamaged
 from footfit.geometry.mesh.nearest import nearest_on_triangles
 from footfit.geometry.mesh.topology import is_closed
-from footfit.meshes.copies.compact_copy import COPY_SETTINGS, compact_copy, expanded
+from footfit.meshes.copies.compact_copy import COPY_SETTINGS, compact_copy, expanded_mesh
 from footfit.meshes.copies.deviation import largest_deviation_mm
 from tests import distortions, shapes
 from tests.solids import signed_volume
@@ -34,7 +34,7 @@ def nearest(points, vertices, faces):
 def test_a_copy_without_decimation_differs_by_the_step_alone():
     vertices, faces = shapes.torus(around=48, across=24)
     copy = compact_copy(vertices, faces)
-    found, triangles = expanded(copy.data)
+    found, triangles = expanded_mesh(copy.data)
     assert (len(found), len(triangles), copy.faces) == (len(vertices), len(faces), len(faces))
     gaps = np.linalg.norm(found[:, None] - vertices[None], axis=2).min(axis=1)
     assert gaps.max() <= np.sqrt(3.0) * COPY_SETTINGS.step_mm / 2.0 + 1e-12
@@ -48,7 +48,7 @@ def test_a_decimated_copy_is_small_and_as_near_as_it_says():
     pose = distortions.random_pose(np.random.default_rng(2))
     vertices, faces = distortions.moved(FOOT[0], pose), FOOT[1]
     copy = compact_copy(vertices, faces, target_faces=1_500)
-    found, triangles = expanded(copy.data)
+    found, triangles = expanded_mesh(copy.data)
     assert copy.faces == len(triangles) <= 1_500
     assert len(copy.data) < 6 * len(triangles)
     assert copy.error_mm <= COPY_SETTINGS.error_mm
@@ -126,7 +126,7 @@ def test_damaged_bytes_are_found_or_harmless(data):
         damaged[data.draw(st.integers(0, len(COPY) - 1))] ^= data.draw(st.integers(1, 255))
     cut = bytes(damaged[: data.draw(st.integers(0, len(COPY)) | st.just(len(COPY)))])
     try:
-        vertices, faces = expanded(cut)
+        vertices, faces = expanded_mesh(cut)
     except CatalogueDamaged:
         return
     assert np.isfinite(vertices).all()
@@ -137,15 +137,15 @@ def test_damaged_bytes_are_found_or_harmless(data):
 def test_every_cut_is_found():
     for length in range(0, len(COPY), 37):
         with pytest.raises(CatalogueDamaged):
-            expanded(COPY[:length])
+            expanded_mesh(COPY[:length])
     with pytest.raises(CatalogueDamaged):
-        expanded(COPY + b"more")
+        expanded_mesh(COPY + b"more")
 
 
 def test_a_copy_that_promises_too_much_is_refused_before_it_is_expanded():
     header = struct.pack("<4sBxxxIId3d", b"ffmc", 1, 10**7, 10**7, 0.005, 0.0, 0.0, 0.0)
     with pytest.raises(CatalogueDamaged, match="counts"):
-        expanded(header + zlib.compress(bytes(100)))
+        expanded_mesh(header + zlib.compress(bytes(100)))
     bomb = struct.pack("<4sBxxxIId3d", b"ffmc", 1, 3, 1, 0.005, 0.0, 0.0, 0.0)
     with pytest.raises(CatalogueDamaged, match="length"):
-        expanded(bomb + zlib.compress(bytes(10**7)))
+        expanded_mesh(bomb + zlib.compress(bytes(10**7)))

@@ -91,7 +91,7 @@ def test_a_file_that_may_not_be_read_is_said_to_be_so(tmp_path, monkeypatch):
         raise PermissionError(13, "Permission denied")
 
     monkeypatch.setattr(os, "open", refuse)  # root may read whatever the mode bits say
-    with pytest.raises(UnreadableFile, match="may not be read"):
+    with pytest.raises(UnreadableFile, match="may not read"):
         read_scan(path)
 
 

@@ -12,7 +12,7 @@ from footfit.geometry.pose.extents import principal_extents
 from footfit.meshes.units import (
     UNIT_SCALES,
     UNIT_SETTINGS,
-    checked_options,
+    check_unit_options,
     plausible_unit,
     settled_units,
 )
@@ -73,7 +73,7 @@ def test_a_known_length_scales_the_longest_extent_in_any_pose():
 )
 def test_options_that_cannot_be_carried_out_are_refused(wanted, known):
     with pytest.raises(BadOption):
-        checked_options(wanted, known)
+        check_unit_options(wanted, known)
 
 
 @given(seed=st.integers(0, 1000))

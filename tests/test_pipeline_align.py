@@ -23,7 +23,7 @@ from footfit.errors import (
     UnknownUnits,
 )
 from footfit.geometry.mesh.moments import printed_covariance, surface_second_moment
-from footfit.geometry.numeric.rotations import angle_deg, applied
+from footfit.geometry.numeric.rotations import angle_deg, moved_points
 from footfit.geometry.pose import paper_frame
 from footfit.meshes.units import UNIT_NAMES, UNIT_SCALES
 from footfit.pipeline.scan import preparation
@@ -69,7 +69,7 @@ def test_many_faces_lie_as_they_would_if_nothing_were_gathered(last, monkeypatch
     gathered = aligned(scan_of(*fine)).alignment
     there, here = gathered.canonical_transform, whole.canonical_transform
     assert 0.0 < angle_deg(there[:3, :3], here[:3, :3]) < 0.01
-    assert np.abs(applied(there, last[0]) - applied(here, last[0])).max() < 0.05
+    assert np.abs(moved_points(there, last[0]) - moved_points(here, last[0])).max() < 0.05
 
 
 def reference_of(alignment):
@@ -98,13 +98,13 @@ def test_any_pose_side_and_unit_give_the_same_canonical_last(last, home, seed, l
     posed = distortions.moved(vertices, distortions.random_pose(rng))
     found = aligned(scan_of(posed, faces, units=units))
     flip = [1.0, -1.0, 1.0] if left else [1.0, 1.0, 1.0]
-    expected = applied(home.canonical_transform, vertices * flip) * flip
+    expected = moved_points(home.canonical_transform, vertices * flip) * flip
     assert np.abs(found.vertices_mm - expected).max() < 0.3
     assert found.alignment.side.side == ("left" if left else "right")
     assert found.alignment.info.units == units
     assert found.alignment.length_mm == pytest.approx(home.length_mm, abs=0.1)
     in_file = posed / UNIT_SCALES[units]
-    by_transform = applied(found.alignment.transform, in_file)
+    by_transform = moved_points(found.alignment.transform, in_file)
     assert np.abs(by_transform - found.vertices_mm).max() < 1e-6
     linear = found.alignment.transform[:3, :3] / found.alignment.info.unit_scale
     np.testing.assert_allclose(linear @ linear.T, np.eye(3), atol=1e-9)
@@ -200,7 +200,7 @@ def test_a_known_length_settles_the_scale(last, factor):
     rows = {measure.name: measure.measured for measure in measured_scan(found).measures}
     assert rows["length"].value == pytest.approx(251.5)
     assert found.alignment.info.units == "scaled"
-    by_transform = applied(found.alignment.transform, scan.vertices_mm)
+    by_transform = moved_points(found.alignment.transform, scan.vertices_mm)
     assert np.abs(by_transform - found.vertices_mm).max() < 1e-6
 
 
@@ -365,7 +365,7 @@ def test_the_paper_method_puts_a_last_on_itself(last, home, left):
     posed = distortions.moved(vertices, pose)
     found = aligned(scan_of(posed, faces), method="paper", reference=reference_of(home)).alignment
     assert np.linalg.det(found.transform[:3, :3]) > 0
-    off = applied(found.transform, posed) - applied(found.canonical_transform, posed)
+    off = moved_points(found.transform, posed) - moved_points(found.canonical_transform, posed)
     assert np.abs(off).max() < 0.3
 
 
@@ -384,7 +384,7 @@ def test_the_literal_method_is_om_e_v_prime(last, left):
     before = [-1.0, 1.0, 1.0] if left else [1.0, 1.0, 1.0]
     after = [1.0, -1.0, 1.0] if left else [1.0, 1.0, 1.0]
     expected = ((posed - posed.mean(axis=0)) * before) @ OM_E.T * after
-    assert np.abs(applied(found.alignment.transform, posed) - expected).max() < 1e-9
+    assert np.abs(moved_points(found.alignment.transform, posed) - expected).max() < 1e-9
 
 
 def signed_orders():

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from footfit.errors import BadOption
-from footfit.geometry.mesh.welding import welded
+from footfit.geometry.mesh.welding import welded_vertices
 from footfit.pipeline.scan.curvature import surface_curvature
 from footfit.results import MeshInfo, Scan
 from tests import shapes
@@ -43,7 +43,7 @@ def test_radius_zero_is_the_one_ring_and_drowns_where_the_default_does_not():
 def test_each_vertex_of_the_file_finds_its_own():
     vertices, faces = shapes.torus(60.0, 20.0, 28, 14)
     loose, corners = soup(vertices, faces)
-    merged, merged_faces, source = welded(loose, corners)
+    merged, merged_faces, source = welded_vertices(loose, corners)
     found = surface_curvature(_scan(merged, merged_faces, source), 15.0)
     np.testing.assert_array_equal(found.vertices_mm[found.source_to_vertex], loose)
     assert surface_curvature(_scan(vertices, faces), 15.0).source_to_vertex.tolist() == list(

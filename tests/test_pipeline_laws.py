@@ -15,7 +15,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from footfit.geometry.numeric.rotations import applied
+from footfit.geometry.numeric.rotations import moved_points
 from footfit.meshes.units import UNIT_SCALES
 from footfit.meshes.write import encoded_mesh
 from footfit.pipeline.scan.curvature import surface_curvature
@@ -155,8 +155,8 @@ def test_frame_and_flare_obey(homes, body, law, seed):
     one, other = home.profile.aligned.alignment, found.aligned.alignment
     flip = FLIP if changed.mirrored else np.ones(3)
     # where the frames put the first mesh's points: the same place, or its mirror image
-    there = applied(other.canonical_transform, changed.placed(home.vertices))
-    here = applied(one.canonical_transform, home.vertices) * flip
+    there = moved_points(other.canonical_transform, changed.placed(home.vertices))
+    here = moved_points(one.canonical_transform, home.vertices) * flip
     assert np.abs(there - here).max() < bound.frame_mm + 300.0 * np.radians(bound.frame_deg)
     middle = np.abs(there.mean(axis=0) - here.mean(axis=0))
     assert middle.max() < bound.frame_mm

@@ -1,4 +1,4 @@
-"""The bytes of a file or a stream, and nothing but regular files of a bearable size."""
+"""The bytes of a regular file or a stream, up to the largest size that is read."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from footfit.meshes.read_limits import Limits
 
 _READ_FLAGS = (
     os.O_RDONLY
-    | getattr(os, "O_NONBLOCK", 0)  # a FIFO put in the file's place between stat and open
+    | getattr(os, "O_NONBLOCK", 0)  # a FIFO may replace the file between stat and open
     | getattr(os, "O_NOCTTY", 0)
     | getattr(os, "O_CLOEXEC", 0)
     | getattr(os, "O_BINARY", 0)  # Windows would translate line ends
@@ -24,17 +24,17 @@ _PIECE_BYTES = 4_000_000
 def file_bytes(path: str, limits: Limits) -> bytes:
     """Everything in a regular file.
 
-    Looked at before it is opened (opening a FIFO waits, opening a device may act) and again once
-    it is open (it may have been exchanged).
+    The path is checked before it is opened, since opening a FIFO waits and opening a device may
+    act. It is checked again when it is open, since another file may have taken its place.
 
     Raises
     ------
     UnreadableFile
         Missing, not a regular file, or not permitted.
     TooLarge
-        Past ``limits.file_bytes``, found before anything is read.
+        The file is over ``limits.file_bytes``; nothing has been read then.
     EmptyMesh
-        Zero bytes.
+        The file has zero bytes.
     """
     try:
         _check(Path(path).stat(), limits)
@@ -51,15 +51,22 @@ def file_bytes(path: str, limits: Limits) -> bytes:
 def stream_bytes(stream: BinaryIO, limits: Limits, expected: int = 0) -> bytes:
     """Everything in an open binary stream, such as standard input.
 
-    Read piece by piece: asking for ``limits.file_bytes`` at once would take that much memory for
-    the smallest stream. ``expected`` is the likely size, which saves joining pieces.
+    It is read piece by piece. To ask for ``limits.file_bytes`` at once would take that much memory
+    for the smallest stream.
+
+    Parameters
+    ----------
+    stream : binary file
+    limits : Limits
+    expected : int
+        The likely size, so that the pieces need not be joined.
 
     Raises
     ------
     TooLarge
-        The stream goes on past ``limits.file_bytes``.
+        The stream is longer than ``limits.file_bytes``.
     EmptyMesh
-        Zero bytes.
+        The stream has zero bytes.
     """
     pieces, size = [stream.read(expected + 1)], 0
     while pieces[-1]:
@@ -87,7 +94,7 @@ def _check(status: os.stat_result, limits: Limits) -> None:
 def _too_large(limits: Limits) -> str:
     return (
         f"the file is over {limits.file_bytes // 1_000_000:,} MB, the most that footfit reads:"
-        " decimate the mesh first (100,000 faces are plenty)"
+        " simplify the mesh first (100,000 faces are plenty)"
     )
 
 
@@ -95,6 +102,6 @@ def _reason(error: OSError | ValueError) -> str:
     if isinstance(error, FileNotFoundError):
         return "there is no such file: check the path"
     if isinstance(error, PermissionError):
-        return "the file may not be read: change its permissions"
+        return "you may not read this file: change its permissions"
     words = error.strerror if isinstance(error, OSError) else None
     return f"the file cannot be read ({words or 'its name is not valid'}): check the path"

@@ -1,4 +1,4 @@
-"""How much a mesh file may ask for; everything past this is refused by name, not tried."""
+"""How much a mesh file may ask for. What asks for more is refused, and the message says why."""
 
 from __future__ import annotations
 
@@ -7,14 +7,14 @@ from dataclasses import dataclass
 
 @dataclass(frozen=True, slots=True)
 class Limits:
-    """Caps that are checked before memory is asked for.
+    """Limits that are checked before memory is taken.
 
     Attributes
     ----------
     file_bytes : int
         The largest file that is read.
     faces, vertices : int
-        The largest counts, declared or found. An STL has three vertices a face.
+        The largest counts, as declared or as counted. An STL has three vertices a face.
     polygon_corners : int
         The largest polygon that is cut into triangles.
     header_bytes : int
@@ -22,13 +22,13 @@ class Limits:
     coordinate : float
         The largest absolute coordinate, in the file's unit: 1e9 mm are 1,000 km.
     document_bytes : int
-        What a GLB's description, an archive's directory, an XML tag may take.
+        The largest JSON of a GLB, directory of an archive, or XML tag.
     parts : int
-        How many nodes, primitives or archive parts a file of one object may have.
+        How many nodes, primitives or archive parts a file may have.
     elements : int
-        How many XML elements there may be beside vertices and triangles.
+        How many XML elements a file may have beside vertices and triangles.
     expanded_bytes, expansion : int
-        How large an archive's part may become, and how many times its packed size.
+        How large an archive's part may become, in bytes and as a multiple of its packed size.
     """
 
     file_bytes: int = 640_000_000

@@ -15,15 +15,16 @@ UNIT_NAMES = {"mm": "millimetres", "cm": "centimetres", "in": "inches", "m": "me
 
 @dataclass(frozen=True, slots=True)
 class UnitSettings:
-    """Between which lengths the longest extent of a foot or last lies.
+    """The range of the longest extent of a foot or last.
 
     Attributes
     ----------
     length_mm : tuple of float
-        A foot or last; narrow enough that two units never both fit (10 / 25.4 is the closest pair).
+        A foot or last. The range is so narrow that no two units fit one number (cm and inches are
+        the closest pair).
     with_leg_mm : tuple of float
-        A foot with so much leg that the leg is the longest extent; the alignment, which finds the
-        foot's length, confirms or corrects it.
+        A foot with so much leg that the leg is the longest extent. The alignment finds the foot's
+        length and confirms or corrects the unit.
     """
 
     length_mm: tuple[float, float] = (180.0, 340.0)
@@ -35,7 +36,7 @@ UNIT_SETTINGS = UnitSettings()
 
 @dataclass(frozen=True, slots=True)
 class Units:
-    """The answer: ``name`` and ``source`` as in ``MeshInfo``, ``scale`` to mm, what to say."""
+    """A mesh's unit: ``name`` and ``source`` as in ``MeshInfo``, ``scale`` to mm, warnings."""
 
     name: str
     source: str
@@ -44,7 +45,7 @@ class Units:
 
 
 def plausible_unit(extent: float, settings: UnitSettings = UNIT_SETTINGS) -> tuple[str, float]:
-    """The unit that makes a longest extent a foot's or last's, and its scale to mm.
+    """The unit in which a longest extent is that of a foot or last, and its scale to mm.
 
     Parameters
     ----------
@@ -55,12 +56,12 @@ def plausible_unit(extent: float, settings: UnitSettings = UNIT_SETTINGS) -> tup
     Returns
     -------
     (str, float)
-        Such as ``("m", 1000.0)``. Where a long leg fits two units, the smaller one.
+        Such as ``("m", 1000.0)``; the smaller unit where a long leg fits two.
 
     Raises
     ------
     UnknownUnits
-        No unit does.
+        No unit fits.
 
     Examples
     --------
@@ -73,15 +74,15 @@ def plausible_unit(extent: float, settings: UnitSettings = UNIT_SETTINGS) -> tup
                 return name, scale
     low, high = settings.length_mm
     raise UnknownUnits(
-        f"the longest extent is {extent:.4g}, and no unit (mm, cm, m, in) makes that a foot's or"
-        f" last's {low:.0f}-{high:.0f} mm: say --units, or --known-length MM"
+        f"the longest extent is {extent:.4g}, and in no unit ({', '.join(UNIT_SCALES)}) is that a"
+        f" foot or last of {low:.0f}-{high:.0f} mm: add --units, or --known-length MM"
     )
 
 
 def settled_units(
     vertices: Floats, wanted: str, known_length_mm: float | None, in_file: str | None
 ) -> Units:
-    """A mesh's unit: by a known length, else as declared, as the file says, or as is plausible.
+    """A mesh's unit: from a known length, else as the user or the file says, else as it fits.
 
     Parameters
     ----------
@@ -90,15 +91,15 @@ def settled_units(
     wanted : str
         "mm", "cm", "m", "in", or "auto".
     known_length_mm : float or None
-        The scale is then provisional: it makes the longest principal extent this long; the
-        alignment settles it on the length of the foot.
+        In mm. It makes the longest principal extent this long, until the alignment knows the
+        length of the foot and settles the scale.
     in_file : str or None
         The unit that the file itself declares.
 
     Raises
     ------
     UnknownUnits
-        "auto", and no unit is plausible.
+        The unit is "auto", and none fits.
     """
     if known_length_mm is not None:
         extent = float(principal_extents(vertices)[0][0])
@@ -111,25 +112,25 @@ def settled_units(
     if name == "mm":
         return Units(name, "detected", scale)
     message = (
-        f"the numbers are taken as {UNIT_NAMES[name]}: the longest extent is then"
-        f" {extent * scale:.0f} mm (--units says otherwise)"
+        f"the unit is taken to be {UNIT_NAMES[name]}: the longest extent is then"
+        f" {extent * scale:.0f} mm (use --units for another unit)"
     )
     return Units(name, "detected", scale, (Notice("units_detected", message),))
 
 
-def checked_options(wanted: str, known_length_mm: float | None) -> None:
+def check_unit_options(wanted: str, known_length_mm: float | None) -> None:
     """Refuse unit options that cannot be carried out, before a file is opened.
 
     Raises
     ------
     BadOption
-        An unknown unit, a known length outside what is possible, or both given.
+        The unit is unknown, the known length is not a positive number, or both are given.
     """
     if wanted != "auto" and wanted not in UNIT_SCALES:
         raise BadOption(f"no unit is called {wanted!a}: use {', '.join(UNIT_SCALES)} or auto")
     if known_length_mm is None:
         return
     if not 0.0 < known_length_mm < float("inf"):
-        raise BadOption("a known length is a positive number of mm")
+        raise BadOption("the known length must be a positive number of mm")
     if wanted != "auto":
-        raise BadOption("--units and --known-length contradict each other: give one of them")
+        raise BadOption("--units and --known-length exclude each other: give only one of them")

@@ -1,4 +1,4 @@
-"""A mesh as the bytes of a file: the same mesh gives the same bytes."""
+"""A mesh as the bytes of a file; the same mesh gives the same bytes."""
 
 from __future__ import annotations
 
@@ -29,14 +29,14 @@ def encoded_mesh(
     Parameters
     ----------
     vertices : (n, 3) float64
-        STL keeps 24 bits of each coordinate (0.00002 mm of a foot), OBJ and OFF nine digits, PLY
-        everything.
+        STL keeps 24 bits of each coordinate (0.00002 mm of a foot), OBJ and OFF keep nine digits,
+        PLY keeps every bit.
     faces : (m, 3) int64
     format : str
-        "stl" (binary), "ply" (binary little-endian), "obj" or "off"; a leading dot is fine.
+        "stl" (binary), "ply" (binary little-endian), "obj" or "off"; it may begin with a dot.
     vertex_data : mapping of str to (n,) or (n, 3) arrays, optional
-        PLY only. Each (n,) array becomes a float property of its name, in the mapping's order;
-        ``"colour"`` (n, 3) uint8 becomes red, green, blue.
+        Only for PLY. Each (n,) array becomes a float property of its name, in the mapping's order.
+        ``"colour"`` (n, 3) uint8 becomes red, green and blue.
 
     Returns
     -------
@@ -45,13 +45,13 @@ def encoded_mesh(
     Raises
     ------
     BadOption
-        A format that is not written, or vertex data for a format that has none.
+        The format is not written, or it has no place for vertex data.
     """
     extension = format.lower().removeprefix(".")
     if extension not in WRITERS:
-        raise BadOption(f"no mesh is written as {format!a}: use {', '.join(WRITERS)}")
+        raise BadOption(f"footfit writes no {format!a} files: use {', '.join(WRITERS)}")
     if vertex_data and extension != "ply":
-        raise BadOption(f"an {extension.upper()} file carries no values per vertex: use .ply")
+        raise BadOption(f"{extension.upper()} files have no place for values per vertex: use .ply")
     return WRITERS[extension](vertices, faces, vertex_data or {})
 
 
@@ -96,7 +96,7 @@ def _off(vertices: Floats, faces: Ints, _: VertexData) -> bytes:
 
 
 def _rows(pattern: str, values: NDArray[np.generic]) -> str:
-    """One line per row; + 0 makes -0.0 a 0."""
+    """One line for each row; adding 0 turns -0.0 into 0."""
     return (pattern * len(values)) % tuple((values + 0).ravel().tolist())
 
 

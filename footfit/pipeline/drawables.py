@@ -12,7 +12,7 @@ from footfit.catalogue.store import open_catalogue
 from footfit.errors import CatalogueDamaged, FootfitError, UnknownLast
 from footfit.geometry.mesh.nearest import nearest_on_surface
 from footfit.geometry.numeric.arrays import Floats, Ints
-from footfit.meshes.copies.compact_copy import expanded
+from footfit.meshes.copies.compact_copy import expanded_mesh
 from footfit.meshes.copies.lighter import lighter_mesh
 from footfit.pipeline.fit.compare import best_comparison
 from footfit.pipeline.scan.preparation import prepared_scan
@@ -34,7 +34,7 @@ def candidate_shapes(path: Path, match: Match) -> dict[str, tuple[Floats, Ints]]
     with open_catalogue(path) as catalogue:
         for candidate in (match.candidates or match.nearest)[:DRAWN_LASTS]:
             with suppress(UnknownLast, CatalogueDamaged):
-                shapes[candidate.last] = expanded(catalogue.mesh_copy(candidate.last).data)
+                shapes[candidate.last] = expanded_mesh(catalogue.mesh_copy(candidate.last).data)
     return shapes
 
 

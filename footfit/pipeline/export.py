@@ -60,10 +60,10 @@ def copy_bytes(copy: MeshCopy, path: Path) -> bytes:
     CatalogueDamaged
         The copy cannot be expanded.
     """
-    from footfit.meshes.copies.compact_copy import expanded
+    from footfit.meshes.copies.compact_copy import expanded_mesh
 
     file_kind(path, MESH_KINDS)
-    return mesh_bytes(*expanded(copy.data), path)
+    return mesh_bytes(*expanded_mesh(copy.data), path)
 
 
 def method_vertices(scan: AlignedScan) -> Floats:

@@ -12,7 +12,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from footfit.geometry.mesh.surface import area_vectors
-from footfit.geometry.mesh.topology import dilated, sorted_keys
+from footfit.geometry.mesh.topology import dilated_mask, sorted_keys
 from footfit.geometry.numeric.arrays import Bools, Floats, Ints
 
 
@@ -55,7 +55,7 @@ SETTINGS = DiffusionSettings()
 
 @dataclass(frozen=True, slots=True)
 class Diffusion:
-    """Polynomials in the Laplacian of one mesh, one per deviation, ready for :func:`diffused`.
+    """Polynomials in the Laplacian of one mesh, one per deviation, ready for :func:`pooled_fields`.
 
     The k vertices it works on are taken in the order ``order``, those with the most neighbours
     first. Slot j holds the j-th neighbour of the first ``len(columns[j])`` of them and its weight;
@@ -106,7 +106,7 @@ def diffusion(
     coefficients = tuple(_heat_coefficients(time * bound) for time in times)
     kept = np.ones(n, dtype=bool)
     if subset is not None:
-        kept = dilated(subset, faces, max(map(len, coefficients)) - 1)
+        kept = dilated_mask(subset, faces, max(map(len, coefficients)) - 1)
         inside = kept[row] & kept[column]
         row, column, weight = row[inside], column[inside], weight[inside]
     order, slots, rest = _slots(row, kept)
@@ -124,7 +124,7 @@ def diffusion(
     )
 
 
-def diffused(operator: Diffusion, fields: Floats) -> Floats:
+def pooled_fields(operator: Diffusion, fields: Floats) -> Floats:
     """Pool fields (c, n) over the surface; (deviations, c, n), NaN where nothing was asked.
 
     Each value is a weighted mean over its neighbourhood with weights that sum to 1.

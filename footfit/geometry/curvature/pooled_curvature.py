@@ -10,7 +10,12 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from footfit.geometry.curvature.diffusion import Diffusion, diffused, diffusion, longest_deviation
+from footfit.geometry.curvature.diffusion import (
+    Diffusion,
+    diffusion,
+    longest_deviation,
+    pooled_fields,
+)
 from footfit.geometry.curvature.one_ring import PrincipalCurvatures
 from footfit.geometry.mesh.refinement import with_flat_facets_split
 from footfit.geometry.mesh.surface import area_vectors, cross, unit, vertex_sums
@@ -99,7 +104,7 @@ def pooled_curvature(
     """
     chosen = np.ones(len(vertices), dtype=bool) if subset is None else subset
     centres, normals, operator = _pooling(vertices, faces, radius, subset)
-    pooled = diffused(operator, _moment_fields(centres, normals))
+    pooled = pooled_fields(operator, _moment_fields(centres, normals))
     whole = np.full((2, len(vertices)), np.nan)
     whole[:, chosen] = _principal(*_unsmoothed(pooled[:, :, : len(chosen)][:, :, chosen]))
     k1, k2 = whole

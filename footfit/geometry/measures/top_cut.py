@@ -9,7 +9,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from footfit.geometry.mesh.samples import calmed
+from footfit.geometry.mesh.samples import calm_vectors
 from footfit.geometry.mesh.surface import area_vectors
 from footfit.geometry.numeric.arrays import Bools, Floats, Ints
 from footfit.geometry.numeric.planes import Plane, robust_plane
@@ -79,7 +79,7 @@ def top_cut_faces(
     high = faces[candidates]
     vectors = area_vectors(vertices, high)
     for _ in range(settings.calm_rounds):
-        vectors = calmed(vectors, high, len(vertices))
+        vectors = calm_vectors(vectors, high, len(vertices))
     areas = np.sqrt(np.einsum("ij,ij->i", vectors, vectors))
     middles = (vertices[high[:, 0]] + vertices[high[:, 1]]) / 3.0 + vertices[high[:, 2]] / 3.0
     behind = middles[:, 0] < start_x + settings.front * length

@@ -80,7 +80,7 @@ def outline(
     loops, gaps = closed_loops(segments.points)
     lengths = [_steps(loop).sum() for loop in loops]
     kept = [
-        smoothed((loop - origin) @ axes.T, length, settings)
+        smooth_loop((loop - origin) @ axes.T, length, settings)
         for loop, long in zip(loops, lengths, strict=True)
         if long >= settings.speck * max(lengths)
     ]
@@ -191,7 +191,7 @@ def _steps(loop: Floats) -> Floats:
     return np.asarray(np.linalg.norm(np.roll(loop, -1, axis=0) - loop, axis=1))
 
 
-def smoothed(loop: Floats, length: float, settings: OutlineSettings = OUTLINES) -> Floats:
+def smooth_loop(loop: Floats, length: float, settings: OutlineSettings = OUTLINES) -> Floats:
     """A closed polyline (n, 2) as even points (k, 2), smoothed along its arc.
 
     Counter-clockwise from the point farthest across, whatever the order of the mesh's faces.

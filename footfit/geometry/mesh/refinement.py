@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from footfit.geometry.mesh.surface import face_normals
-from footfit.geometry.mesh.topology import dilated, half_edges, lowest_connected, sorted_keys
+from footfit.geometry.mesh.topology import dilated_mask, half_edges, lowest_connected, sorted_keys
 from footfit.geometry.numeric.arrays import Bools, Floats, Ints
 
 
@@ -93,7 +93,7 @@ def _some_to_split(vertices: Floats, faces: Ints, longest: float) -> bool:
     little = _turn_little(*(face_normals(vertices, side) for side in pairs))
     touched = np.zeros(len(vertices), dtype=bool)
     touched[pairs[:, little]] = True
-    touched = dilated(touched, faces, SETTINGS.faces_least - 2)
+    touched = dilated_mask(touched, faces, SETTINGS.faces_least - 2)
     around = faces[touched[faces].any(axis=1)]
     return len(around) > 0 and bool(_sides(vertices, around, SETTINGS.faces_least)[2].any())
 

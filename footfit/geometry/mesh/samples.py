@@ -76,7 +76,7 @@ def quadrature(vertices: Floats, faces: Ints, edge: float, rounds: int = 5) -> S
     longest = _longest_sides(corners)
     plain = area_vectors(vertices, faces)
     small = longest < CALMED_EDGE * edge
-    vectors = np.where(small[:, None], calmed(plain, faces, len(vertices)), plain)
+    vectors = np.where(small[:, None], calm_vectors(plain, faces, len(vertices)), plain)
     pieces, owners, shares = short_triangles(corners, edge, rounds)
     vectors = vectors[owners] * shares[:, None]
     areas = np.sqrt(np.einsum("ij,ij->i", vectors, vectors))
@@ -135,7 +135,7 @@ def _quartered(corners: Floats) -> Floats:
     return np.concatenate([np.stack(part, axis=1) for part in parts])
 
 
-def gathered(sample: SurfaceSample, edge: float) -> SurfaceSample:
+def gathered_sample(sample: SurfaceSample, edge: float) -> SurfaceSample:
     """One point for those in a cube of ``edge`` that face alike: their mean, their area together.
 
     Area and first moments stay as they are; the order of the points does not matter.
@@ -155,7 +155,7 @@ def gathered(sample: SurfaceSample, edge: float) -> SurfaceSample:
     return SurfaceSample(points, unit(normals), areas)
 
 
-def calmed(vectors: Floats, faces: Ints, n_vertices: int) -> Floats:
+def calm_vectors(vectors: Floats, faces: Ints, n_vertices: int) -> Floats:
     """Area vectors (m, 3) laid along the mean normal of their surroundings, creases left alone.
 
     Noise tilts triangles and so enlarges their areas, the more the smaller they are: a finely

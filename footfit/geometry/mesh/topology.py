@@ -127,13 +127,13 @@ def _loops_from(start: int, successors: dict[int, list[int]]) -> list[Ints]:
     return [*loops, np.array(path, dtype=np.int64)] if len(path) > 1 else loops
 
 
-def dilated(mask: Bools, faces: Ints, rings: int) -> Bools:
+def dilated_mask(mask: Bools, faces: Ints, rings: int) -> Bools:
     """The vertices within ``rings`` edges of those in ``mask``, (n,) bool.
 
     Examples
     --------
     >>> strip = np.array([[0, 1, 2], [2, 1, 3], [2, 3, 4]])
-    >>> dilated(np.arange(5) == 0, strip, 1).tolist()
+    >>> dilated_mask(np.arange(5) == 0, strip, 1).tolist()
     [True, True, True, False, False]
     """
     reached = mask.copy()
@@ -184,7 +184,7 @@ def is_closed(faces: Ints) -> bool:
     return len(faces) > 0 and bool(np.all(_edge_groups(faces)[2] == 2))
 
 
-def consistently_wound(faces: Ints) -> Ints:
+def consistent_faces(faces: Ints) -> Ints:
     """Turn faces over until neighbours agree, (m, 3) int64; as few as possible are turned.
 
     Neighbours are two faces that alone share an edge. Each piece follows its own majority; a
@@ -193,7 +193,7 @@ def consistently_wound(faces: Ints) -> Ints:
 
     Examples
     --------
-    >>> consistently_wound(np.array([[0, 1, 2], [1, 2, 3], [2, 4, 3]])).tolist()
+    >>> consistent_faces(np.array([[0, 1, 2], [1, 2, 3], [2, 4, 3]])).tolist()
     [[1, 0, 2], [1, 2, 3], [2, 4, 3]]
     """
     pairs, disagree = _shared_edges(faces)

@@ -17,7 +17,7 @@ _NO_FACES = np.empty((0, 3), dtype=np.int64)
 _GRIDS = 4  # one more than there are axes
 
 
-def welded(vertices: Floats, faces: Ints) -> tuple[Floats, Ints, Ints]:
+def welded_vertices(vertices: Floats, faces: Ints) -> tuple[Floats, Ints, Ints]:
     """Merge vertices with exactly equal coordinates (-0.0 equals 0.0).
 
     Parameters
@@ -38,7 +38,7 @@ def welded(vertices: Floats, faces: Ints) -> tuple[Floats, Ints, Ints]:
     Examples
     --------
     >>> corners = np.array([[0.0, 0, 0], [1, 0, 0], [0, 1, 0], [1, 0, -0.0], [1, 1, 0], [0, 1, 0]])
-    >>> _, faces, source = welded(corners, np.array([[0, 1, 2], [3, 4, 5]]))
+    >>> _, faces, source = welded_vertices(corners, np.array([[0, 1, 2], [3, 4, 5]]))
     >>> source.tolist(), faces.tolist()
     ([0, 1, 2, 1, 3, 2], [[0, 1, 2], [1, 3, 2]])
     """
@@ -102,7 +102,7 @@ def nearby_vertices(points: Floats, near: float) -> Ints:
     """
     links = []
     for shift in np.arange(_GRIDS) / _GRIDS:
-        cell = welded(np.floor(points / (_GRIDS * near) + shift), _NO_FACES)[2]
+        cell = welded_vertices(np.floor(points / (_GRIDS * near) + shift), _NO_FACES)[2]
         first = np.unique(cell, return_index=True)[1]
         links.append(np.stack([first[cell], np.arange(len(points))], axis=1))
     return lowest_connected(np.concatenate(links), len(points))

@@ -1,1 +1,1 @@
-"""Arrays, angles, rotations, smoothing, polylines and quantiles: no mesh is known here."""
+"""Arrays, angles, rotations, planes, smoothing, polylines and quantiles; nothing about meshes."""

@@ -1,7 +1,7 @@
-"""Angles that keep their digits: by atan2, never by arccos.
+"""Angles between vectors, taken by atan2.
 
-The paper's Eq. 13 takes gamma = arccos(a . b / |a||b|). Near gamma = pi, where nearly every vertex
-of a scan lies, arccos turns an error of 1e-16 into one of 1e-8; atan2 of cross and dot does not.
+The paper's Eq. 13 takes gamma = arccos(a . b / |a||b|). Nearly every vertex of a scan has a gamma
+near pi, and there arccos turns an error of 1e-16 into 1e-8. atan2 of cross and dot does not.
 """
 
 from __future__ import annotations
@@ -17,7 +17,7 @@ def angle_between(a: Floats, b: Floats) -> Floats:
     Parameters
     ----------
     a, b : (..., 3) float64
-        Any lengths, any unit; they broadcast. Where one is zero the angle is 0.
+        Any lengths, any unit; they broadcast. The angle with a zero vector is 0.
 
     Examples
     --------

@@ -28,14 +28,14 @@ def concentrated_curvature(points: Floats, closed: bool = False) -> Floats:
     """The angle pi - gamma by which the curve turns at each point, (n,) radians.
 
     gamma is the angle at p between the two neighbours a and b. The arc of any circle that touches
-    both legs turns by the same pi - gamma, whatever its radius (Eq. 12; the printed step
-    "1/2 2 r theta" is a misprint: the arc is r (2 theta) and 2 theta = pi - gamma).
+    both legs turns by the same pi - gamma, whatever its radius (Eq. 12). The printed step
+    "1/2 2 r theta" is a misprint: the arc is r (2 theta), and 2 theta = pi - gamma.
 
     Parameters
     ----------
     points : (n, 2) or (n, 3) float64
     closed : bool
-        Join the last point to the first. Otherwise both ends are NaN: gamma is undefined there.
+        Join the last point to the first. Otherwise both ends are NaN, since they have no gamma.
 
     Returns
     -------
@@ -63,8 +63,8 @@ def concentrated_curvature(points: Floats, closed: bool = False) -> Floats:
 def curvature_density(points: Floats, closed: bool = False) -> Floats:
     """Concentrated curvature over the mean of the two edges that meet, (n,) in 1/length.
 
-    A concentrated curvature is an angle and shrinks with the edges; only its density says the
-    same of two polylines of one curve. NaN where both edges have no length.
+    A concentrated curvature is an angle, which shrinks with the edges. Its density is the same for
+    two polylines of one curve. NaN where both edges have no length.
 
     Raises
     ------

@@ -1,4 +1,4 @@
-"""Quantiles of values that stand for different areas."""
+"""Quantiles of values that stand for areas of different size."""
 
 from __future__ import annotations
 
@@ -8,12 +8,18 @@ from footfit.geometry.numeric.arrays import Floats
 
 
 def area_quantile(values: Floats, areas: Floats, share: float) -> float:
-    """The value below which ``share`` of the area lies; (n,), (n,) -> float, linear in between.
+    """The value below which ``share`` of the area lies, linear between values.
+
+    Parameters
+    ----------
+    values, areas : (n,)
+    share : float
+        0 to 1.
 
     Raises
     ------
     ValueError
-        If there are no values.
+        There are no values.
 
     Examples
     --------
@@ -21,7 +27,7 @@ def area_quantile(values: Floats, areas: Floats, share: float) -> float:
     2.0
     """
     if len(values) == 0:
-        raise ValueError("a quantile of nothing")
+        raise ValueError("a quantile needs at least one value")
     order = np.argsort(values)
     weights = areas[order]
     middles = np.cumsum(weights) - 0.5 * weights

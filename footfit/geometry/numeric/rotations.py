@@ -1,4 +1,4 @@
-"""Rotations: a grid over all of them, small ones from vectors, and the angle of one."""
+"""Rotations and rigid transforms: grids over all rotations, small rotations, angles."""
 
 from __future__ import annotations
 
@@ -10,12 +10,12 @@ from footfit.geometry.numeric.arrays import Floats
 SUPER_FIBONACCI_PSI = 1.533751168755204
 
 
-def matrices(quaternions: Floats) -> Floats:
-    """Rotation matrices (k, 3, 3) of unit quaternions (k, 4), the scalar part last.
+def rotation_matrices(quaternions: Floats) -> Floats:
+    """The rotation matrices (k, 3, 3) of unit quaternions (k, 4), whose scalar part comes last.
 
     Examples
     --------
-    >>> matrices(np.array([[0.0, 0.0, 0.0, 1.0]]))[0].tolist()
+    >>> rotation_matrices(np.array([[0.0, 0.0, 0.0, 1.0]]))[0].tolist()
     [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]]
     """
     x, y, z, w = np.asarray(quaternions, dtype=np.float64).T
@@ -28,7 +28,7 @@ def matrices(quaternions: Floats) -> Floats:
 
 
 def super_fibonacci(count: int) -> Floats:
-    """Rotation matrices (count, 3, 3) spread evenly over all rotations.
+    """Rotation matrices (count, 3, 3) that lie evenly over all rotations.
 
     Alexa, "Super-Fibonacci Spirals: Fast, Low-Discrepancy Sampling of SO(3)", CVPR 2022.
     """
@@ -36,7 +36,7 @@ def super_fibonacci(count: int) -> Floats:
     alpha = 2 * np.pi * s / np.sqrt(2.0)
     beta = 2 * np.pi * s / SUPER_FIBONACCI_PSI
     inner, outer = np.sqrt(s / count), np.sqrt(1 - s / count)
-    return matrices(
+    return rotation_matrices(
         np.stack(
             [
                 inner * np.sin(alpha),
@@ -49,28 +49,31 @@ def super_fibonacci(count: int) -> Floats:
     )
 
 
-def turned_by(vectors: Floats) -> Floats:
-    """Rotation matrices (k, 3, 3) that turn about ``vectors`` (k, 3) by their lengths (radian).
+def rotations_about(vectors: Floats) -> Floats:
+    """Rotation matrices (k, 3, 3) about the ``vectors`` (k, 3), by their lengths in radians.
 
     Examples
     --------
-    >>> turned_by(np.array([[0.0, 0.0, np.pi / 2]]))[0].round(9).tolist()
+    >>> rotations_about(np.array([[0.0, 0.0, np.pi / 2]]))[0].round(9).tolist()
     [[0.0, -1.0, 0.0], [1.0, 0.0, 0.0], [0.0, 0.0, 1.0]]
     """
     vectors = np.asarray(vectors, dtype=np.float64)
     angle = np.linalg.norm(vectors, axis=1)
     half_sinc = 0.5 * np.sinc(angle / (2 * np.pi))
-    return matrices(np.concatenate([vectors * half_sinc[:, None], np.cos(angle / 2)[:, None]], 1))
+    return rotation_matrices(
+        np.concatenate([vectors * half_sinc[:, None], np.cos(angle / 2)[:, None]], 1)
+    )
 
 
 def angle_deg(first: Floats, second: Floats) -> float:
     """The angle in degrees by which one rotation (3, 3) differs from another.
 
-    By atan2 of the skew part and the trace: exact near 0, where the usual arccos is not.
+    It is taken by atan2 of the skew part and the trace, which is exact near 0; arccos is not.
 
     Examples
     --------
-    >>> round(angle_deg(np.eye(3), turned_by(np.array([[1e-9, 0.0, 0.0]]))[0]) * np.pi / 180, 15)
+    >>> small = rotations_about(np.array([[1e-9, 0.0, 0.0]]))[0]
+    >>> round(np.radians(angle_deg(np.eye(3), small)).item(), 15)
     1e-09
     """
     between = np.asarray(first, dtype=np.float64).T @ np.asarray(second, dtype=np.float64)
@@ -92,6 +95,6 @@ def transform(rotation: Floats, shift: Floats, scale: float = 1.0) -> Floats:
     return result
 
 
-def applied(transform_4x4: Floats, points: Floats) -> Floats:
-    """Points (n, 3) under a (4, 4) affine transform."""
+def moved_points(transform_4x4: Floats, points: Floats) -> Floats:
+    """Points (n, 3), moved by a (4, 4) affine transform."""
     return points @ transform_4x4[:3, :3].T + transform_4x4[:3, 3]

@@ -1,7 +1,7 @@
 """Linear smoothers of values along a line: local quadratic regression and uniform cubic splines.
 
-Each is a matrix that depends on where the values stand, not on the values: an error of the
-values can be carried through it exactly.
+Each smoother is a matrix that depends on the places of the values, not on the values. So an error
+of the values passes through it exactly.
 """
 
 from __future__ import annotations
@@ -17,9 +17,9 @@ def local_quadratic(at: Floats, where: Floats, bandwidth: float) -> tuple[Floats
     Parameters
     ----------
     at : (k,)
-        Where the smooth curve is wanted.
+        The places at which the smooth curve is wanted.
     where : (n,)
-        Where the values stand, n >= 3.
+        The places of the values, n >= 3.
     bandwidth : float
         Standard deviation of the weights, in the unit of ``at``.
 
@@ -30,7 +30,7 @@ def local_quadratic(at: Floats, where: Floats, bandwidth: float) -> tuple[Floats
 
     Examples
     --------
-    A parabola comes back whole:
+    A parabola stays a parabola:
 
     >>> where = np.linspace(0, 1, 9)
     >>> value, slope = local_quadratic(np.array([0.5]), where, 0.1)
@@ -51,9 +51,9 @@ def cubic_splines(at: Floats, count: int) -> tuple[Floats, Floats, Floats]:
     Parameters
     ----------
     at : (k,)
-        In [0, 1]; outside, the end pieces go on.
+        In [0, 1]; outside, the end pieces are continued.
     count : int
-        How many basis functions, >= 4: count - 3 pieces of equal length.
+        The number of basis functions, >= 4. They have count - 3 pieces of equal length.
 
     Returns
     -------

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from footfit.geometry.mesh.surface import area_vectors, unit
-from footfit.geometry.mesh.topology import consistently_wound, rows_differ
+from footfit.geometry.mesh.topology import consistent_faces, rows_differ
 from footfit.geometry.numeric.arrays import Floats, Ints
 from footfit.geometry.pose.pieces import PIECES, PieceSettings
 
@@ -71,7 +71,7 @@ def outward_faces(
         The piece of each face, from ``face_components``.
     settings : PieceSettings
     """
-    turned = rows_differ(consistently_wound(faces), faces)
+    turned = rows_differ(consistent_faces(faces), faces)
     signs = np.where(turned, -1.0, 1.0)
     area = np.sqrt(np.einsum("ij,ij->i", vectors, vectors))
     centres = (vertices[faces[:, 0]] + vertices[faces[:, 1]] + vertices[faces[:, 2]]) / 3.0

@@ -11,7 +11,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from footfit.geometry.numeric.arrays import Bools, Floats, Ints
-from footfit.geometry.numeric.rotations import turned_by
+from footfit.geometry.numeric.rotations import rotations_about
 from footfit.geometry.pose.templates import ReferenceShape, Singles
 
 
@@ -212,7 +212,7 @@ def _stepped(poses: Poses, step: Floats, settings: FitSettings) -> Poses:
         ]
     ).max(axis=0)
     step = step / np.maximum(size, 1.0)[:, None]
-    small = turned_by(step[:, :3]).astype(np.float32)
+    small = rotations_about(step[:, :3]).astype(np.float32)
     growth = np.exp(step[:, 6]).astype(np.float32)
     shift = growth[:, None] * np.einsum("kij,kj->ki", small, poses.shift) + step[:, 3:6]
     return Poses(small @ poses.rotation, shift.astype(np.float32), poses.scale * growth)

@@ -12,7 +12,7 @@ import numpy as np
 
 from footfit.geometry.mesh.samples import even_sample, farthest_points
 from footfit.geometry.numeric.arrays import Bools, Floats, Ints
-from footfit.geometry.numeric.rotations import nearest_rotation, super_fibonacci, turned_by
+from footfit.geometry.numeric.rotations import nearest_rotation, rotations_about, super_fibonacci
 from footfit.geometry.pose.icp import (
     FIT,
     FitSettings,
@@ -234,7 +234,9 @@ def _rivals(
 def _turns() -> Singles:
     """The seven turns (7, 3, 3), but for the identity, that leave the line of X in place."""
     half = np.diag([-1.0, -1.0, 1.0])
-    rolls = [turned_by(np.array([[angle, 0.0, 0.0]]))[0] for angle in np.pi / 2 * np.arange(4)]
+    rolls = [
+        rotations_about(np.array([[angle, 0.0, 0.0]]))[0] for angle in np.pi / 2 * np.arange(4)
+    ]
     every = [roll @ end for end in (np.eye(3), half) for roll in rolls]
     return np.array(every[1:], dtype=np.float32)
 

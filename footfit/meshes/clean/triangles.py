@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from footfit.geometry.mesh.topology import boundary_edges, rows_differ
-from footfit.geometry.mesh.welding import has_distinct_corners, welded
+from footfit.geometry.mesh.welding import has_distinct_corners, welded_vertices
 from footfit.geometry.numeric.arrays import Bools, Floats, Ints
 from footfit.meshes.clean.spikes import pressed_spikes
 from footfit.results import Notice
@@ -86,7 +86,7 @@ def _welded(
     vertices: Floats, faces: Ints, settings: WeldSettings
 ) -> tuple[Floats, Ints, Ints, tuple[Notice, ...]]:
     """The exact weld, and where it leaves the faces apart the weld of nearly equal corners."""
-    points, joined, source = welded(vertices, faces)
+    points, joined, source = welded_vertices(vertices, faces)
     if len(points) <= settings.loose_ratio * len(faces):
         return points, joined, source, ()
     corners = points[np.unique(joined)]
@@ -107,7 +107,7 @@ def _nearly_welded(vertices: Floats, faces: Ints, tolerance: float) -> tuple[Flo
     source = np.arange(len(vertices))
     for shift in (0.0, 0.5):
         cells = np.floor(vertices / tolerance + shift)
-        _, faces, group = welded(cells, faces)
+        _, faces, group = welded_vertices(cells, faces)
         first = np.unique(group, return_index=True)[1]
         vertices, source = vertices[first], group[source]
     return vertices, faces, source

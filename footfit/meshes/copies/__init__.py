@@ -1,1 +1,1 @@
-"""The compact copy of a mesh, and how far it lies from the original."""
+"""Lighter copies of a mesh, and how far they lie from the original."""

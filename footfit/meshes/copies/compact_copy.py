@@ -1,8 +1,8 @@
 """The compact copy of a mesh that the catalogue keeps, so that no original file is needed.
 
-The bytes: a header (magic, version, counts, step, origin), then zlib over the vertices as
-multiples of the step and the faces, both as differences to the row before, byte by byte
-("shuffled": all lowest bytes first), which is what zlib compresses best.
+The bytes begin with a header (magic, version, counts, step, origin). Then come the vertices as
+multiples of the step, and the faces, compressed by zlib. Both are stored as differences to the row
+before, and "shuffled": all lowest bytes first, which zlib compresses best.
 """
 
 from __future__ import annotations
@@ -16,7 +16,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from footfit.errors import CatalogueDamaged
-from footfit.geometry.mesh.welding import has_distinct_corners, welded, without_unused_vertices
+from footfit.geometry.mesh.welding import (
+    has_distinct_corners,
+    welded_vertices,
+    without_unused_vertices,
+)
 from footfit.geometry.numeric.arrays import Floats, Ints
 from footfit.meshes.copies.deviation import largest_deviation_mm
 from footfit.meshes.copies.lighter import lighter_mesh
@@ -37,9 +41,9 @@ class CopySettings:
     step_mm : float
         Coordinates are whole multiples of it: off by half of it at most.
     error_mm : float
-        A decimation that deviates further is done again with twice the faces.
+        A copy that deviates further is made again with twice the faces.
     most_faces, most_vertices : int
-        What an expansion accepts; a copy is never decimated to more than these.
+        What :func:`expanded_mesh` accepts.
     zlib_level : int
     """
 
@@ -59,7 +63,7 @@ def compact_copy(
     target_faces: int = 10_000,
     settings: CopySettings = COPY_SETTINGS,
 ) -> MeshCopy:
-    """A decimated, quantised, compressed copy with its measured error.
+    """A simplified, quantised and compressed copy, with its measured error.
 
     Parameters
     ----------
@@ -67,28 +71,28 @@ def compact_copy(
     faces : (m, 3) int64
         At least one face.
     target_faces : int
-        Where this many faces deviate by more than ``settings.error_mm``, the target is doubled,
-        up to no decimation at all.
+        Where a copy of so many faces deviates by more than ``settings.error_mm``, the target is
+        doubled, until nothing is simplified.
     settings : CopySettings
 
     Returns
     -------
     MeshCopy
-        ``error_mm`` is the larger of both sides' largest sampled distance between the mesh given
-        and the copy as :func:`expanded` returns it.
+        ``error_mm`` is the two-sided largest sampled distance between the given mesh and the copy
+        as :func:`expanded_mesh` returns it.
     """
-    vertices_mm, faces, _ = welded(vertices_mm, faces)
+    vertices_mm, faces, _ = welded_vertices(vertices_mm, faces)
     while True:
         lighter, fewer = lighter_mesh(vertices_mm, faces, target_faces)
         data = _encoded(lighter, fewer, settings)
-        copy_vertices, copy_faces = expanded(data, settings)
+        copy_vertices, copy_faces = expanded_mesh(data, settings)
         error = largest_deviation_mm(vertices_mm, faces, copy_vertices, copy_faces)
         if error <= settings.error_mm or target_faces >= len(faces):
             return MeshCopy(data, len(copy_faces), error)
         target_faces *= 2
 
 
-def expanded(data: bytes, settings: CopySettings = COPY_SETTINGS) -> tuple[Floats, Ints]:
+def expanded_mesh(data: bytes, settings: CopySettings = COPY_SETTINGS) -> tuple[Floats, Ints]:
     """The mesh in a copy's bytes.
 
     Parameters
@@ -105,7 +109,7 @@ def expanded(data: bytes, settings: CopySettings = COPY_SETTINGS) -> tuple[Float
     Raises
     ------
     CatalogueDamaged
-        The bytes are not those of a copy: cut off, changed, or promising more than is allowed.
+        The bytes are not a copy: cut off, changed, or with counts over the limits.
     """
     try:
         magic, version, n, m, step, *origin = _HEADER.unpack_from(data)
@@ -132,10 +136,10 @@ def _damaged(reason: str) -> CatalogueDamaged:
 
 
 def _encoded(vertices: Floats, faces: Ints, settings: CopySettings) -> bytes:
-    """Quantised, put into an order in which neighbours follow each other, packed."""
+    """The bytes: quantised, sorted so that neighbours follow each other, compressed."""
     origin = vertices.min(axis=0)
     steps = np.rint((vertices - origin) / settings.step_mm)
-    steps, faces, _ = welded(steps, faces)
+    steps, faces, _ = welded_vertices(steps, faces)
     faces = faces[has_distinct_corners(faces)]
     steps, faces, _ = without_unused_vertices(steps, faces)
     order = np.argsort(_interleaved(steps.astype(np.int64)), kind="stable")
@@ -148,7 +152,7 @@ def _encoded(vertices: Floats, faces: Ints, settings: CopySettings) -> bytes:
 
 
 def _interleaved(steps: Ints) -> Ints:
-    """Each row's bits interleaved (Morton order): rows near in space come near in the order."""
+    """Each row's bits interleaved (Morton order), so that rows near in space get near numbers."""
     codes = np.zeros(len(steps), dtype=np.int64)
     for bit in range(21):
         for axis in range(3):
@@ -157,14 +161,14 @@ def _interleaved(steps: Ints) -> Ints:
 
 
 def _sorted_faces(faces: Ints) -> Ints:
-    """Each face from its lowest vertex on (its winding stays), the faces in rising order."""
+    """The faces in rising order, each beginning at its lowest vertex; the winding stays."""
     lowest = np.argmin(faces, axis=1)
     turned = np.take_along_axis(faces, (lowest[:, None] + np.arange(3)) % 3, axis=1)
     return turned[np.lexsort(turned.T[::-1])]
 
 
 def _packed(values: Ints, level: int) -> bytes:
-    """Signed values to even and odd ones (so that small ones have zero high bytes), shuffled."""
+    """Signed values as even and odd ones, so that small ones have zero high bytes; shuffled."""
     folded = ((values << 1) ^ (values >> 63)).astype("<u4")
     return zlib.compress(folded.view(np.uint8).reshape(-1, _COLUMN_BYTES).T.tobytes(), level)
 
@@ -177,7 +181,7 @@ def _unpacked(data: bytes, count: int) -> NDArray[np.int64]:
     except zlib.error as error:
         raise _damaged("it does not decompress") from error
     if len(shuffled) != _COLUMN_BYTES * count or more or not inflater.eof or inflater.unused_data:
-        raise _damaged("it has another length than its header says")
+        raise _damaged("its length is not the one in its header")
     columns = np.frombuffer(shuffled, dtype=np.uint8).reshape(_COLUMN_BYTES, -1)
     folded = np.ascontiguousarray(columns.T).view("<u4").ravel().astype(np.int64)
     return (folded >> 1) ^ -(folded & 1)

@@ -45,8 +45,8 @@ def largest_deviation_mm(
     """The two-sided largest distance between a mesh and a coarser copy, at samples of both.
 
     The samples are the vertices of both, the middles of the copy's triangles, and the middles of
-    the parts of every larger triangle; each is held against the exact triangles near it. It is
-    the Hausdorff distance but for what lies between samples.
+    the parts of every larger triangle. Each is compared with the exact triangles near it. The
+    result is the Hausdorff distance, except for what lies between samples.
 
     Parameters
     ----------
@@ -75,7 +75,7 @@ def _farthest(
 ) -> float:
     """The largest of the points' distances to the triangles (s, 3, 3) that samples (s, 3) lie on.
 
-    Only the maximum is wanted, so only the farthest points are tried against more triangles.
+    Only the maximum is needed, so only the farthest points are tried with more triangles.
     """
     from scipy.spatial import KDTree
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from footfit.geometry.mesh.welding import has_distinct_corners, welded
+from footfit.geometry.mesh.welding import has_distinct_corners, welded_vertices
 from footfit.geometry.numeric.arrays import Floats, Ints
 
 AGGRESSION = 5.0
@@ -30,7 +30,7 @@ def lighter_mesh(vertices: Floats, faces: Ints, target_faces: int) -> tuple[Floa
         return vertices, faces
     import fast_simplification
 
-    vertices, faces, _ = welded(vertices, faces)
+    vertices, faces, _ = welded_vertices(vertices, faces)
     fewer_vertices, fewer = fast_simplification.simplify(
         vertices, faces.astype(np.int32), target_count=target_faces, agg=AGGRESSION
     )

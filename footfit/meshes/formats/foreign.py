@@ -1,4 +1,4 @@
-"""What a file that is no mesh looks like, so that the refusal can say it."""
+"""The kind of a file that is not a mesh, so that the message can name it."""
 
 from __future__ import annotations
 
@@ -44,12 +44,12 @@ _CONTROL = re.compile(rb"[\x00-\x08\x0e-\x1a\x1c-\x1f]")
 
 
 def is_text(data: bytes) -> bool:
-    """Whether the beginning holds no control characters that text has no use for."""
+    """Whether the beginning has no control characters that text does not use."""
     return _CONTROL.search(data[:_LOOKED_AT_BYTES]) is None
 
 
 def known_foreign(data: bytes) -> str | None:
-    """The words for a kind of file that is certainly no mesh footfit reads, else None.
+    """The name of a kind of file that footfit certainly does not read, else None.
 
     Examples
     --------
@@ -64,7 +64,7 @@ def known_foreign(data: bytes) -> str | None:
 
 
 def likeness(data: bytes) -> str:
-    """What the content looks like, in words that follow "looks like".
+    """What the content looks like, as words after "looks like".
 
     Examples
     --------

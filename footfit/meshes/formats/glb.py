@@ -18,8 +18,8 @@ from numpy.typing import NDArray
 
 from footfit.errors import DamagedMesh, EmptyMesh, TooLarge, UnknownFormat
 from footfit.geometry.numeric.arrays import Floats, Ints
-from footfit.geometry.numeric.rotations import matrices, transform
-from footfit.meshes.formats.placed_parts import Part, joined, placed_nodes
+from footfit.geometry.numeric.rotations import rotation_matrices, transform
+from footfit.meshes.formats.placed_parts import Part, joined_parts, placed_nodes
 from footfit.meshes.formats.raw import RawMesh, check_counts, doubles
 from footfit.meshes.read_limits import Limits
 from footfit.results import Notice
@@ -73,8 +73,11 @@ def read_glb(data: bytes, limits: Limits) -> RawMesh:
         limits,
     )
     placings = [placing for _, placing in listed]
-    parts = [one.part(body, placing) for one, placing in zip(primitives, placings, strict=True)]
-    raw = joined(parts, len(meshes), "m")
+    parts = [
+        primitive.part(body, placing)
+        for primitive, placing in zip(primitives, placings, strict=True)
+    ]
+    raw = joined_parts(parts, len(meshes), "m")
     if not trailing:
         return raw
     notice = Notice("trailing_bytes", f"{trailing:,} bytes after the GLB were ignored")
@@ -153,7 +156,7 @@ def _placed_meshes(header: Tree, limits: Limits) -> list[tuple[Tree, Floats]]:
         if "mesh" in row:
             if "skin" in row or "weights" in row:
                 raise UnknownFormat(
-                    "the GLB is a posed character (skin, weights): export the bare shape"
+                    "the GLB is a posed character (skin, weights): export the shape alone"
                 )
             placed.append((_row(header, "meshes", row["mesh"]), placing))
     return placed
@@ -177,7 +180,7 @@ def _transform(node: Tree) -> Floats:
     turn = _numbers(node, "rotation", np.array([0.0, 0.0, 0.0, 1.0]))
     with np.errstate(all="ignore"):  # `sound` refuses what is not finite
         length = np.linalg.norm(turn) or 1.0
-        turned = matrices(turn[None] / length)[0] * scale
+        turned = rotation_matrices(turn[None] / length)[0] * scale
     return transform(turned, _numbers(node, "translation", np.zeros(3)))
 
 
@@ -266,11 +269,13 @@ def _rows(
     number_type = types.get(accessor["componentType"])
     readable = accessor["type"] == kind and "sparse" not in accessor and "bufferView" in accessor
     if number_type is None or not readable:
-        raise UnknownFormat("the GLB stores its numbers in a way that is not read: export as STL")
+        raise UnknownFormat(
+            "footfit cannot read how the GLB stores its numbers: export the foot as STL"
+        )
     view = _row(header, "bufferViews", accessor["bufferView"])
     _check_extensions(view.get("extensions", {}))
     if "uri" in _row(header, "buffers", view["buffer"]) or view["buffer"] != 0:
-        raise UnknownFormat("the GLB keeps its mesh in another file, and footfit opens none")
+        raise UnknownFormat("the GLB keeps its mesh in another file: export everything in one file")
     row_bytes = _WIDTHS[kind] * np.dtype(number_type).itemsize
     count, start = _whole(accessor["count"]), _whole(accessor.get("byteOffset", 0))
     offset, size = _whole(view.get("byteOffset", 0)), _whole(view["byteLength"])
@@ -279,7 +284,9 @@ def _rows(
     used = start + (count - 1) * stride + row_bytes
     inside = used <= size and offset + size <= body_bytes
     if not (count and row_bytes <= stride <= _MOST_STRIDE and inside):
-        raise DamagedMesh("the GLB declares more numbers than it holds: it is damaged or cut off")
+        raise DamagedMesh(
+            "the GLB declares more numbers than it holds: it is cut off, copy or export it again"
+        )
     return _Rows(offset + start, stride, count, _WIDTHS[kind], np.dtype(number_type))
 
 
@@ -301,9 +308,10 @@ def _whole(value: Any) -> int:
 
 
 def _check_extensions(names: Iterable[str]) -> None:
-    """Refuse extensions that may change the shape; those of its looks are passed over."""
+    """Refuse extensions that may change the shape; those for its looks are ignored."""
     for name in names:
         if not name.startswith(_ONLY_LOOKS):
             raise UnknownFormat(
-                f"the GLB needs {name[:40]!a}, which is not read: export it without compression"
+                f"the GLB needs the extension {name[:40]!a}, which footfit does not read:"
+                " export it without compression"
             )

@@ -1,4 +1,4 @@
-"""Wavefront OBJ: ``v`` and ``f`` lines only. Materials and other files are never looked at."""
+"""Wavefront OBJ: only the ``v`` and ``f`` lines. Materials and other files are never opened."""
 
 from __future__ import annotations
 
@@ -11,7 +11,14 @@ from footfit.errors import DamagedMesh
 from footfit.geometry.numeric.arrays import Bools, Floats, Ints
 from footfit.meshes.formats.polygons import fans
 from footfit.meshes.formats.raw import RawMesh, check_counts
-from footfit.meshes.formats.tokens import Lines, floats, integers, text_lines, unix_text
+from footfit.meshes.formats.tokens import (
+    Lines,
+    coordinates,
+    floats,
+    integers,
+    text_lines,
+    unix_text,
+)
 from footfit.meshes.read_limits import Limits
 
 _SNIFFED_BYTES = 1_000_000
@@ -23,7 +30,7 @@ _SPACE = ord(" ")
 
 
 def is_obj(data: bytes) -> bool:
-    """Whether a line near the beginning is an OBJ's vertex."""
+    """Whether a line near the beginning is a vertex line of an OBJ."""
     return _VERTEX_LINE.search(unix_text(data[:_SNIFFED_BYTES])) is not None
 
 
@@ -33,11 +40,11 @@ def read_obj(data: bytes, limits: Limits) -> RawMesh:
     Raises
     ------
     DamagedMesh
-        A coordinate is missing or no number; a face has index 0 or one that is not there.
+        A coordinate is missing or not a number, or a face names vertex 0 or one that is not there.
     TooLarge
         More vertices or faces, or a longer face, than ``limits`` allow.
     """
-    check_counts(data.count(b"\nv "), data.count(b"\nf "), limits)  # a look before the work
+    check_counts(data.count(b"\nv "), data.count(b"\nf "), limits)  # before the work
     text = _CONTINUED.sub(b" ", unix_text(data))
     rows = text_lines(_COMMENT.sub(b"", text))
     is_vertex, is_face = _starting_with(rows, b"v"), _starting_with(rows, b"f")
@@ -51,7 +58,7 @@ def read_obj(data: bytes, limits: Limits) -> RawMesh:
 
 
 def _starting_with(rows: Lines, keyword: bytes) -> Bools:
-    """Which lines have exactly the one-letter word ``keyword`` first, (k,)."""
+    """Which lines begin with the one-letter word ``keyword``, (k,)."""
     at = rows.words[rows.first[:-1]]
     following = np.append(rows.buffer, _SPACE)[at + 1]
     return np.asarray((rows.buffer[at] == keyword[0]) & (following <= _SPACE))
@@ -71,22 +78,18 @@ def _text_of(rows: Lines, chosen: Bools) -> bytes:
 def _vertices(rows: Lines, is_vertex: Bools) -> Floats:
     counts = rows.counts[is_vertex] - 1
     values = floats(_text_of(rows, is_vertex), int(counts.sum()))
-    if (counts < 3).any():
-        raise DamagedMesh("a vertex of the OBJ file lacks a coordinate: export it again")
-    first = np.cumsum(counts) - counts
-    vertices: Floats = values[first[:, None] + np.arange(3)]
-    return vertices
+    return coordinates(values, np.cumsum(counts) - counts, counts)
 
 
 def _absolute(indices: Ints, known: Ints) -> Ints:
-    """Indices from 0: an OBJ counts from 1, or backwards from the last vertex so far.
+    """Indices that count from 0. An OBJ counts from 1, or backwards from the last vertex so far.
 
-    ``known`` is how many vertices stand before each index. Looking ahead is allowed for positive
-    indices (many exporters write faces first), so those are checked by the caller.
+    ``known`` is the number of vertices before each index. A positive index may name a vertex that
+    comes later (many exporters write faces first), so the caller checks those.
     """
     if (indices == 0).any():
-        raise DamagedMesh("a face names vertex 0, an OBJ counts from 1: export it again")
+        raise DamagedMesh("a face names vertex 0, but an OBJ counts from 1: export it again")
     absolute = np.where(indices > 0, indices - 1, known + indices)
     if absolute.min(initial=0) < 0:
-        raise DamagedMesh("a face counts back past the first vertex: export the mesh again")
+        raise DamagedMesh("a face counts back beyond the first vertex: export the mesh again")
     return absolute

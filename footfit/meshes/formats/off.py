@@ -1,4 +1,4 @@
-"""OFF (and COFF, NOFF ...): a count of vertices and faces, then one of them a line."""
+"""OFF (and COFF, NOFF ...): the counts, then one vertex or face on each line."""
 
 from __future__ import annotations
 
@@ -10,10 +10,10 @@ from footfit.errors import DamagedMesh
 from footfit.geometry.numeric.arrays import Floats, Ints
 from footfit.meshes.formats.polygons import fans, whole
 from footfit.meshes.formats.raw import RawMesh, check_counts
-from footfit.meshes.formats.tokens import floats, text_lines, unix_text
+from footfit.meshes.formats.tokens import coordinates, floats, text_lines, unix_text
 from footfit.meshes.read_limits import Limits
 
-# ST, C, N: texture, colour and normal follow the coordinates; 4 and n would change what they mean.
+# ST, C, N: texture, colour and normal follow the coordinates. 4 and n would change the coordinates.
 _MAGIC = re.compile(rb"\s*(?:ST)?C?N?OFF\b(?!\s*BINARY)", re.IGNORECASE)
 _COUNTS = re.compile(rb"\s*(\d{1,15})\s+(\d{1,15})\s")
 _COMMENT = re.compile(rb"#[^\n]*")
@@ -25,18 +25,18 @@ def is_off(data: bytes) -> bool:
 
 
 def read_off(data: bytes, limits: Limits) -> RawMesh:
-    """The vertices and faces of an OFF file; polygons become fans, colours are passed over.
+    """The vertices and faces of an OFF file; polygons become fans, colours are ignored.
 
     Raises
     ------
     DamagedMesh
-        Fewer lines than the counts promise, a word that is no number, an impossible face.
+        There are fewer lines than the counts say, a word is not a number, or a face is impossible.
     TooLarge
-        Counts past ``limits``.
+        A count is over ``limits``.
     """
     early = _COUNTS.match(_numbers_of(data[: limits.header_bytes]))
     if early is not None:
-        check_counts(int(early[1]), int(early[2]), limits)  # a look before the work
+        check_counts(int(early[1]), int(early[2]), limits)  # before the work
     text = _numbers_of(data)
     rows = text_lines(text)
     values = floats(text, len(rows.words))
@@ -46,11 +46,11 @@ def read_off(data: bytes, limits: Limits) -> RawMesh:
     check_counts(n_vertices, n_faces, limits)
     if n_vertices + n_faces > len(rows.counts) - 1:
         raise DamagedMesh(
-            f"the OFF file promises {n_vertices:,} vertices and {n_faces:,} faces, one a line, and"
-            f" has {len(rows.counts) - 1:,} lines: it is cut off, export it again"
+            f"the OFF file declares {n_vertices:,} vertices and {n_faces:,} faces, but has only"
+            f" {len(rows.counts) - 1:,} lines for them: it is cut off, export it again"
         )
     after = 1 + n_vertices
-    vertices = _vertices(values, rows.first[1:after], rows.counts[1:after])
+    vertices = coordinates(values, rows.first[1:after], rows.counts[1:after])
     ends = slice(after, after + n_faces)
     return RawMesh(vertices, _faces(values, rows.first[ends], rows.counts[ends], limits))
 
@@ -62,15 +62,8 @@ def _numbers_of(data: bytes) -> bytes:
 
 def _count(value: float) -> int:
     if not (np.isfinite(value) and value >= 0 and value == int(value)):
-        raise DamagedMesh("a count of the OFF file is no whole number: export it again")
+        raise DamagedMesh("a count of the OFF file is not a whole number: export it again")
     return int(value)
-
-
-def _vertices(values: Floats, first: Ints, counts: Ints) -> Floats:
-    if (counts < 3).any():
-        raise DamagedMesh("a vertex of the OFF file lacks a coordinate: export it again")
-    vertices: Floats = values[first[:, None] + np.arange(3)]
-    return vertices
 
 
 def _faces(values: Floats, first: Ints, counts: Ints, limits: Limits) -> Ints:

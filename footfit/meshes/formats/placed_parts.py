@@ -14,9 +14,9 @@ import numpy as np
 
 from footfit.errors import DamagedMesh
 from footfit.geometry.mesh.topology import boundary_edges
-from footfit.geometry.mesh.welding import nearby_vertices, welded
+from footfit.geometry.mesh.welding import nearby_vertices, welded_vertices
 from footfit.geometry.numeric.arrays import Floats, Ints
-from footfit.geometry.numeric.rotations import applied
+from footfit.geometry.numeric.rotations import moved_points
 from footfit.meshes.formats.raw import RawMesh
 from footfit.meshes.read_limits import Limits
 from footfit.results import Notice
@@ -86,7 +86,7 @@ def placed_nodes(
         waiting += [(child, transform) for child in reversed(children)]
 
 
-def joined(
+def joined_parts(
     parts: Sequence[Part], objects: int, unit: str, settings: SeamSettings = SEAMS
 ) -> RawMesh:
     """All parts in place, as one mesh whose objects share the vertices of their seams.
@@ -132,7 +132,7 @@ def _in_place(part: Part) -> tuple[Floats, Ints]:
         return part.vertices, part.faces
     with np.errstate(all="ignore"):  # `sound` refuses what is not finite
         mirrored = np.linalg.det(part.transform[:3, :3]) < 0.0
-        placed = applied(part.transform, part.vertices)
+        placed = moved_points(part.transform, part.vertices)
     return placed, part.faces[:, ::-1] if mirrored else part.faces
 
 
@@ -144,7 +144,7 @@ def _with_equal_seams(vertices: Floats, faces: Ints, settings: SeamSettings) -> 
     """
     if not len(faces) or not np.isfinite(vertices).all():
         return vertices
-    points, corners, source = welded(vertices, faces)
+    points, corners, source = welded_vertices(vertices, faces)
     rim = np.unique(boundary_edges(corners))
     diagonal = float(np.linalg.norm(np.ptp(points, axis=0)))
     near = max(settings.extent * diagonal, settings.coordinate * float(np.abs(points).max()))

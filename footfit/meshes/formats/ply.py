@@ -1,4 +1,4 @@
-"""PLY, ASCII and binary: a header that declares elements, then their rows."""
+"""PLY, ASCII and binary: a header that declares elements, then the rows of each."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ _MOST_CORNERS_DECLARED = 2**32
 
 @dataclass(frozen=True, slots=True)
 class _Property:
-    """One value of a row, or a list of them; types are NumPy codes with their byte order."""
+    """A value in each row, or a list of values; the types have the file's byte order."""
 
     name: str
     type: np.dtype[np.generic]
@@ -36,7 +36,7 @@ class _Property:
 
 @dataclass(frozen=True, slots=True)
 class _Element:
-    """A table of the file; ``smallest`` is the fewest bytes that a row can have."""
+    """A table of the file."""
 
     name: str
     count: int
@@ -44,31 +44,32 @@ class _Element:
 
     @property
     def smallest(self) -> int:
+        """The fewest bytes that a row can have."""
         return sum((p.count_type or p.type).itemsize for p in self.properties)
 
 
 @dataclass(frozen=True, slots=True)
 class _Column:
-    """A property over all rows: its values end to end, and each row's count if it is a list."""
+    """A property in all rows: its values end to end, and each row's count if it is a list."""
 
     values: NDArray[np.generic]
     counts: Ints | None
 
 
 def is_ply(data: bytes) -> bool:
-    """Whether the file begins with PLY's magic line."""
+    """Whether the file begins with PLY's first line."""
     return data[:4] in (b"ply\n", b"ply\r")
 
 
 def read_ply(data: bytes, limits: Limits) -> RawMesh:
-    """The vertices and faces of a PLY file; polygons become fans, other elements are passed over.
+    """The vertices and faces of a PLY file; polygons become fans, other elements are ignored.
 
     Raises
     ------
     DamagedMesh
-        The header cannot be understood, or promises more than the file holds.
+        The header is not valid, or declares more than the file holds.
     TooLarge
-        Counts past ``limits``.
+        A count is over ``limits``.
     """
     order, elements, begin = _header(data, limits)
     counts = {element.name: element.count for element in elements}
@@ -88,7 +89,7 @@ def read_ply(data: bytes, limits: Limits) -> RawMesh:
 
 
 def _numbers_as_doubles(text: bytes) -> bytes:
-    """An ASCII body as if it were binary, every number a double."""
+    """An ASCII body as a binary body in which every number is a double."""
     text = unix_text(text)
     words = word_offsets(np.frombuffer(text, dtype=np.uint8)) if text else ()
     return floats(text, len(words)).astype("<f8").tobytes()
@@ -156,8 +157,8 @@ def _rows(body: bytes, offset: int, element: _Element) -> tuple[dict[str, _Colum
     """All rows of an element and where the next one begins."""
     if element.count * element.smallest > len(body) - offset:
         raise DamagedMesh(
-            f"the PLY file promises {element.count:,} rows of {ascii(element.name)[:40]} and ends"
-            " before: it is cut off, copy or export it again"
+            f"the PLY file declares {element.count:,} rows of {ascii(element.name)[:40]} but ends"
+            " before them: it is cut off, copy or export it again"
         )
     if element.count == 0:
         return {}, offset
@@ -171,7 +172,7 @@ def _rows(body: bytes, offset: int, element: _Element) -> tuple[dict[str, _Colum
 def _table(
     body: bytes, offset: int, element: _Element, lengths: list[int | None]
 ) -> NDArray[np.void] | None:
-    """The rows as one structured array where every list is as long as in the first row."""
+    """The rows as a structured array; None unless every list is as long as in the first row."""
     fields: list[tuple[str, np.dtype[np.generic], tuple[int, ...]]] = []
     for place, (declared, length) in enumerate(zip(element.properties, lengths, strict=True)):
         if declared.count_type is not None:
@@ -199,7 +200,7 @@ def _columns(table: NDArray[np.void], element: _Element) -> dict[str, _Column]:
 def _walked(
     body: bytes, offset: int, element: _Element, count: int
 ) -> tuple[dict[str, _Column], int]:
-    """The first ``count`` rows one by one, for lists of differing lengths."""
+    """The first ``count`` rows, read row by row, since lists differ in length."""
     pieces = [bytearray() for _ in element.properties]
     counts: list[list[int]] = [[] for _ in element.properties]
     for _ in range(count):
@@ -240,7 +241,7 @@ def _vertices(columns: dict[str, _Column]) -> Floats:
         return np.empty((0, 3))
     axes = [columns[name] for name in ("x", "y", "z") if name in columns]
     if len(axes) < 3 or any(axis.counts is not None for axis in axes):
-        raise DamagedMesh("the PLY file's vertices lack x, y or z: export it again")
+        raise DamagedMesh("the vertices of the PLY file lack x, y or z: export it again")
     return np.stack([doubles(axis.values) for axis in axes], axis=1)
 
 
@@ -249,5 +250,5 @@ def _faces(columns: dict[str, _Column], limits: Limits) -> Ints:
         return np.empty((0, 3), dtype=np.int64)
     corners = next((columns[name] for name in _INDEX_LISTS if name in columns), None)
     if corners is None or corners.counts is None:
-        raise DamagedMesh("the PLY file's faces name no vertices: export it again")
+        raise DamagedMesh("the faces of the PLY file name no vertices: export it again")
     return fans(whole(corners.values), corners.counts, limits)

@@ -1,4 +1,4 @@
-"""Triangles out of polygons."""
+"""Polygons cut into triangles."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from footfit.geometry.numeric.arrays import Ints
 from footfit.meshes.formats.raw import doubles
 from footfit.meshes.read_limits import Limits
 
-_EXACT = 2.0**53  # up to here a double holds every integer
+_EXACT = 2.0**53  # up to this size a double holds every integer
 
 
 def fans(corners: Ints, counts: Ints, limits: Limits) -> Ints:
@@ -21,7 +21,7 @@ def fans(corners: Ints, counts: Ints, limits: Limits) -> Ints:
     corners : (sum of counts,) int64
         The polygons' vertices, one polygon after the other.
     counts : (p,) int64
-        How many corners each has; one with fewer than three gives nothing.
+        How many corners each polygon has; with fewer than three it gives no triangle.
     limits : Limits
 
     Returns
@@ -31,7 +31,7 @@ def fans(corners: Ints, counts: Ints, limits: Limits) -> Ints:
     Raises
     ------
     TooLarge
-        A polygon has more corners than ``limits.polygon_corners``: its fan would be no surface.
+        A polygon has more corners than ``limits.polygon_corners``; its fan would not be a surface.
 
     Examples
     --------
@@ -41,7 +41,7 @@ def fans(corners: Ints, counts: Ints, limits: Limits) -> Ints:
     """
     if len(counts) and counts.max() > limits.polygon_corners:
         raise TooLarge(
-            f"a face has {int(counts.max()):,} corners, footfit takes up to"
+            f"a face has {int(counts.max()):,} corners and footfit reads up to"
             f" {limits.polygon_corners:,}: export triangles"
         )
     if len(counts) and (counts == 3).all():
@@ -55,17 +55,19 @@ def fans(corners: Ints, counts: Ints, limits: Limits) -> Ints:
 
 
 def whole(values: NDArray[np.generic]) -> Ints:
-    """Numbers that must be indices, as integers.
+    """Indices as integers.
 
     Raises
     ------
     DamagedMesh
-        One is not whole.
+        An index is not a whole number.
     """
     if values.dtype.kind in "iu":
-        return values.astype(np.int64)  # what wraps around is negative, and refused as such
+        return values.astype(
+            np.int64
+        )  # an index that wraps around is negative, and refused for that
     numbers = doubles(values)
     exact = np.abs(numbers) < _EXACT  # False for NaN
     if not exact.all() or (numbers != np.floor(numbers)).any():
-        raise DamagedMesh("a face names a vertex by something that is no index: export it again")
+        raise DamagedMesh("a face index is not a whole number: export the mesh again")
     return numbers.astype(np.int64)

@@ -1,4 +1,4 @@
-"""What a reader hands on: the file's own vertices and faces, checked but not yet cleaned."""
+"""What every reader returns: the file's own vertices and faces, checked but not cleaned."""
 
 from __future__ import annotations
 
@@ -15,10 +15,10 @@ from footfit.results import Notice
 
 @dataclass(frozen=True, slots=True)
 class RawMesh:
-    """Vertices (n, 3) in the file's unit and order, faces (m, 3), and what was noticed.
+    """Vertices (n, 3) in the file's unit and order, faces (m, 3), and warnings.
 
-    ``unit`` is the unit the file itself declares ("mm", "cm", "m", "in"), None where its format
-    has none.
+    ``unit`` is the unit that the file declares ("mm", "cm", "m", "in"), or None where its format
+    has no unit.
     """
 
     vertices: Floats
@@ -28,27 +28,29 @@ class RawMesh:
 
 
 def doubles(values: NDArray[np.generic]) -> Floats:
-    """The numbers as float64. A signalling NaN makes NumPy warn; it is refused by `sound`."""
+    """The numbers as float64; `checked_mesh` refuses a signalling NaN, so NumPy need not warn."""
     with np.errstate(invalid="ignore"):
         return values.astype(np.float64)
 
 
-def sound(raw: RawMesh, limits: Limits) -> RawMesh:
-    """The same mesh, once its numbers are finite, its indices in range and its counts bearable.
+def checked_mesh(raw: RawMesh, limits: Limits) -> RawMesh:
+    """The same mesh, after its numbers, indices and counts have been checked.
 
     Raises
     ------
     EmptyMesh
         There are no faces.
     DamagedMesh
-        A coordinate is NaN, infinite or absurd; a face names a vertex that is not there.
+        A coordinate is NaN, infinite or beyond ``limits.coordinate``, or a face names a vertex
+        that is not there.
     TooLarge
         More vertices or faces than ``limits`` allow.
     """
     check_counts(len(raw.vertices), len(raw.faces), limits)
     if len(raw.faces) == 0:
-        found = f"{len(raw.vertices)} points but no faces" if len(raw.vertices) else "no triangles"
-        raise EmptyMesh(f"the file holds {found}: export a triangle mesh")
+        points = f"{len(raw.vertices)} points but no faces"
+        content = points if len(raw.vertices) else "no triangles"
+        raise EmptyMesh(f"the file holds {content}: export a triangle mesh")
     if raw.faces.min() < 0 or raw.faces.max() >= len(raw.vertices):
         raise DamagedMesh(
             f"a face names a vertex that is not there (the file has {len(raw.vertices)} vertices):"
@@ -58,18 +60,18 @@ def sound(raw: RawMesh, limits: Limits) -> RawMesh:
     if not np.isfinite([low, high]).all():
         bad = np.flatnonzero(~np.isfinite(raw.vertices).all(axis=1))
         raise DamagedMesh(
-            f"{len(bad):,} {'vertex is' if len(bad) == 1 else 'vertices are'} not of finite numbers"
-            f" (the first is vertex {bad[0] + 1:,}): export the mesh again"
+            f"{len(bad):,} of the vertices lack a finite number (the first is vertex"
+            f" {bad[0] + 1:,}): export the mesh again"
         )
     if max(-low, high) > limits.coordinate:
         raise DamagedMesh(
-            f"a coordinate is past {limits.coordinate:g}: the file is damaged, export it again"
+            f"a coordinate is over {limits.coordinate:g}: the file is damaged, export it again"
         )
     return raw
 
 
 def check_counts(vertices: int, faces: int, limits: Limits) -> None:
-    """Refuse counts past the limits.
+    """Refuse counts over the limits.
 
     Raises
     ------
@@ -82,6 +84,6 @@ def check_counts(vertices: int, faces: int, limits: Limits) -> None:
     ):
         if count > most:
             raise TooLarge(
-                f"the mesh has {count:,} {noun}, footfit reads up to {most:,}:"
-                " decimate it first (100,000 faces are plenty)"
+                f"the mesh has {count:,} {noun} and footfit reads up to {most:,}:"
+                " simplify it first (100,000 faces are plenty)"
             )

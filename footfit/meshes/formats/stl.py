@@ -1,4 +1,4 @@
-"""STL, binary and ASCII. An STL has no unit and no vertices of its own: three per facet."""
+"""STL, binary and ASCII. It has no unit, and three separate vertices for each facet."""
 
 from __future__ import annotations
 
@@ -17,9 +17,9 @@ from footfit.results import Notice
 
 HEADER_BYTES = 84
 FACET = np.dtype([("normal", "<f4", (3,)), ("corners", "<f4", (9,)), ("attribute", "<u2")])
-_TRAILING_BYTES = 4_096  # what exporters append; more is a count that lies
-_CHUNK_BYTES = 1_000_000  # its arrays stay in a processor's cache
-_LEAST_FACET_BYTES = 86  # the shortest way to write a facet: no file holds more than that allows
+_TRAILING_BYTES = 4_096  # exporters append so much; with more, the count is wrong
+_CHUNK_BYTES = 1_000_000  # the arrays of a chunk stay in a processor's cache
+_LEAST_FACET_BYTES = 86  # of the shortest way to write a facet
 
 # The 21 words of an ASCII facet: a keyword, or None where a number stands.
 _POINT = ("vertex", None, None, None)
@@ -29,7 +29,7 @@ _GRAMMAR = (
     *("endloop", "endfacet"),
 )
 _KEYWORDS = tuple((place, word.encode()) for place, word in enumerate(_GRAMMAR) if word)
-_WORD_END = b" " * 8  # after the last word, so that eight bytes can be looked at anywhere
+_WORD_END = b" " * 8  # after the last word, so that eight bytes can be read at any word
 _POINT_BOUNDS = (8, 11, 12, 15, 16, 19)  # a point's first word, and the one after its last
 _LAST_FACET = re.compile(rb"endfacet\s", re.IGNORECASE)
 _END = re.compile(rb"end[ \t]*solid", re.IGNORECASE)
@@ -37,14 +37,14 @@ _UNENDED = Notice("end_missing", "the ASCII STL has no endsolid line: its end ma
 
 
 def declared_facets(data: bytes) -> int | None:
-    """The count in a binary STL's header, None where there is no whole header."""
+    """The count in a binary STL's header; None where the header is not complete."""
     if len(data) < HEADER_BYTES:
         return None
     return int.from_bytes(data[HEADER_BYTES - 4 : HEADER_BYTES], "little")
 
 
 def is_binary_stl(data: bytes) -> bool:
-    """Whether the size is exactly what the count says; the header's words do not matter."""
+    """Whether the size is exactly as the count says. The words in the header do not matter."""
     count = declared_facets(data)
     return count is not None and len(data) == HEADER_BYTES + FACET.itemsize * count
 
@@ -57,21 +57,23 @@ def read_binary_stl(data: bytes, limits: Limits) -> RawMesh:
     DamagedMesh
         The file is shorter than its count says, or so much longer that the count must be wrong.
     EmptyMesh, TooLarge
-        No facets, or more than ``limits`` allow.
+        There are no facets, or more than ``limits`` allow.
     """
     count = declared_facets(data)
     if count is None:
-        raise DamagedMesh("a binary STL has at least 84 bytes: the file is cut off, copy it again")
+        raise DamagedMesh(
+            f"a binary STL has at least {HEADER_BYTES} bytes: the file is cut off, copy it again"
+        )
     needed = HEADER_BYTES + FACET.itemsize * count
     if len(data) < needed:
         raise DamagedMesh(
-            f"the header promises {count:,} facets ({needed:,} bytes), the file has"
+            f"the header declares {count:,} facets ({needed:,} bytes), but the file has"
             f" {len(data):,} bytes: it is cut off, copy or export it again"
         )
     trailing = len(data) - needed
     if trailing > max(_TRAILING_BYTES, (needed - HEADER_BYTES) // 100) or (trailing and not count):
         raise DamagedMesh(
-            f"the header promises {count:,} facets and {trailing:,} more bytes follow them:"
+            f"the header declares {count:,} facets, but {trailing:,} more bytes follow them:"
             " the count is wrong, export it again"
         )
     if count == 0:
@@ -82,16 +84,16 @@ def read_binary_stl(data: bytes, limits: Limits) -> RawMesh:
 
 
 def read_ascii_stl(data: bytes, limits: Limits) -> RawMesh:
-    """The facets of an ASCII STL, word by word; several solids in one file are one mesh.
+    """The facets of an ASCII STL; several solids in one file are one mesh.
 
     Raises
     ------
     DamagedMesh
-        The words are not those of facets, or the file ends within one.
+        The words are not those of facets, or the file ends within a facet.
     EmptyMesh, TooLarge
-        No facets, or more than ``limits`` allow.
+        There are no facets, or more than ``limits`` allow.
     """
-    if len(data) > _LEAST_FACET_BYTES * limits.faces:  # a look before the work
+    if len(data) > _LEAST_FACET_BYTES * limits.faces:  # before the work
         check_counts(0, data.count(b"endfacet"), limits)
     text = unix_text(data)
     corners, facets = [], 0
@@ -106,7 +108,7 @@ def read_ascii_stl(data: bytes, limits: Limits) -> RawMesh:
 
 
 def _chunks(text: bytes) -> Iterator[bytes]:
-    """Pieces of the text that end after a facet, so that a big file is never held as words."""
+    """Pieces of the text that end after a facet, so that a piece's words need little memory."""
     begin = 0
     while begin < len(text):
         end = begin + _CHUNK_BYTES
@@ -118,7 +120,7 @@ def _chunks(text: bytes) -> Iterator[bytes]:
 
 
 def _corners_of(chunk: bytes) -> Floats:
-    """The corners of a piece of the text, which most often is nothing but lower-case facets."""
+    """The corners in a piece of the text; most often it is nothing but lower-case facets."""
     try:
         return _facet_corners(chunk)
     except DamagedMesh:
@@ -126,7 +128,7 @@ def _corners_of(chunk: bytes) -> Floats:
 
 
 def _without_solid_lines(text: bytes) -> bytes:
-    """The text without the lines that begin or end a solid, whatever name they give it."""
+    """The text without the lines that begin or end a solid."""
     pieces, begin = [], 0
     while (at := text.find(b"solid", begin)) >= 0:
         line = max(begin, text.rfind(b"\n", begin, at))
@@ -139,7 +141,7 @@ def _without_solid_lines(text: bytes) -> bytes:
 
 
 def _facet_corners(text: bytes) -> Floats:
-    """The corners (3 m, 3) of a lower-case text that is nothing but facets."""
+    """The corners (3 m, 3) in a lower-case text that is nothing but facets."""
     buffer = np.frombuffer(text + _WORD_END, dtype=np.uint8)
     words = word_offsets(buffer)
     if len(words) % len(_GRAMMAR):
@@ -155,19 +157,18 @@ def _facet_corners(text: bytes) -> Floats:
 
 
 def _check_keyword(
-    found: NDArray[np.uint64], places: Ints, buffer: NDArray[np.uint8], keyword: bytes
+    words: NDArray[np.uint64], places: Ints, buffer: NDArray[np.uint8], keyword: bytes
 ) -> None:
     """Refuse the facets unless ``keyword`` stands at each of ``places``.
 
-    ``found`` are the eight bytes there as one number each: no keyword has more.
+    ``words`` are the eight bytes at each place as a number; no keyword is longer.
     """
     wanted = np.uint64(int.from_bytes(keyword, "little"))
     mask = np.uint64((1 << 8 * len(keyword)) - 1)
     whole = buffer[places + len(keyword)] <= BLANK
-    if not (whole.all() and ((found & mask) == wanted).all()):
+    if not (whole.all() and ((words & mask) == wanted).all()):
         raise DamagedMesh(
-            f"the ASCII STL lacks the word {keyword.decode()!r} where a facet needs it:"
-            " export it again"
+            f"a facet of the ASCII STL lacks the word {keyword.decode()!r}: export it again"
         )
 
 

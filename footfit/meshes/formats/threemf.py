@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 from footfit.errors import DamagedMesh, EmptyMesh, TooLarge, UnknownFormat
 from footfit.geometry.numeric.arrays import Floats
 from footfit.meshes.formats.archive import archive, pieces
-from footfit.meshes.formats.placed_parts import Part, joined, placed_nodes
+from footfit.meshes.formats.placed_parts import Part, joined_parts, placed_nodes
 from footfit.meshes.formats.raw import RawMesh, check_counts
 from footfit.meshes.formats.tokens import floats, integers
 from footfit.meshes.read_limits import Limits
@@ -28,7 +28,7 @@ if TYPE_CHECKING:
 _CORE = "http://schemas.microsoft.com/3dmanufacturing/core/2015/02 "
 _SUFFIX, _USUAL = ".model", "3d/3dmodel.model"
 _LOOKED_AT_BYTES = 65_536
-_UNITS = {  # the unit that footfit counts in, and how many of it there are in one
+_UNITS = {  # the unit that footfit reports, and how many of it each unit of the format has
     "micron": ("mm", 0.001),
     "millimeter": ("mm", 1.0),
     "centimeter": ("cm", 1.0),
@@ -59,14 +59,14 @@ def read_3mf(data: bytes, limits: Limits) -> RawMesh:
     UnknownFormat
         The archive has several models, or needs an extension that changes the shape.
     DamagedMesh
-        The archive or its XML is broken, or has a document type.
+        The archive or its XML is damaged, or the XML has a document type.
     EmptyMesh, TooLarge
         There is nothing to build, or more than ``limits`` allow.
     """
     zipped = archive(data, limits)
     model = _parsed(pieces(zipped, _model_part(zipped), limits), limits)
     if model.unit not in _UNITS:
-        raise DamagedMesh(f"the 3MF counts in {model.unit[:20]!a}, which is no unit of the format")
+        raise DamagedMesh(f"the 3MF has no valid unit ({model.unit[:20]!a}): export it again")
     unit, scale = _UNITS[model.unit]
     built = list(_built(model, limits))
     if not built:
@@ -81,18 +81,18 @@ def read_3mf(data: bytes, limits: Limits) -> RawMesh:
         Part(shape.points.rows(), shape.corners.rows(), scaled @ placing)
         for shape, placing in built
     ]
-    return joined(parts, len(parts), unit)
+    return joined_parts(parts, len(parts), unit)
 
 
 def _model_part(zipped: ZipFile) -> ZipInfo:
     """The part that holds the model: the usual one, or the only one."""
-    found = [part for part in zipped.filelist if part.filename.lower().endswith(_SUFFIX)]
-    usual = [part for part in found if part.filename.lower().lstrip("/") == _USUAL]
+    models = [part for part in zipped.filelist if part.filename.lower().endswith(_SUFFIX)]
+    usual = [part for part in models if part.filename.lower().lstrip("/") == _USUAL]
     if len(usual) == 1:
         return usual[0]
-    if len(found) != 1:
-        raise UnknownFormat(f"the 3MF archive has {len(found)} models: export the foot alone")
-    return found[0]
+    if len(models) != 1:
+        raise UnknownFormat(f"the 3MF archive has {len(models)} models: export the foot alone")
+    return models[0]
 
 
 @dataclass(slots=True)
@@ -124,7 +124,7 @@ class _Triples:
 
 @dataclass(slots=True)
 class _Shape:
-    """One object: a mesh, or others that it puts together."""
+    """An object: a mesh, or other objects that it puts together."""
 
     points: _Triples = field(default_factory=lambda: _Triples(floats))
     corners: _Triples = field(default_factory=lambda: _Triples(integers))
@@ -133,7 +133,7 @@ class _Shape:
 
 @dataclass(slots=True)
 class _Model:
-    """What has been read of the XML; its methods are the elements that matter."""
+    """The parts of the XML that have been read; each method takes one kind of element."""
 
     limits: Limits
     unit: str = "millimeter"
@@ -143,7 +143,7 @@ class _Model:
     others: int = 0
 
     def element(self, name: str, attributes: Attributes) -> None:
-        """Any element's beginning."""
+        """Take the beginning of any element."""
         if name == _CORE + "vertex":
             self.current.points.add(attributes["x"], attributes["y"], attributes["z"])
         elif name == _CORE + "triangle":
@@ -151,33 +151,35 @@ class _Model:
         else:
             self.others += 1
             if self.others > self.limits.elements:
-                raise TooLarge("the 3MF's XML has far more parts than one mesh: export as STL")
+                raise TooLarge(
+                    "the 3MF's XML has far more parts than a mesh has: export the foot as STL"
+                )
             handler = _ELEMENTS.get(name)
             if handler is not None:
                 handler(self, attributes)
 
     def model(self, attributes: Attributes) -> None:
-        """One ``model``."""
+        """Take a ``model``."""
         self.unit = attributes.get("unit", self.unit)
         needed = attributes.get("requiredextensions", "").split()
         if needed:
             raise UnknownFormat(
-                f"the 3MF needs its extension {needed[0][:20]!a}, which is not read:"
+                f"the 3MF needs the extension {needed[0][:20]!a}, which footfit does not read:"
                 " export a plain 3MF, or STL"
             )
 
     def object(self, attributes: Attributes) -> None:
-        """One ``object``."""
+        """Take an ``object``."""
         if attributes["id"] in self.shapes:
-            raise DamagedMesh("two objects of the 3MF have one id: export it again")
+            raise DamagedMesh("two objects of the 3MF have the same id: export it again")
         self.current = self.shapes[attributes["id"]] = _Shape()
 
     def component(self, attributes: Attributes) -> None:
-        """One ``component``."""
+        """Take a ``component``."""
         self.current.components.append(_step(attributes))
 
     def item(self, attributes: Attributes) -> None:
-        """One ``item``."""
+        """Take an ``item``."""
         self.items.append(_step(attributes))
 
 
@@ -196,7 +198,7 @@ def _step(attributes: Attributes) -> Step:
 
 
 def _parsed(chunks: Iterator[bytes], limits: Limits) -> _Model:
-    """The model of the XML that ``chunks`` are."""
+    """The model that the XML in ``chunks`` describes."""
     model = _Model(limits)
     parser = expat.ParserCreate(namespace_separator=" ")
     parser.StartDoctypeDeclHandler = _no_doctype
@@ -212,16 +214,22 @@ def _parsed(chunks: Iterator[bytes], limits: Limits) -> _Model:
                 sum(shape.corners.count for shape in shapes),
                 limits,
             )
-            if fed - parser.CurrentByteIndex > limits.document_bytes:  # parsing goes quadratic
-                raise TooLarge("the 3MF's XML has a tag of megabytes: export the foot as STL")
+            if fed - parser.CurrentByteIndex > limits.document_bytes:  # parsing turns quadratic
+                raise TooLarge(
+                    "the 3MF's XML has a tag of several megabytes: export the foot as STL"
+                )
         parser.Parse(b"", True)
     except (expat.ExpatError, KeyError) as error:
-        raise DamagedMesh("the 3MF's XML is broken: it is damaged, export it again") from error
+        raise DamagedMesh(
+            "the 3MF's XML is not valid: the file is damaged, export it again"
+        ) from error
     return model
 
 
 def _no_doctype(*_: object) -> NoReturn:
-    raise DamagedMesh("the 3MF's XML declares a document type, which no 3MF has: export it again")
+    raise DamagedMesh(
+        "the 3MF's XML has a document type, which a 3MF must not have: export it again"
+    )
 
 
 def _built(model: _Model, limits: Limits) -> Iterator[tuple[_Shape, Floats]]:
@@ -230,7 +238,7 @@ def _built(model: _Model, limits: Limits) -> Iterator[tuple[_Shape, Floats]]:
     def node(step: Step) -> tuple[Floats, list[Step]]:
         name, transform = step
         if name not in model.shapes:
-            raise DamagedMesh("the 3MF builds an object that is not there: export it again")
+            raise DamagedMesh("the 3MF builds an object that it does not have: export it again")
         return _transform(transform), model.shapes[name].components
 
     for (name, _), placing in placed_nodes(model.items, node, limits):

@@ -1,4 +1,4 @@
-"""Numbers out of text, in NumPy: what the text formats (ASCII STL, OBJ, PLY, OFF) share."""
+"""Numbers in text, read by NumPy, for all text formats (ASCII STL, OBJ, PLY, OFF)."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from footfit.errors import DamagedMesh
 from footfit.geometry.numeric.arrays import Floats, Ints
 
 BLANK = 32
-"""A space: everything up to it is taken as white space."""
+"""A space; every character up to it counts as white space."""
 _NEWLINE = 10
 _Number = TypeVar("_Number", np.float64, np.int64)
 
@@ -22,9 +22,9 @@ _Number = TypeVar("_Number", np.float64, np.int64)
 class Lines:
     """Where the words of a text are, line by line.
 
-    ``buffer`` (b,) uint8; ``words`` (w,) the offset of each word; ``first`` (k + 1,) the number
-    of each line's first word, for the k lines that have one; ``lines`` (k, 2) the offsets where
-    those lines begin and end.
+    ``buffer`` (b,) uint8 is the text; ``words`` (w,) is the offset of each word. For the k lines
+    that have a word, ``first`` (k + 1,) is the number of the first word, and ``lines`` (k, 2) are
+    the offsets where the line begins and ends.
     """
 
     buffer: NDArray[np.uint8]
@@ -39,7 +39,7 @@ class Lines:
 
 
 def unix_text(data: bytes) -> bytes:
-    """The text without a byte-order mark, its lines ended by newlines."""
+    """The text without a byte-order mark, with newlines at the ends of its lines."""
     text = data.removeprefix(b"\xef\xbb\xbf")
     return text if b"\n" in text or b"\r" not in text else text.replace(b"\r", b"\n")
 
@@ -75,7 +75,7 @@ def floats(text: bytes, count: int) -> Floats:
     Raises
     ------
     DamagedMesh
-        A word is no number.
+        A word is not a number.
 
     Examples
     --------
@@ -91,9 +91,23 @@ def integers(text: bytes, count: int) -> Ints:
     Raises
     ------
     DamagedMesh
-        A word is no integer.
+        A word is not an integer.
     """
     return _numbers(text, count, np.int64)
+
+
+def coordinates(values: Floats, first: Ints, counts: Ints) -> Floats:
+    """The vertices (n, 3) of lines whose ``counts`` (n,) numbers begin at ``first`` (n,).
+
+    Raises
+    ------
+    DamagedMesh
+        A line has fewer than three numbers.
+    """
+    if (counts < 3).any():
+        raise DamagedMesh("a vertex of the file lacks a coordinate: export the mesh again")
+    vertices: Floats = values[first[:, None] + np.arange(3)]
+    return vertices
 
 
 def _numbers(text: bytes, count: int, dtype: type[_Number]) -> NDArray[_Number]:
@@ -101,10 +115,12 @@ def _numbers(text: bytes, count: int, dtype: type[_Number]) -> NDArray[_Number]:
         return np.empty(0, dtype=dtype)
     try:
         with warnings.catch_warnings():
-            warnings.simplefilter("error", DeprecationWarning)  # how older NumPy says "no number"
+            warnings.simplefilter("error", DeprecationWarning)  # so older NumPy says "not a number"
             values = np.fromstring(text, dtype=dtype, sep=" ")
     except (ValueError, DeprecationWarning) as error:
-        raise DamagedMesh("a word stands where a number should: export the mesh again") from error
+        raise DamagedMesh(
+            "the file has a word where a number belongs: export the mesh again"
+        ) from error
     if len(values) != count:
-        raise DamagedMesh("two numbers run into each other: export the mesh again")
+        raise DamagedMesh("two numbers of the file are not separated: export the mesh again")
     return values

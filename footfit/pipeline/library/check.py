@@ -28,12 +28,12 @@ def check(path: Path) -> CheckOutcome:
 
 def _mesh_findings(catalogue: Catalogue, names: list[str]) -> Iterator[Finding]:
     """Mesh copies that are as they were stored, and still do not give a mesh."""
-    from footfit.meshes.copies.compact_copy import expanded
+    from footfit.meshes.copies.compact_copy import expanded_mesh
 
     for name in names:
         try:
             copy = catalogue.mesh_copy(name)
-            _, faces = expanded(copy.data)
+            _, faces = expanded_mesh(copy.data)
         except FootfitError as error:
             words = f"its mesh copy does not give a mesh: {error.message}"
             yield Finding("mesh_copy", words, name)

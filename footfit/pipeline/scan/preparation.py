@@ -14,13 +14,13 @@ from footfit.geometry.flare.levelled_bottom import low_length
 from footfit.geometry.measures.landmarks import Shape
 from footfit.geometry.measures.measure_table import measure_named
 from footfit.geometry.mesh.holes import Filled, filled
-from footfit.geometry.mesh.samples import SurfaceSample, gathered, quadrature
+from footfit.geometry.mesh.samples import SurfaceSample, gathered_sample, quadrature
 from footfit.geometry.numeric.arrays import Floats, Ints
-from footfit.geometry.numeric.rotations import applied, nearest_rotation, transform
+from footfit.geometry.numeric.rotations import moved_points, nearest_rotation, transform
 from footfit.geometry.pose.frame import FRAME, canonical_frame, length_of, turned_sample
 from footfit.geometry.pose.missing_parts import doubtful_end, missing_part
 from footfit.geometry.pose.side import confidence, side_score
-from footfit.meshes.copies.compact_copy import expanded
+from footfit.meshes.copies.compact_copy import expanded_mesh
 from footfit.pipeline.scan.one_shape import PosedShape, shape_in
 from footfit.pipeline.scan.settled_unit import (
     info_with_unit,
@@ -145,7 +145,7 @@ def stored_shape(data: bytes, side: SideName | None) -> tuple[Floats, Ints]:
     CatalogueDamaged
         The copy is not sound.
     """
-    return closed_shape(*right_copy(*expanded(data), side))
+    return closed_shape(*right_copy(*expanded_mesh(data), side))
 
 
 def closed_shape(vertices_mm: Floats, faces: Ints) -> tuple[Floats, Ints]:
@@ -177,13 +177,13 @@ class _Framed:
     def of(cls, shape: PosedShape, closed: Filled) -> _Framed:
         """Refine the rough pose of a shape, by its surface with its holes closed."""
         rough = shape.orientation
-        about = applied(transform(rough.rotation, rough.shift), closed.vertices)
+        about = moved_points(transform(rough.rotation, rough.shift), closed.vertices)
         # The edge in steps of a tenth: two poses of one shape get the same points.
         step = np.round(np.log(rough.length) / np.log(1.1))
         edge = FRAMING.quadrature_edge * float(1.1**step)
         sample = quadrature(about, closed.faces, edge)
         if len(sample.areas) > FRAMING.many_points:
-            sample = gathered(sample, FRAMING.gathered_edge * rough.length)
+            sample = gathered_sample(sample, FRAMING.gathered_edge * rough.length)
         fine = canonical_frame(sample, rough.length)
         rotation, shift = fine.rotation, fine.shift
         for _ in range(FRAMING.settling_rounds):  # until the pose it came from is forgotten
@@ -195,7 +195,7 @@ class _Framed:
         surface = replace(turned, points=turned.points + shift)
         shift = rotation @ rough.shift + shift
         rotation = nearest_rotation(rotation @ rough.rotation)
-        points = applied(transform(rotation, shift), closed.vertices)
+        points = moved_points(transform(rotation, shift), closed.vertices)
         quality = PoseQuality(rough.cost, rough.margin, fine.support, fine.sole, rough.kind)
         extent = length_of(points, 0.0, fine.length)
         length = Shape(points, closed.faces, rough.kind).length_mm

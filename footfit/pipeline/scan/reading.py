@@ -10,7 +10,7 @@ from footfit.errors import UnknownUnits
 from footfit.meshes.file_bytes import file_bytes
 from footfit.meshes.read import file_mesh
 from footfit.meshes.read_limits import LIMITS
-from footfit.meshes.units import checked_options
+from footfit.meshes.units import check_unit_options
 from footfit.pipeline.batch.sources import ReadingOptions, Source
 from footfit.pipeline.scan.align import aligned_scan
 from footfit.pipeline.scan.cleaning import scan_of
@@ -54,7 +54,7 @@ def read(source: Source, reading: ReadingOptions = AS_FOUND) -> Scan:
     BadOption
         The options contradict each other, or the source's format.
     """
-    checked_options(reading.units, reading.known_length_mm)
+    check_unit_options(reading.units, reading.known_length_mm)
     if source.scan is not None:
         return source.scan
     file = file_mesh(source_bytes(source), source.path, source.format)

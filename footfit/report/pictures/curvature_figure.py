@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from footfit.geometry.numeric.arrays import Floats, Ints
-from footfit.geometry.numeric.rotations import applied
+from footfit.geometry.numeric.rotations import moved_points
 from footfit.report.pictures.figures import DIVERGING, headline, house_style, scale_bar, show_image
 from footfit.report.pictures.shading import VIEWS, frame_around, shaded_image
 from footfit.report.wording.text import file_name, plain
@@ -80,7 +80,7 @@ def _drawn_points(curvature: SurfaceCurvature, canonical_transform: Floats | Non
     """The vertices in the canonical frame, or along their own principal directions."""
     points = curvature.vertices_mm
     if canonical_transform is not None:
-        return applied(canonical_transform, points / curvature.info.unit_scale)
+        return moved_points(canonical_transform, points / curvature.info.unit_scale)
     centred = points - points.mean(axis=0)
     columns = np.linalg.eigh(centred.T @ centred)[1][:, ::-1]
     columns[:, 2] *= np.sign(np.linalg.det(columns))

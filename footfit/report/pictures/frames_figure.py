@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from footfit.geometry.numeric.arrays import Floats, Ints
-from footfit.geometry.numeric.rotations import applied
+from footfit.geometry.numeric.rotations import moved_points
 from footfit.report.pictures.figures import (
     INK,
     SERIES,
@@ -46,13 +46,13 @@ def frames_figure(mesh: AlignedScan) -> Figure:
 
     alignment = mesh.alignment
     back = np.linalg.inv(alignment.canonical_transform).astype(np.float64)
-    file_mm = alignment.info.unit_scale * applied(back, mesh.vertices_mm)
-    aligned_mm = applied(alignment.transform @ back, mesh.vertices_mm)
+    file_mm = alignment.info.unit_scale * moved_points(back, mesh.vertices_mm)
+    aligned_mm = moved_points(alignment.transform @ back, mesh.vertices_mm)
     frame = alignment.eigenframe
     turn = alignment.transform[:3, :3] / alignment.info.unit_scale
     arrows = frame.eigenvectors * REACH * np.sqrt(frame.eigenvalues_mm2)[:, None]
     scaled = frame.centroid_mm / alignment.info.unit_scale
-    centre = applied(alignment.transform, scaled[None])[0]
+    centre = moved_points(alignment.transform, scaled[None])[0]
     before = file_mm, frame.centroid_mm, arrows
     after = aligned_mm, centre, arrows @ turn.T
     oblique = axonometric_view(*EYE_DEG)
