@@ -42,6 +42,14 @@ def slab(mesh):
     return flat, faces
 
 
+def sheet(mesh):
+    """All that faces down, open above: what a scanner under a glass plate sees."""
+    vertices, faces = mesh
+    corners = vertices[faces]
+    normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+    return vertices, faces[(normals[:, 2] < 0.0) & (corners[:, :, 2].min(axis=1) < 25.0)]
+
+
 def box(*sides: float):
     vertices, faces = shapes.cube(1.0, 8)
     return vertices * sides, faces
@@ -108,7 +116,12 @@ def test_two_in_one_file_are_said_to_be_two(footfit, tmp_path, bodies, body):
     assert refusal(footfit, tmp_path, pair) == "several_feet"
 
 
-def test_the_plantar_sheet_is_refused(footfit, scans):
+@pytest.mark.parametrize("body", ["foot", "last"])
+def test_a_plantar_sheet_is_refused(footfit, tmp_path, bodies, body):
+    assert refusal(footfit, tmp_path, sheet(bodies[body])) in ("half_scan", "not_a_foot")
+
+
+def test_a_scanned_plantar_sheet_is_refused(footfit, scans):
     run = footfit("align", scans / "insoleTilter_scan.stl", "--json")
     assert run.code == 5
     assert json.loads(run.last_error)["code"] in ("half_scan", "not_a_foot")

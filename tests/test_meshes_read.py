@@ -27,6 +27,7 @@ from footfit.meshes.read import file_mesh
 from footfit.meshes.read_limits import LIMITS, Limits
 from footfit.meshes.write import encoded_mesh
 from tests import corpus
+from tests.conftest import SAMPLES
 from tests.reading import read_scan, scan_from_bytes
 from tests.solids import surface_area
 
@@ -272,8 +273,17 @@ def test_noise_is_refused(data, format_):
         scan_from_bytes(data, format=format_, units="mm")
 
 
+def test_the_sample_scans_are_read():
+    assert_all_are_read(SAMPLES)
+
+
 def test_scans_beside_the_project_are_read(scans):
-    paths = sorted(scans.rglob("*.stl"))
+    assert_all_are_read(scans)
+
+
+def assert_all_are_read(folder):
+    """Every scan of a folder is closed and of a foot's size; one is an open sheet."""
+    paths = sorted(folder.rglob("*.stl"))
     assert paths
     for path in paths:
         scan = read_scan(path)

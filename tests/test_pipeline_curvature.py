@@ -12,6 +12,7 @@ from footfit.geometry.mesh.welding import welded_vertices
 from footfit.pipeline.scan.curvature import surface_curvature
 from footfit.results import MeshInfo, Scan
 from tests import shapes
+from tests.conftest import SAMPLES
 from tests.distortions import random_rotation, soup, white_noise
 from tests.reading import read_scan
 
@@ -75,8 +76,19 @@ def test_a_radius_that_is_no_length_is_refused(radius):
         surface_curvature(_scan(*shapes.sphere(50.0, 1)), radius)
 
 
+def test_every_sample_gets_finite_values_of_a_foots_order():
+    lasts = sorted((SAMPLES / "lasts").glob("*-40.stl"))
+    assert_values_are_of_a_foots_order([*sorted((SAMPLES / "feet").glob("*.stl")), *lasts])
+
+
 def test_every_real_scan_gets_finite_values_of_a_foots_order(scans):
-    for path in sorted(scans.glob("*.stl")):
+    assert_values_are_of_a_foots_order(sorted(scans.glob("*.stl")))
+
+
+def assert_values_are_of_a_foots_order(paths):
+    """Finite, in order, and no sharper than the scale that they are read at."""
+    assert paths
+    for path in paths:
         scan = read_scan(path)
         found = surface_curvature(replace(scan, warnings=()))
         assert not found.warnings, path.name
