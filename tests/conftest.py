@@ -102,5 +102,5 @@ def foot() -> Path:
 def scans() -> Path:
     """The folder of real scans beside the project."""
     if not SCANS.is_dir():
-        pytest.skip("../shared/scans is not here")
+        pytest.skip("../shared/scans is not here; the sample feet are tested alone")
     return SCANS
