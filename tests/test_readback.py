@@ -5,6 +5,8 @@ The planted answers have no two numbers alike, so that a value in another's plac
 
 from __future__ import annotations
 
+import importlib
+import pkgutil
 import sqlite3
 from contextlib import closing
 from dataclasses import replace
@@ -71,16 +73,15 @@ class _Drawn:
 
 @pytest.fixture(autouse=True)
 def undrawn(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Pages with empty pictures."""
-    from footfit.report.pictures import figures, heat_figure, match_figure, section_figure
+    """Pages with empty pictures: no function named as its module draws."""
+    from footfit.report import pictures
 
-    monkeypatch.setattr(figures, "svg_text", lambda _figure: "<svg/>")
-    for module, name in (
-        (heat_figure, "heat_figure"),
-        (match_figure, "match_figure"),
-        (section_figure, "section_figure"),
-    ):
-        monkeypatch.setattr(module, name, lambda *_, **__: _Drawn())
+    for found in pkgutil.iter_modules(pictures.__path__):
+        module = importlib.import_module(f"{pictures.__name__}.{found.name}")
+        if hasattr(module, found.name):
+            monkeypatch.setattr(module, found.name, lambda *_, **__: _Drawn())
+        if hasattr(module, "svg_text"):
+            monkeypatch.setattr(module, "svg_text", lambda _figure: "<svg/>")
 
 
 # ------------------------------------------------------------------ planted answers
