@@ -27,8 +27,8 @@ def test_the_ends_are_the_ends() -> None:
     shape = last(length_mm=270.0)
     assert shape.length_mm == pytest.approx(270.0, abs=0.5)
     assert shape.pternion[0] == pytest.approx(0.0, abs=0.3)
-    assert shape.toe_tip[0] == pytest.approx(270.0, abs=0.5)
-    assert shape.x_mm(1.0) == pytest.approx(shape.toe_tip[0])
+    assert shape.x_mm(1.0) == pytest.approx(270.0, abs=0.5)
+    assert shape.x_mm(1.0) == pytest.approx(shape.ends[1].reach)
 
 
 def test_a_joint_farther_forward_is_found_farther_forward() -> None:

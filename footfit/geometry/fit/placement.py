@@ -80,14 +80,15 @@ def placement(foot: Shape, last: Shape, settings: PlacementSettings = PLACEMENT)
     NoSole
         One of the two has no bottom where it would rest.
     """
-    length = foot.length_mm
-    hinge_x = foot.x_mm(settings.tread[1])
-    hinge = _rest(foot, (hinge_x - 0.01 * length, hinge_x), length, settings)
+    length_mm, front = foot.length_mm, settings.tread[1]
+    hinge = _rest(foot, (front - 0.01, front), foot.x_mm(0.0), length_mm, settings)
     if hinge is None:
         raise NoSole("the foot's sole is open at the tread, so it cannot be placed in a last")
-    place = Placement(np.array([hinge_x, hinge.z]), settings.hinge * length)
+    start = np.array([foot.x_mm(front), hinge.z])
+    place = Placement(start, settings.hinge * length_mm)
+    around = Shape(last.vertices_mm, last.low, last.kind)
     for _ in range(settings.rounds):
-        place = _closer(foot, last, place, settings)
+        place = _shifted(foot, around, _turned(foot, around, place, settings), settings)
     return place
 
 
@@ -107,49 +108,48 @@ def placed(vertices_mm: Floats, place: Placement) -> Floats:
     return moved
 
 
-def _closer(foot: Shape, last: Shape, place: Placement, settings: PlacementSettings) -> Placement:
-    """One round: the moved foot's seat, tread and toes are brought to the last's."""
+def _moved(foot: Shape, place: Placement) -> tuple[Shape, float]:
+    """A foot without its leg where a placement puts it, and where its heel's back then is."""
     moved = Shape(placed(foot.vertices_mm, place), foot.low, foot.kind)
-    length = foot.length_mm
-    back = _heel_back(moved, length)
-    theirs = Shape(last.vertices_mm, last.low, last.kind)
-    here, there = (_rests(shape, back, length, settings) for shape in (moved, theirs))
-    if here[0] is None or here[1] is None or there[0] is None or there[1] is None:
+    return moved, _heel_back(moved, foot.length_mm)
+
+
+def _turned(foot: Shape, last: Shape, place: Placement, settings: PlacementSettings) -> Placement:
+    """The placement with bend, pitch and yaw that bring seat, tread and toes to the last's."""
+    length_mm = foot.length_mm
+    moved, back = _moved(foot, place)
+    windows = (settings.seat, settings.tread, settings.toes)
+    seat, tread, toes = (_rest(moved, w, back, length_mm, settings) for w in windows)
+    to_seat, to_tread, to_toes = (_rest(last, w, back, length_mm, settings) for w in windows)
+    if seat is None or tread is None or to_seat is None or to_tread is None:
         raise NoSole("foot and last share no bottom to rest on: the last is far too short, or open")
-    seat, tread, to_seat, to_tread = here[0], here[1], there[0], there[1]
     reach = tread.x - seat.x
     pitch = np.arctan2((to_tread.z - to_seat.z) - (tread.z - seat.z), reach)
     turn = np.arctan2((to_tread.y - to_seat.y) - (tread.y - seat.y), reach)
     bend_deg = place.bend_deg
-    if here[2] is not None and there[2] is not None:
-        ahead = here[2].x - tread.x
-        rise = (there[2].z - to_tread.z) - (here[2].z - tread.z) - np.tan(pitch) * ahead
-        hinge = back + settings.tread[1] * length
-        bend_deg += float(np.degrees(np.arctan2(rise, here[2].x - hinge)))
+    if toes is not None and to_toes is not None:
+        rise = (to_toes.z - to_tread.z) - (toes.z - tread.z) - np.tan(pitch) * (toes.x - tread.x)
+        hinge = back + settings.tread[1] * length_mm
+        bend_deg += float(np.degrees(np.arctan2(rise, toes.x - hinge)))
     yaw_deg = place.yaw_deg + float(np.degrees(turn))
-    turned = replace(
+    return replace(
         place,
         bend_deg=float(np.clip(bend_deg, -settings.most_bend_deg, settings.most_bend_deg)),
         pitch_deg=place.pitch_deg + float(np.degrees(pitch)),
         yaw_deg=yaw_deg,
         swing_mm=float(np.tan(np.radians(yaw_deg))) * (tread.x - back),
     )
-    return _shifted(foot, theirs, turned, settings)
 
 
 def _shifted(foot: Shape, last: Shape, place: Placement, settings: PlacementSettings) -> Placement:
     """The same turns with the shift that puts heel on heel and seat on seat."""
-    length = foot.length_mm
-    moved = Shape(placed(foot.vertices_mm, place), foot.low, foot.kind)
-    back = _heel_back(moved, length)
-    forward = _heel_back(last, length) - back
-    start, end = settings.seat
-    here = _rest(moved, (back + start * length, back + end * length), length, settings)
-    back += forward
-    there = _rest(last, (back + start * length, back + end * length), length, settings)
-    if here is None or there is None:
+    moved, back = _moved(foot, place)
+    to_back = _heel_back(last, foot.length_mm)
+    seat = _rest(moved, settings.seat, back, foot.length_mm, settings)
+    to_seat = _rest(last, settings.seat, to_back, foot.length_mm, settings)
+    if seat is None or to_seat is None:
         raise NoSole("foot and last share no seat to rest on: the heel of one of them is open")
-    step = (forward, there.y - here.y, there.z - here.z)
+    step = (to_back - back, to_seat.y - seat.y, to_seat.z - seat.z)
     x, y, z = (float(old + more) for old, more in zip(place.shift_mm, step, strict=True))
     return replace(place, shift_mm=(x, y, z))
 
@@ -163,21 +163,17 @@ def _heel_back(shape: Shape, length_mm: float) -> float:
     return area_quantile(middles[low, 0], areas, FRAME.docking_share)
 
 
-def _rests(
-    shape: Shape, back_mm: float, length_mm: float, settings: PlacementSettings
-) -> list[_Rest | None]:
-    """Seat, tread and toes of a shape, at places counted from ``back_mm``."""
-    return [
-        _rest(shape, (back_mm + start * length_mm, back_mm + end * length_mm), length_mm, settings)
-        for start, end in (settings.seat, settings.tread, settings.toes)
-    ]
-
-
 def _rest(
-    shape: Shape, window_mm: tuple[float, float], length_mm: float, settings: PlacementSettings
+    shape: Shape,
+    window: tuple[float, float],
+    start_mm: float,
+    length_mm: float,
+    settings: PlacementSettings,
 ) -> _Rest | None:
-    """Where a sole lies between two places along X; None where there is none."""
-    x = np.linspace(*window_mm, settings.sections)
+    """Where a sole lies in a window, in shares of a length from ``start_mm`` along X; None if there
+    is no sole.
+    """
+    x = start_mm + np.linspace(*window, settings.sections) * length_mm
     segments = sections_across(shape.vertices_mm, shape.faces, x)
     sole = soles(segments, settings.band * length_mm, settings.places)
     middle, height = 0.5 * (sole.lateral + sole.medial), sole.depth.mean(axis=0)

@@ -81,12 +81,6 @@ class Shape:
         rear = self.ends[0]
         return np.array([-rear.reach, *rear.place[1:]])
 
-    @property
-    def toe_tip(self) -> Floats:
-        """The foremost point of the toes, (3,)."""
-        front = self.ends[1]
-        return np.array([front.reach, *front.place[1:]])
-
     @cached_property
     def heel_base(self) -> Floats:
         """Where the heel's back turns into its bottom: the point farthest back and down, (3,)."""

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from footfit.catalogue.store import open_catalogue
+from footfit.errors import CatalogueDamaged, NoSole, UnknownLast
 from footfit.geometry.fit.clearance import ZoneClearance, foot_clearance, zone_clearances
 from footfit.geometry.fit.paired_sections import SIZES, SectionPair, section_pairs
 from footfit.geometry.fit.placement import Placement, placed, placement
@@ -132,11 +133,10 @@ def compared(foot: Profiled, last: LastShape) -> Comparison:
 
 
 def best_comparison(path: Path, match: Match, foot: int = 0) -> Comparison | None:
-    """One foot of a match in its best last, or in the nearest where none fits; None where the
-    catalogue has no sound copy of that last, or the two have no bottom in common.
-    """
-    from footfit.errors import CatalogueDamaged, NoSole, UnknownLast
+    """One foot of a match in its best last, or in the nearest if none fits.
 
+    None if the catalogue has no sound copy of that last, or the two share no bottom to rest on.
+    """
     lasts = match.candidates or match.nearest
     if not lasts:
         return None
