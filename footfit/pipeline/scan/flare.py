@@ -13,7 +13,7 @@ from footfit.geometry.flare.flare_profile import flare_profile
 from footfit.geometry.measures import measure_table
 from footfit.geometry.measures.landmarks import Shape
 from footfit.geometry.numeric.arrays import Floats, Ints
-from footfit.results import AlignedScan, Measure, Measured, Notice, Profiled
+from footfit.results import AlignedScan, Alignment, Measure, Measured, Notice, Profiled
 
 FOOT_SD_DEG = 0.2
 """The least that is said of a foot: a smooth scan does not show what noise does to its toes."""
@@ -44,11 +44,7 @@ def profiled(aligned: AlignedScan, definition: FlareDefinition | None = None) ->
         The scan does not show enough of the bottom's length.
     """
     alignment = aligned.alignment
-    if alignment.side.side is None:
-        raise SideUndecided(
-            "the shape does not tell left from right: say --side left or --side right",
-            alignment.info.path,
-        )
+    check_side(alignment)
     vertices_mm, faces = aligned.prepared.vertices_mm, aligned.prepared.faces
     flare = flare_profile(vertices_mm, faces, definition, alignment.pose.kind)
     kind = alignment.pose.kind
@@ -56,6 +52,19 @@ def profiled(aligned: AlignedScan, definition: FlareDefinition | None = None) ->
     flare = replace(flare, angle_sd_deg=sd_deg)
     found = believed(measured(vertices_mm, faces, kind), alignment.warnings)
     return Profiled(aligned, flare, found, flare_suspects(flare.angle_deg, kind))
+
+
+def check_side(alignment: Alignment) -> None:
+    """Refuse a shape whose side is undecided: its medial side would be the wrong one.
+
+    Raises
+    ------
+    SideUndecided
+        Neither the user nor the shape says which side it is.
+    """
+    if alignment.side.side is None:
+        words = "the shape does not show which side it is: give --side left or --side right"
+        raise SideUndecided(words, alignment.info.path)
 
 
 def angle_sd_deg(scatter_sd_deg: float, kind: str, *, sole: bool) -> float:

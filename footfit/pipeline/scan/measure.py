@@ -4,10 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 
-from footfit.errors import SideUndecided
 from footfit.geometry.measures.measure_table import MEASURES, unusual
 from footfit.pipeline.batch.sources import ReadingOptions, Source
-from footfit.pipeline.scan.flare import believed, measured
+from footfit.pipeline.scan.flare import believed, check_side, measured
 from footfit.pipeline.scan.reading import aligned_source
 from footfit.results import AlignedScan, Measure, MeasuredScan, Notice
 
@@ -18,14 +17,10 @@ def measured_scan(aligned: AlignedScan) -> MeasuredScan:
     Raises
     ------
     SideUndecided
-        Neither the user nor the shape says which side it is: the joints would be the wrong ones.
+        Neither the user nor the shape says which side it is.
     """
     alignment = aligned.alignment
-    if alignment.side.side is None:
-        raise SideUndecided(
-            "the shape does not tell left from right: say --side left or --side right",
-            alignment.info.path,
-        )
+    check_side(alignment)
     measures = measured(aligned.prepared.vertices_mm, aligned.prepared.faces, alignment.pose.kind)
     measures = believed(measures, alignment.warnings)
     return MeasuredScan(alignment, measures, suspects(measures, alignment.pose.kind))

@@ -215,7 +215,7 @@ def _end_notices(closed: Filled, frame: _Framed) -> list[Notice]:
     end = doubtful_end(frame.surface, [frame.points[rim] for rim in closed.rims], frame.extent)
     if end is None:
         return []
-    return [Notice("open_end", f"the surface is open at the {end}: its length may be short")]
+    return [Notice("open_end", f"the surface is open at the {end}, so its length is not known")]
 
 
 def _length(length_mm: float, open_ends: Sequence[Notice]) -> Measured:
