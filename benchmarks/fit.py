@@ -236,7 +236,7 @@ def main() -> None:
         rows = list(grid_rows(options.feet, options.seed))
         parts += [
             f"{options.feet} feet from {FOOT_MM[0]:.0f} to {FOOT_MM[1]:.0f} mm, each made for one "
-            f"of three widths, against a grid of {lasts} lasts ({LENGTHS} lengths, {len(WIDTHS)} "
+            f"of three widths,\nagainst a grid of {lasts} lasts ({LENGTHS} lengths, {len(WIDTHS)} "
             f"widths, {len(FLARES_DEG)} flares); random pose, noise {NOISE_MM} mm:\n",
             markdown(["by fit", "feet", "share"], rows),
         ]
