@@ -45,7 +45,7 @@ import re
 from enum import IntEnum
 from typing import ClassVar
 
-from footfit import __version__
+from footfit.version import __version__
 
 
 class ExitCode(IntEnum):

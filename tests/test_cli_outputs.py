@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from footfit.cli.outputs import refuse_existing, write_output
+from footfit.cli.outputs import Outputs, refuse_existing, write_output
 from footfit.errors import BadOption, OutputExists
 
 
@@ -48,7 +48,10 @@ def test_what_cannot_be_written_is_refused_before_any_work(tmp_path: Path) -> No
         refuse_existing(tmp_path / "none" / "x.csv", force=True)
     with pytest.raises(BadOption, match="is a folder"):
         refuse_existing(tmp_path, force=True)
-    refuse_existing(None, Path("-"), force=False)
+    refuse_existing(None, force=False)
+    Outputs(csv=Path("-")).refuse(as_json=False)
+    with pytest.raises(BadOption, match="both write to stdout"):
+        Outputs(csv=Path("-")).refuse(as_json=True)
 
 
 def test_a_failed_write_leaves_the_old_file_and_no_remains(

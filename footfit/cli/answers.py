@@ -5,35 +5,74 @@ from __future__ import annotations
 import sys
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from contextlib import contextmanager
-from dataclasses import dataclass
-from pathlib import Path
+from dataclasses import replace
 from typing import TYPE_CHECKING, Any, TypeVar
 
+import typer
+
 from footfit.cli.console import answer, error_line, say, say_notices, show
+from footfit.cli.options import STDOUT
 from footfit.cli.signals import LISTENER
 from footfit.errors import BadOption, FootfitError
 
 if TYPE_CHECKING:
+    from footfit.cli.option_groups import Batch, OutputMode, Scale
+    from footfit.cli.outputs import Outputs
     from footfit.pipeline.batch.runs import Outcome
-    from footfit.pipeline.batch.sources import ReadingOptions, Source
+    from footfit.pipeline.batch.sources import Source
 
 T = TypeVar("T")
 
 
-@dataclass(frozen=True, slots=True)
-class Voice:
-    """How to speak: JSON lines or tables; with or without messages; how many are awaited.
+def answer_scans(
+    verb: Callable[..., Any],
+    meshes: Sequence[str],
+    reading: Scale,
+    batch: Batch,
+    mode: OutputMode,
+    outputs: Outputs,
+    **options: Any,
+) -> None:
+    """Do a verb of `footfit.api` with each mesh, answer each as it comes, and exit.
 
-    ``answers`` False: stdout is taken by something else (``--csv -``).
+    Raises
+    ------
+    Exit
+        With the failures' common code.
+    BadOption, OutputExists, UnreadableFile
+        Before any work: an output cannot be written, or there is no mesh.
     """
+    from footfit import api
 
-    as_json: bool
-    quiet: bool
-    total: int = 1
-    answers: bool = True
+    outputs.refuse(as_json=mode.json)
+    sources = sources_of(meshes, reading, split=batch.split)
+    outputs.require_one(sources)
+    outcomes = api.outcomes(verb, sources, jobs=batch.jobs, **reading.keywords(), **options)
+    raise typer.Exit(answer_outcomes(outcomes, replace(mode, total=len(sources)), outputs))
 
 
-def sources_of(arguments: Sequence[str], format: str | None) -> list[Source]:
+def answer_outcomes(
+    outcomes: Iterable[Outcome[Any, T]],
+    mode: OutputMode,
+    outputs: Outputs,
+    then: Callable[[T], object] | None = None,
+) -> int:
+    """Tell each outcome as it comes, write the files, do ``then``; return the exit code."""
+    kept: list[T] = []
+
+    def written(result: T) -> None:
+        outputs.write(result)
+        if outputs.csv is not None:
+            kept.append(result)
+        if then is not None:
+            then(result)
+
+    code = tell_outcomes(outcomes, replace(mode, answers=outputs.csv != STDOUT), written)
+    outputs.write_csv(kept)
+    return code
+
+
+def sources_of(meshes: Sequence[str], reading: Scale, *, split: bool = False) -> list[Source]:
     """The meshes that a command was given, standard input among them.
 
     Raises
@@ -43,82 +82,56 @@ def sources_of(arguments: Sequence[str], format: str | None) -> list[Source]:
     UnreadableFile
         A folder or glob without a mesh.
     """
-    from footfit.pipeline.batch.sources import mesh_sources, stdin_source
+    from footfit import api
+    from footfit.pipeline.batch.sources import stdin_source
 
-    if "-" not in arguments:
-        return mesh_sources(arguments)
-    if list(arguments) != ["-"]:
+    if "-" not in meshes:
+        return api.sources(list(meshes), split=split, **reading.keywords())
+    if list(meshes) != ["-"]:
         raise BadOption("- reads one mesh from standard input; give it alone")
-    if format is None:
+    if reading.format is None:
         raise BadOption("a mesh on standard input needs --format, for example --format stl")
-    return [stdin_source(sys.stdin.buffer, format)]
+    source = stdin_source(sys.stdin.buffer, reading.format.value)
+    return api.sources([source], split=split, **reading.keywords())
 
 
-def split_where_asked(
-    sources: list[Source], reading: ReadingOptions, *, split: bool
-) -> list[Source]:
-    """The sources, those of several feet taken apart where that was asked for."""
-    if not split:
-        return sources
-    from footfit.pipeline.scan.split import split_sources
-
-    return split_sources(sources, reading)
-
-
-def only_one(sources: Sequence[Source], *outputs: Path | None, unless: str = "") -> None:
-    """Refuse an output file for several meshes; ``unless`` names another way out.
-
-    Raises
-    ------
-    BadOption
-        Several meshes would be written over one another.
-    """
-    named = [str(path) for path in outputs if path is not None]
-    if named and len(sources) != 1:
-        words = f"is one file and there are {len(sources)} meshes; give one mesh"
-        raise BadOption(f"{words}, or {unless}" if unless else words, named[0])
-
-
-def told(
-    outcomes: Iterable[Outcome[Any, T]],
-    voice: Voice,
-    then: Callable[[T], object] | None = None,
+def tell_outcomes(
+    outcomes: Iterable[Outcome[Any, T]], mode: OutputMode, then: Callable[[T], object]
 ) -> int:
-    """Say each outcome as it comes, and do ``then`` with its value; return the exit code.
+    """Tell each outcome as it comes, and do ``then`` with its value; return the exit code.
 
     One bad mesh stops nothing: its line says so, and the code at the end is the failures'.
     """
     from footfit.pipeline.batch.runs import common_code
 
     errors: list[FootfitError] = []
-    with failures_last(voice) as tell_failure:
-        for outcome in counted(outcomes, voice):
+    with failures_last(mode) as tell_failure:
+        for outcome in counted(outcomes, mode):
             if outcome.value is None:
                 assert outcome.error is not None
                 errors.append(outcome.error)
-                line = error_line(outcome.error, as_json=voice.as_json)
-                if voice.as_json and voice.answers:
+                line = error_line(outcome.error, as_json=mode.json)
+                if mode.json and mode.answers:
                     answer(line)
                 tell_failure(line)
                 continue
-            tell(outcome.value, voice)
-            if then is not None:
-                then(outcome.value)
-    if errors and voice.total > 1:
-        say(f"{len(errors)} of {voice.total} meshes failed", quiet=voice.quiet or voice.as_json)
+            tell(outcome.value, mode)
+            then(outcome.value)
+    if errors and mode.total > 1:
+        say(f"{len(errors)} of {mode.total} meshes failed", quiet=mode.quiet or mode.json)
     return common_code(int(error.exit) for error in errors)
 
 
-def tell(value: Any, voice: Voice) -> None:
+def tell(value: Any, mode: OutputMode) -> None:
     """One result: its notices on stderr, itself on stdout."""
     from footfit.cli.answer_forms import FORMS
 
     form = FORMS[type(value)]
     path, notices = form.notices(value)
-    say_notices(notices, path, quiet=voice.quiet)
-    if not voice.answers:
+    say_notices(notices, path, quiet=mode.quiet)
+    if not mode.answers:
         return
-    if voice.as_json:
+    if mode.json:
         from footfit.report.json import json_line
 
         answer(json_line(value.to_dict()))
@@ -127,25 +140,25 @@ def tell(value: Any, voice: Voice) -> None:
 
 
 @contextmanager
-def failures_last(voice: Voice) -> Iterator[Callable[[str], None]]:
+def failures_last(mode: OutputMode) -> Iterator[Callable[[str], None]]:
     """Say failures as they come; with --json after everything else, so that stderr's last line is
     one, whatever warnings the later meshes have.
     """
     lines: list[str] = []
     try:
-        yield lines.append if voice.as_json else say
+        yield lines.append if mode.json else say
     finally:
         for line in lines:
             say(line)
 
 
-def counted(items: Iterable[T], voice: Voice) -> Iterator[T]:
+def counted(items: Iterable[T], mode: OutputMode) -> Iterator[T]:
     """``items``, counted for who interrupts them, and behind a progress bar where a person
     watches several meshes go by.
     """
-    LISTENER.total = voice.total
-    shown = voice.total > 1 and not (voice.quiet or voice.as_json) and sys.stderr.isatty()
-    for item in _behind_a_bar(items, voice.total) if shown else items:
+    LISTENER.total = mode.total
+    shown = mode.total > 1 and not (mode.quiet or mode.json) and sys.stderr.isatty()
+    for item in _behind_a_bar(items, mode.total) if shown else items:
         yield item
         LISTENER.done += 1
 

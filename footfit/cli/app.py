@@ -7,7 +7,6 @@ from typing import Annotated
 
 import typer
 
-from footfit import __version__
 from footfit.cli.boundary import guarded
 from footfit.cli.command_group import LazyGroup
 from footfit.cli.commands.align import align
@@ -30,6 +29,7 @@ from footfit.cli.commands.set_reference import set_reference
 from footfit.cli.commands.show_last import show_last
 from footfit.cli.commands.upgrade_catalogue import upgrade_catalogue
 from footfit.cli.settings import one_blas_thread
+from footfit.version import __version__
 
 PAPER, FIT = "The paper's commands", "Fit"
 LIBRARY, START = "The library of lasts", "Start here"

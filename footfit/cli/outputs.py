@@ -4,7 +4,10 @@ from __future__ import annotations
 
 import os
 import tempfile
+from collections.abc import Callable, Iterable, Sized
+from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
 from footfit.cli.console import answer
 from footfit.cli.options import STDOUT
@@ -12,27 +15,95 @@ from footfit.errors import BadOption, OutputExists
 from footfit.pipeline.export import file_kind
 
 
-def refuse_existing(*paths: Path | None, force: bool, kinds: tuple[str, ...] | None = None) -> None:
+@dataclass(frozen=True, slots=True)
+class OutputFile:
+    """A file to write of one result, if there is a ``path``.
+
+    ``content`` makes it of the result and the path's suffix, which is one of ``kinds``.
+    """
+
+    path: Path | None
+    kinds: tuple[str, ...]
+    content: Callable[[Any, str], bytes | str]
+
+
+@dataclass(frozen=True, slots=True)
+class Outputs:
+    """All files that a command writes: some of a single result, and a CSV of every ``table``."""
+
+    files: tuple[OutputFile, ...] = ()
+    table: type[Any] | None = None
+    csv: Path | None = None
+    force: bool = False
+
+    def refuse(self, *, as_json: bool) -> None:
+        """Stop before any work where a file could not be written at its end.
+
+        Raises
+        ------
+        OutputExists, BadOption
+            As `refuse_existing`; also ``--csv -`` together with ``--json``.
+        """
+        for file in self.files:
+            refuse_existing(file.path, force=self.force, kinds=file.kinds)
+        if self.csv == STDOUT and as_json:
+            raise BadOption("--csv - and --json both write to stdout; give --csv a file")
+        if self.csv != STDOUT:
+            refuse_existing(self.csv, force=self.force)
+
+    def require_one(self, meshes: Sized, unless: str = "") -> None:
+        """Refuse a file of one result for several meshes; ``unless`` names another way out.
+
+        Raises
+        ------
+        BadOption
+            Several meshes would be written over one another.
+        """
+        named = [str(file.path) for file in self.files if file.path is not None]
+        if named and len(meshes) != 1:
+            words = f"is one file and there are {len(meshes)} meshes; give one mesh"
+            raise BadOption(f"{words}, or {unless}" if unless else words, named[0])
+
+    def write(self, result: Any) -> None:
+        """Write the files of a result."""
+        for file in self.files:
+            if file.path is not None:
+                data = file.content(result, file_kind(file.path, file.kinds))
+                write_output(file.path, data, force=self.force)
+
+    def write_csv(self, results: Iterable[Any]) -> None:
+        """Write the tables, to a file or to stdout."""
+        from footfit.report.csv import csv_text
+
+        if self.csv is None or self.table is None:
+            return
+        text = csv_text(self.table, results)
+        if self.csv == STDOUT:
+            answer(text)
+        else:
+            write_output(self.csv, text, force=self.force)
+
+
+def refuse_existing(path: Path | None, *, force: bool, kinds: tuple[str, ...] = ()) -> None:
     """Stop before any work where an output could not be written at its end.
 
-    ``kinds`` are the suffixes that the outputs may have, None any.
+    ``kinds`` are the suffixes that the output may have; without any it may have any.
 
     Raises
     ------
     OutputExists
-        A file is there and ``force`` is not given.
+        The file is there and ``force`` is not given.
     BadOption
         The folder does not exist, the path is a folder or no path, the suffix is another.
     """
-    for path in paths:
-        if path is None or (path == STDOUT and kinds is None):
-            continue
-        try:
-            _refuse(path, force=force)
-        except OSError as error:  # a name too long, a folder closed to us
-            raise BadOption(f"cannot be written: {error.strerror}", str(path)) from error
-        if kinds is not None:
-            file_kind(path, kinds)
+    if path is None:
+        return
+    try:
+        _refuse(path, force=force)
+    except OSError as error:  # a name too long, a folder closed to us
+        raise BadOption(f"cannot be written: {error.strerror}", str(path)) from error
+    if kinds:
+        file_kind(path, kinds)
 
 
 def _refuse(path: Path, *, force: bool) -> None:
@@ -75,32 +146,6 @@ def write_output(path: Path, data: bytes | str, *, force: bool) -> None:
         raise BadOption(f"cannot be written: {error.strerror}", str(path)) from error
     finally:
         beside.unlink(missing_ok=True)
-
-
-def one_answer(csv: Path | None, *, as_json: bool) -> None:
-    """Refuse two answers on one stdout.
-
-    Raises
-    ------
-    BadOption
-        ``--csv -`` together with ``--json``.
-    """
-    if csv == STDOUT and as_json:
-        raise BadOption("--csv - and --json both write to stdout; give --csv a file")
-
-
-def write_or_answer(path: Path, text: str, *, force: bool) -> None:
-    """Write ``text`` to the file, or to stdout where the path is ``-``.
-
-    Raises
-    ------
-    OutputExists, BadOption
-        As `write_output`.
-    """
-    if path == STDOUT:
-        answer(text)
-    else:
-        write_output(path, text, force=force)
 
 
 def _umask() -> int:

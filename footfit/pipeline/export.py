@@ -6,7 +6,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from footfit.errors import BadOption
-from footfit.geometry.numeric.arrays import Floats, Ints
+from footfit.geometry.numeric.arrays import Floats
 from footfit.results import AlignedScan, MeshCopy, SurfaceCurvature
 
 if TYPE_CHECKING:
@@ -37,33 +37,37 @@ def file_kind(path: Path, kinds: tuple[str, ...]) -> str:
     return kind
 
 
-def mesh_bytes(vertices_mm: Floats, faces: Ints, path: Path) -> bytes:
-    """A mesh in the format of ``path``'s suffix, in mm.
+def require_kind(kind: str, kinds: tuple[str, ...]) -> None:
+    """Refuse a kind of file that a result cannot be written as.
 
     Raises
     ------
     BadOption
-        The suffix is not that of a mesh format.
+        It is none of ``kinds``.
     """
+    if kind not in kinds:
+        raise BadOption(f"a file cannot be of the kind {kind!r}; give {' or '.join(kinds)}")
+
+
+def aligned_bytes(scan: AlignedScan, kind: str) -> bytes:
+    """An aligned mesh where its own method puts it, as a file of that kind, mm."""
     from footfit.meshes.write import encoded_mesh
 
-    return encoded_mesh(vertices_mm, faces, file_kind(path, MESH_KINDS))
+    return encoded_mesh(method_vertices(scan), scan.faces, kind)
 
 
-def copy_bytes(copy: MeshCopy, path: Path) -> bytes:
-    """A catalogue's mesh copy in the format of ``path``'s suffix, in mm in the canonical frame.
+def copy_bytes(copy: MeshCopy, kind: str) -> bytes:
+    """A catalogue's mesh copy as a file of that kind, canonical mm.
 
     Raises
     ------
-    BadOption
-        The suffix is not that of a mesh format.
     CatalogueDamaged
         The copy cannot be expanded.
     """
     from footfit.meshes.copies.compact_copy import expanded_mesh
+    from footfit.meshes.write import encoded_mesh
 
-    file_kind(path, MESH_KINDS)
-    return mesh_bytes(*expanded_mesh(copy.data), path)
+    return encoded_mesh(*expanded_mesh(copy.data), kind)
 
 
 def method_vertices(scan: AlignedScan) -> Floats:
@@ -79,15 +83,9 @@ def method_vertices(scan: AlignedScan) -> Floats:
 
 
 def curvature_bytes(
-    curvature: SurfaceCurvature, path: Path, colours: NDArray[np.uint8] | None = None
+    curvature: SurfaceCurvature, kind: str, colours: NDArray[np.uint8] | None = None
 ) -> bytes:
-    """The curvature of each vertex as .npz, or as .ply with ``colours`` (n, 3) if some are given.
-
-    Raises
-    ------
-    BadOption
-        The suffix is another one.
-    """
+    """Per-vertex curvature as "ply", with the colours (n, 3) where some are given, or as "npz"."""
     from footfit.meshes.write import encoded_mesh
 
     values: dict[str, NDArray[np.generic]] = {
@@ -96,7 +94,7 @@ def curvature_bytes(
         "mean": curvature.mean,
         "gaussian": curvature.gaussian,
     }
-    if file_kind(path, CURVATURE_KINDS) == "ply":
+    if kind == "ply":
         if colours is not None:
             values["colour"] = colours
         return encoded_mesh(curvature.vertices_mm, curvature.faces, "ply", values)

@@ -10,7 +10,7 @@ import dataclasses
 import math
 from typing import TYPE_CHECKING, Any
 
-from footfit import __version__
+from footfit.version import __version__
 
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence

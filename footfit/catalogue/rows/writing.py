@@ -8,7 +8,6 @@ from __future__ import annotations
 import sqlite3
 from typing import TYPE_CHECKING
 
-from footfit import __version__
 from footfit.catalogue.rows.columns import (
     FLARE,
     FRAME,
@@ -22,6 +21,7 @@ from footfit.catalogue.rows.columns import (
 from footfit.catalogue.rows.digests import Row
 from footfit.catalogue.rows.verified_rows import row_digest, rows, stored_lasts
 from footfit.results import LastRecord, MeshCopy, Reference
+from footfit.version import __version__
 
 if TYPE_CHECKING:
     import sqlalchemy as sa

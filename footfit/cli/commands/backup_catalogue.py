@@ -8,25 +8,24 @@ from typing import Annotated
 import typer
 
 from footfit.cli import options
+from footfit.cli.option_groups import OutputMode, with_groups
 
 
+@with_groups
 def backup_catalogue(
     file: Annotated[
         Path, typer.Argument(metavar="FILE", show_default=False, help="The backup to write.")
     ],
     catalogue: options.Catalogue = None,
     force: options.Force = False,
-    json: options.Json = False,
-    quiet: options.Quiet = False,
-    verbose: options.Verbose = False,
+    *,
+    mode: OutputMode,
 ) -> None:
     """Copy the catalogue, also while others write to it; a damaged one is refused.
 
     Example: footfit backup-catalogue lasts-2026-05-01.footfit
     """
-    from footfit.cli.answers import Voice, tell
-    from footfit.cli.settings import catalogue_path
-    from footfit.pipeline.library.backup import back_up
+    from footfit.cli.answers import tell
+    from footfit.cli.settings import catalogue_at
 
-    outcome = back_up(catalogue_path(catalogue), file, replace=force)
-    tell(outcome, Voice(json, quiet))
+    tell(catalogue_at(catalogue).backup(file, replace=force), mode)

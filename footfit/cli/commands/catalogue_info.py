@@ -3,20 +3,20 @@
 from __future__ import annotations
 
 from footfit.cli import options
+from footfit.cli.option_groups import OutputMode, with_groups
 
 
+@with_groups
 def catalogue_info(
     catalogue: options.Catalogue = None,
-    json: options.Json = False,
-    quiet: options.Quiet = False,
-    verbose: options.Verbose = False,
+    *,
+    mode: OutputMode,
 ) -> None:
     """Say where the catalogue is, what it holds and what it keeps.
 
     Example: footfit catalogue-info
     """
-    from footfit.cli.answers import Voice, tell
-    from footfit.cli.settings import catalogue_path
-    from footfit.pipeline.library import lasts
+    from footfit.cli.answers import tell
+    from footfit.cli.settings import catalogue_at
 
-    tell(lasts.summary(catalogue_path(catalogue)), Voice(json, quiet))
+    tell(catalogue_at(catalogue).info(), mode)

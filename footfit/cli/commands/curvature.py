@@ -3,16 +3,18 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
 from footfit.cli import options
+from footfit.cli.option_groups import Batch, OutputMode, Scale, with_groups
 
 if TYPE_CHECKING:
     from footfit.results import SurfaceCurvature
 
 
+@with_groups
 def curvature(
     meshes: options.Meshes,
     output: Annotated[
@@ -37,59 +39,32 @@ def curvature(
             help="The scale in mm; 0 is the paper's one ring. Else 6 % of the longest extent.",
         ),
     ] = None,
-    units: options.Units = options.UnitName.auto,
-    known_length: options.Known = None,
-    format: options.Format = None,
     jobs: options.Jobs = 1,
     force: options.Force = False,
-    json: options.Json = False,
-    quiet: options.Quiet = False,
-    verbose: options.Verbose = False,
+    *,
+    scale: Scale,
+    mode: OutputMode,
 ) -> None:
     """Concentrated curvature of a surface at every vertex, in 1/mm.
 
     Example: footfit curvature foot.stl -o curvature.ply --plot curvature.png
     """
-    from functools import partial
-
-    from footfit.cli.answers import Voice, only_one, sources_of, told
-    from footfit.cli.outputs import refuse_existing
-    from footfit.pipeline.batch.runs import outcomes
-    from footfit.pipeline.batch.sources import ReadingOptions
+    from footfit import api
+    from footfit.cli.answers import answer_scans
+    from footfit.cli.outputs import OutputFile, Outputs
     from footfit.pipeline.export import CURVATURE_KINDS, PICTURE_KINDS
-    from footfit.pipeline.scan.reading import curvature_source
 
-    sources = sources_of(meshes, format)
-    only_one(sources, output, plot)
-    refuse_existing(output, force=force, kinds=CURVATURE_KINDS)
-    refuse_existing(plot, force=force, kinds=PICTURE_KINDS)
-    reading = ReadingOptions(units.value, known_length)
-    named = None if output is None else str(output)
-    work = partial(curvature_source, reading=reading, radius_mm=radius, output=named)
-    code = told(
-        outcomes(work, sources, jobs),
-        Voice(json, quiet, len(sources)),
-        then=lambda values: write_curvature(values, output, plot, force=force),
-    )
-    raise typer.Exit(code)
+    mesh, picture = (output, CURVATURE_KINDS, api.mesh_file), (plot, PICTURE_KINDS, api.picture)
+    outputs = Outputs((OutputFile(*mesh), OutputFile(*picture)), force=force)
+    chosen = {"radius_mm": radius, "output": None if output is None else str(output)}
+    batch = Batch(jobs=jobs)
+    answer_scans(curvature_with_output, meshes, scale, batch, mode, outputs, **chosen)
 
 
-def write_curvature(
-    values: SurfaceCurvature, output: Path | None, plot: Path | None, *, force: bool
-) -> None:
-    """Write the files that were asked for."""
-    from footfit.cli.outputs import write_output
-    from footfit.pipeline.drawables import canonical_view
-    from footfit.pipeline.export import PICTURE_KINDS, curvature_bytes, file_kind
-    from footfit.report.pictures.curvature_figure import curvature_colours, curvature_figure
-    from footfit.report.pictures.figures import picture_bytes
+def curvature_with_output(mesh: Any, output: str | None, **options: Any) -> SurfaceCurvature:
+    """The curvature of a mesh, its document naming the file of all values."""
+    from dataclasses import replace
 
-    if output is not None:
-        is_ply = output.suffix.lower() == ".ply"
-        colours = curvature_colours(values) if is_ply else None
-        write_output(output, curvature_bytes(values, output, colours), force=force)
-    if plot is not None:
-        data = picture_bytes(
-            curvature_figure(values, canonical_view(values)), file_kind(plot, PICTURE_KINDS)
-        )
-        write_output(plot, data, force=force)
+    from footfit import api
+
+    return replace(api.curvature(mesh, **options), output=output)

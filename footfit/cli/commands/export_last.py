@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
 from pathlib import Path
 from typing import Annotated
 
 from footfit.cli import options
+from footfit.cli.option_groups import OutputMode, with_groups
 
 
+@with_groups
 def export_last(
     last: options.LastName,
     output: Annotated[
@@ -21,29 +22,30 @@ def export_last(
     ],
     catalogue: options.Catalogue = None,
     force: options.Force = False,
-    json: options.Json = False,
-    quiet: options.Quiet = False,
-    verbose: options.Verbose = False,
+    *,
+    mode: OutputMode,
 ) -> None:
     """Write a last's mesh (canonical frame, mm) or its record to a file.
 
     Example: footfit export-last derby-42 -o derby-42.stl
     """
-    from footfit.cli.answers import Voice, tell
+    from footfit import api
+    from footfit.cli.answers import tell
     from footfit.cli.outputs import refuse_existing, write_output
-    from footfit.cli.settings import catalogue_path
-    from footfit.pipeline.export import MESH_KINDS, copy_bytes
-    from footfit.pipeline.library import lasts
+    from footfit.cli.settings import catalogue_at
+    from footfit.pipeline.export import MESH_KINDS, file_kind
     from footfit.report.json import json_line
     from footfit.results import ExportOutcome
 
-    refuse_existing(output, force=force, kinds=(*MESH_KINDS, "json"))
-    path, outcome = catalogue_path(catalogue), ExportOutcome(last, str(output))
-    if output.suffix.lower() == ".json":
-        data: bytes | str = json_line(lasts.last(path, last).to_dict()) + "\n"
+    kinds = (*MESH_KINDS, "json")
+    refuse_existing(output, force=force, kinds=kinds)
+    lasts, kind = catalogue_at(catalogue), file_kind(output, kinds)
+    if kind == "json":
+        outcome = ExportOutcome(last, str(output))
+        data: bytes | str = json_line(lasts.last(last).to_dict()) + "\n"
     else:
-        copy = lasts.mesh_copy(path, last)
-        outcome = replace(outcome, faces=copy.faces, error_mm=copy.error_mm)
-        data = copy_bytes(copy, output)
+        copy = lasts.mesh(last)
+        outcome = ExportOutcome(last, str(output), copy.faces, copy.error_mm)
+        data = api.mesh_file(copy, kind)
     write_output(output, data, force=force)
-    tell(outcome, Voice(json, quiet))
+    tell(outcome, mode)

@@ -10,6 +10,7 @@ from typing import Annotated, Any
 import typer
 
 from footfit.cli import options
+from footfit.cli.option_groups import OutputMode, Reading, with_groups
 
 LABELS = "What people say of the last"
 
@@ -20,6 +21,7 @@ def _label(flag: str, metavar: str, text: str) -> Any:
     )
 
 
+@with_groups
 def ingest_last(
     paths: Annotated[
         list[str] | None,
@@ -45,10 +47,6 @@ def ingest_last(
     heel_height: Annotated[
         float | None, _label("--heel-height", "MM", "The heel height, mm.")
     ] = None,
-    side: options.Side = options.SideChoice.auto,
-    units: options.Units = options.UnitName.auto,
-    known_length: options.Known = None,
-    format: options.Format = None,
     replace: Annotated[
         bool, options.switch("--replace", help="Store over a last of the same name.")
     ] = False,
@@ -58,9 +56,9 @@ def ingest_last(
     ] = False,
     jobs: options.Jobs = 1,
     catalogue: options.Catalogue = None,
-    json: options.Json = False,
-    quiet: options.Quiet = False,
-    verbose: options.Verbose = False,
+    *,
+    reading: Reading,
+    mode: OutputMode,
 ) -> None:
     """Read, align, profile and store lasts; each line is printed after its commit.
 
@@ -68,45 +66,42 @@ def ingest_last(
 
     Example: footfit ingest-last lasts/ --manifest lasts.csv --jobs 2
     """
-    from footfit.cli.answers import Voice, counted, failures_last, sources_of, tell
+    from dataclasses import replace as changed
+
+    from footfit.cli.answers import counted, failures_last, sources_of, tell
     from footfit.cli.console import error_line, say, say_notices
-    from footfit.cli.settings import catalogue_path
+    from footfit.cli.settings import catalogue_at
     from footfit.cli.signals import LISTENER
     from footfit.pipeline.batch.runs import common_code
     from footfit.pipeline.batch.sources import ReadingOptions
     from footfit.pipeline.library import manifest as manifests
-    from footfit.pipeline.library.ingest import entries, ingest, unused_rows
+    from footfit.pipeline.library.ingest import entries, unused_rows
     from footfit.results import LastLabels
 
     heel_height_mm = manifests.heel_height_mm(heel_height)
-    given = LastLabels(name or "", style, size, size_system, width_label, heel_height_mm)
-    reading = ReadingOptions(units.value, known_length, side.value)
+    labels = LastLabels(name or "", style, size, size_system, width_label, heel_height_mm)
     rows = manifests.read_manifest(manifest) if manifest else []
-    batch = entries(sources_of(paths or [], format), rows, given, reading)
-    voice = Voice(json, quiet, len(batch))
-    say_notices(unused_rows(batch, rows), str(manifest), quiet=quiet)
+    sources = sources_of(paths or [], reading) if paths else []
+    batch = entries(sources, rows, labels, ReadingOptions(**reading.keywords()))
+    mode = changed(mode, total=len(batch))
+    say_notices(unused_rows(batch, rows), str(manifest), quiet=mode.quiet)
     refused: list[int] = []
-    ingesting = ingest(
-        batch,
-        catalogue_path(catalogue),
-        jobs=jobs,
-        replace=replace,
-        dry_run=dry_run,
-        hold_signals=LISTENER.hold,
+    outcomes = catalogue_at(catalogue).ingest_each(
+        batch, replace=replace, dry_run=dry_run, jobs=jobs, hold_signals=LISTENER.hold
     )
-    with heard(), failures_last(voice) as tell_failure:
-        for outcome in counted(ingesting, voice):
-            tell(outcome, voice)
+    with reader_required(), failures_last(mode) as tell_failure:
+        for outcome in counted(outcomes, mode):
+            tell(outcome, mode)
             if outcome.failure is not None:
                 refused.append(int(outcome.failure.exit))
-                tell_failure(error_line(outcome.failure, as_json=json))
+                tell_failure(error_line(outcome.failure, as_json=mode.json))
     if dry_run:
-        say("a dry run: nothing was stored", quiet=quiet)
+        say("a dry run: nothing was stored", quiet=mode.quiet)
     raise typer.Exit(common_code(refused))
 
 
 @contextmanager
-def heard() -> Iterator[None]:
+def reader_required() -> Iterator[None]:
     """Say it where nobody reads the answers any more: the batch is not done, and 0 would say so.
 
     Raises

@@ -3,30 +3,30 @@
 from __future__ import annotations
 
 from footfit.cli import options
+from footfit.cli.option_groups import OutputMode, with_groups
 
 
+@with_groups
 def list_lasts(
     csv: options.Csv = None,
     catalogue: options.Catalogue = None,
     force: options.Force = False,
-    json: options.Json = False,
-    quiet: options.Quiet = False,
-    verbose: options.Verbose = False,
+    *,
+    mode: OutputMode,
 ) -> None:
     """List the lasts of the catalogue, by name.
 
     Example: footfit list-lasts
     """
-    from footfit.cli.answers import Voice, tell
-    from footfit.cli.outputs import one_answer, refuse_existing, write_or_answer
-    from footfit.cli.settings import catalogue_path
-    from footfit.pipeline.library import lasts
-    from footfit.report.csv import csv_text
+    from dataclasses import replace
+
+    from footfit.cli.answers import tell
+    from footfit.cli.outputs import Outputs
+    from footfit.cli.settings import catalogue_at
     from footfit.results import Library
 
-    refuse_existing(csv, force=force)
-    one_answer(csv, as_json=json)
-    found = lasts.list_lasts(catalogue_path(catalogue))
-    if csv is not None:
-        write_or_answer(csv, csv_text(Library, [found]), force=force)
-    tell(found, Voice(json, quiet, answers=csv != options.STDOUT))
+    outputs = Outputs(table=Library, csv=csv, force=force)
+    outputs.refuse(as_json=mode.json)
+    library = catalogue_at(catalogue).lasts()
+    outputs.write_csv([library])
+    tell(library, replace(mode, answers=csv != options.STDOUT))

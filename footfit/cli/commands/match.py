@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from footfit.cli import options
+from footfit.cli.option_groups import Batch, OutputMode, Reading, with_groups
 
 if TYPE_CHECKING:
     from footfit.results import Match
@@ -30,6 +31,7 @@ class Least(StrEnum):
     acceptable = "acceptable"
 
 
+@with_groups
 def match(
     feet: options.Meshes,
     by: Annotated[
@@ -87,65 +89,50 @@ def match(
         options.file_to_write("--html", help="Write a report that opens in any browser."),
     ] = None,
     csv: options.Csv = None,
-    side: options.Side = options.SideChoice.auto,
-    units: options.Units = options.UnitName.auto,
-    known_length: options.Known = None,
-    format: options.Format = None,
-    split: options.Split = False,
-    jobs: options.Jobs = 1,
     catalogue: options.Catalogue = None,
     force: options.Force = False,
-    json: options.Json = False,
-    quiet: options.Quiet = False,
-    verbose: options.Verbose = False,
+    *,
+    reading: Reading,
+    batch: Batch,
+    mode: OutputMode,
 ) -> None:
     """Rank the lasts of the catalogue for a foot, with reasons.
 
     Example: footfit match left.stl right.stl --pair --html report.html
     """
-    from footfit.cli.answers import Voice, only_one, sources_of, split_where_asked, told
-    from footfit.cli.outputs import one_answer, refuse_existing, write_or_answer
+    from dataclasses import replace
+
+    from footfit import api
+    from footfit.cli.answers import answer_outcomes, sources_of
+    from footfit.cli.outputs import OutputFile, Outputs
     from footfit.cli.settings import catalogue_path
-    from footfit.pipeline.batch.sources import ReadingOptions
-    from footfit.pipeline.fit.candidates import choice
-    from footfit.pipeline.fit.fit_profile import fit_profile
-    from footfit.pipeline.fit.match import Question, customers
-    from footfit.report.csv import csv_text
     from footfit.results import Match
 
     refuse_check(by, fail_under)
-    refuse_existing(html, force=force, kinds=("html", "htm"))
-    refuse_existing(csv, force=force)
-    one_answer(csv, as_json=json)
-    reading = ReadingOptions(units.value, known_length, side.value)
-    sources = split_where_asked(sources_of(feet, format), reading, split=split)
-    only_one(sources[:1] if pair else sources, html, unless="--pair for one customer's two feet")
     path = catalogue_path(catalogue)
-    question = Question(
-        by.value, top, fit_profile(profile), size_system, surfaces_in=path if clearance else None
+    page = OutputFile(html, ("html", "htm"), lambda answer, _: api.page(answer, path))
+    outputs = Outputs((page,), Match, csv, force)
+    outputs.refuse(as_json=mode.json)
+    sources = sources_of(feet, reading, split=batch.split)
+    customers = 1 if pair else len(sources)
+    outputs.require_one(range(customers), unless="--pair for one customer's two feet")
+    answers = api.open_catalogue(path).match_each(
+        sources,
+        pair=pair,
+        jobs=batch.jobs,
+        by=by.value,
+        profile=profile,
+        top=top,
+        style=style,
+        size_system=size_system,
+        clearance=clearance,
+        **reading.keywords(),
     )
-    found = choice(path, style, size_system)
-    answers = customers(sources, reading, found, question, pair=pair, jobs=jobs)
-    voice = Voice(json, quiet, 1 if pair else len(sources), answers=csv != options.STDOUT)
     matches: list[Match] = []
-    code = told(answers, voice, then=matches.append)
-    if csv is not None:
-        write_or_answer(csv, csv_text(Match, matches), force=force)
-    if html is not None and matches:
-        write_report(html, matches[0], path, force=force)
+    code = answer_outcomes(answers, replace(mode, total=customers), outputs, matches.append)
     if fail_under is not None:
-        code = checked(matches, fail_under, code, as_json=json)
+        code = checked_code(matches, fail_under, code, as_json=mode.json)
     raise typer.Exit(code)
-
-
-def write_report(html: Path, match: Match, catalogue: Path, *, force: bool) -> None:
-    """Write one customer's page, with the best lasts drawn."""
-    from footfit.cli.outputs import write_output
-    from footfit.pipeline.drawables import best_comparisons, candidate_shapes
-    from footfit.report.page.match_page import match_report
-
-    drawn = candidate_shapes(catalogue, match), best_comparisons(catalogue, match)
-    write_output(html, match_report(match, *drawn), force=force)
 
 
 def refuse_check(by: ByName, least: Least | None) -> None:
@@ -162,7 +149,7 @@ def refuse_check(by: ByName, least: Least | None) -> None:
         raise BadOption("--fail-under goes with --by fit or flare: a search by shape judges no fit")
 
 
-def checked(matches: Sequence[Match], least: Least, code: int, *, as_json: bool) -> int:
+def checked_code(matches: Sequence[Match], least: Least, code: int, *, as_json: bool) -> int:
     """The exit code after the answers were held to the verdict asked for.
 
     Raises

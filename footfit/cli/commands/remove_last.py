@@ -3,21 +3,21 @@
 from __future__ import annotations
 
 from footfit.cli import options
+from footfit.cli.option_groups import OutputMode, with_groups
 
 
+@with_groups
 def remove_last(
     last: options.LastName,
     catalogue: options.Catalogue = None,
-    json: options.Json = False,
-    quiet: options.Quiet = False,
-    verbose: options.Verbose = False,
+    *,
+    mode: OutputMode,
 ) -> None:
     """Remove a last from the catalogue; the reference is refused.
 
     Example: footfit remove-last derby-42
     """
-    from footfit.cli.answers import Voice, tell
-    from footfit.cli.settings import catalogue_path
-    from footfit.pipeline.library import lasts
+    from footfit.cli.answers import tell
+    from footfit.cli.settings import catalogue_at
 
-    tell(lasts.remove(catalogue_path(catalogue), last), Voice(json, quiet))
+    tell(catalogue_at(catalogue).remove(last), mode)

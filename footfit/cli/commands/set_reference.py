@@ -3,14 +3,15 @@
 from __future__ import annotations
 
 from footfit.cli import options
+from footfit.cli.option_groups import OutputMode, with_groups
 
 
+@with_groups
 def set_reference(
     last: options.LastName,
     catalogue: options.Catalogue = None,
-    json: options.Json = False,
-    quiet: options.Quiet = False,
-    verbose: options.Verbose = False,
+    *,
+    mode: OutputMode,
 ) -> None:
     """Make a last the reference: the paper's OM_E comes from it (Eq. 6).
 
@@ -18,9 +19,7 @@ def set_reference(
 
     Example: footfit set-reference derby-42
     """
-    from footfit.cli.answers import Voice, tell
-    from footfit.cli.settings import catalogue_path
-    from footfit.pipeline.library import lasts
+    from footfit.cli.answers import tell
+    from footfit.cli.settings import catalogue_at
 
-    changed = lasts.set_reference(catalogue_path(catalogue), last)
-    tell(changed, Voice(json, quiet))
+    tell(catalogue_at(catalogue).set_reference(last), mode)

@@ -3,21 +3,21 @@
 from __future__ import annotations
 
 from footfit.cli import options
+from footfit.cli.option_groups import OutputMode, with_groups
 
 
+@with_groups
 def show_last(
     last: options.LastName,
     catalogue: options.Catalogue = None,
-    json: options.Json = False,
-    quiet: options.Quiet = False,
-    verbose: options.Verbose = False,
+    *,
+    mode: OutputMode,
 ) -> None:
     """Show one last: labels, frame, flare, measures, and what the paper's frame would cost.
 
     Example: footfit show-last derby-42
     """
-    from footfit.cli.answers import Voice, tell
-    from footfit.cli.settings import catalogue_path
-    from footfit.pipeline.library import lasts
+    from footfit.cli.answers import tell
+    from footfit.cli.settings import catalogue_at
 
-    tell(lasts.last(catalogue_path(catalogue), last), Voice(json, quiet))
+    tell(catalogue_at(catalogue).last(last), mode)

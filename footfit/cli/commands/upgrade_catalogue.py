@@ -3,20 +3,20 @@
 from __future__ import annotations
 
 from footfit.cli import options
+from footfit.cli.option_groups import OutputMode, with_groups
 
 
+@with_groups
 def upgrade_catalogue(
     catalogue: options.Catalogue = None,
-    json: options.Json = False,
-    quiet: options.Quiet = False,
-    verbose: options.Verbose = False,
+    *,
+    mode: OutputMode,
 ) -> None:
     """Bring a catalogue to this version's schema and flare definition.
 
     Example: footfit upgrade-catalogue
     """
-    from footfit.cli.answers import Voice, tell
-    from footfit.cli.settings import catalogue_path
-    from footfit.pipeline.library.upgrade import upgrade
+    from footfit.cli.answers import tell
+    from footfit.cli.settings import catalogue_at
 
-    tell(upgrade(catalogue_path(catalogue)), Voice(json, quiet))
+    tell(catalogue_at(catalogue).upgrade(), mode)

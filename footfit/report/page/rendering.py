@@ -8,8 +8,8 @@ from functools import cache
 from importlib import resources
 from typing import TYPE_CHECKING, Any
 
-from footfit import __version__
 from footfit.report.wording import comparison_words, text
+from footfit.version import __version__
 
 if TYPE_CHECKING:
     from jinja2 import Environment, Template

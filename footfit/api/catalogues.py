@@ -1,0 +1,304 @@
+"""A catalogue of lasts in a ``with`` block: ingest, look at, match, compare, keep in order."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from contextlib import nullcontext
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, Self, Unpack
+
+from footfit import results
+from footfit.api.inputs import (
+    Feet,
+    FilePath,
+    IngestKeywords,
+    MatchKeywords,
+    Meshes,
+    ReadingKeywords,
+    Shape,
+    reading_options,
+    sources,
+)
+from footfit.api.scans import profiled_shape
+from footfit.errors import BadOption
+from footfit.pipeline.batch.runs import HERE, Outcome
+from footfit.pipeline.batch.sources import Source
+
+if TYPE_CHECKING:
+    from footfit.pipeline.fit.match import Question
+    from footfit.pipeline.library.ingest import Entry, HoldSignals
+
+NO_LABELS = results.LastLabels("")
+"""Nothing is said of a last: its name is that of its file."""
+
+
+def open_catalogue(path: FilePath) -> Catalogue:
+    """The catalogue of lasts in a file, for a ``with`` block. Only `Catalogue.ingest` makes one."""
+    return Catalogue(Path(path))
+
+
+def match(feet: Feet, catalogue: FilePath, **question: Unpack[MatchKeywords]) -> results.Match:
+    """The lasts of a catalogue that fit one foot, or the two feet of one customer.
+
+    Raises
+    ------
+    NotInCatalogue, CatalogueUnusable, InputError, GeometryRefused
+        As `Catalogue.match`.
+    """
+    with open_catalogue(catalogue) as lasts:
+        return lasts.match(feet, **question)
+
+
+class Catalogue:
+    """A catalogue of lasts. Its methods raise NoCatalogue or another CatalogueUnusable where the
+    file is not there, or cannot be used.
+
+    The lasts that a match needs are read once, and again after this object changed some.
+    """
+
+    def __init__(self, path: Path) -> None:
+        self.path = path
+        self._chosen: dict[tuple[str | None, str | None], results.Library] = {}
+
+    def __enter__(self) -> Self:
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self._chosen.clear()
+
+    # ------------------------------------------------------------ feet
+
+    def match(self, feet: Feet, **question: Unpack[MatchKeywords]) -> results.Match:
+        """The lasts that fit one foot, or the list of the two feet of one customer.
+
+        Raises
+        ------
+        NoCandidate, EmptyCatalogue
+            No last passes the filters, or there is none.
+        BadOption
+            There is no such profile or size system; more than two feet.
+        InputError, GeometryRefused
+            As `flare`; HalfScan where the length of a foot is not known.
+        """
+        from footfit.pipeline.fit.match import matched
+        from footfit.pipeline.fit.surface_clearance import with_surface_clearance
+
+        asked = self._question(question)
+        given: list[Any] = feet if isinstance(feet, list) else [feet]
+        if len(given) not in (1, 2):
+            raise BadOption(f"a match takes one foot, or the two of one customer, not {len(given)}")
+        shapes = [profiled_shape(foot, question) for foot in given]
+        answer = matched(shapes, self._choice(question), asked)
+        if asked.surfaces_in is None:
+            return answer
+        return with_surface_clearance(answer, asked.surfaces_in)
+
+    def match_each(
+        self,
+        feet: Meshes,
+        *,
+        pair: bool = False,
+        jobs: int = HERE,
+        **question: Unpack[MatchKeywords],
+    ) -> Iterator[Outcome[Source, results.Match]]:
+        """An outcome for each of many feet, as `outcomes` gives it; a ``pair`` of feet has one.
+
+        Raises
+        ------
+        BadOption
+            A pair of other than two feet; there is no such profile or size system.
+        """
+        from footfit.pipeline.fit.match import customers
+
+        asked, reading = self._question(question), reading_options(question)
+        library = self._choice(question)
+        return customers(sources(feet), reading, library, asked, pair=pair, jobs=jobs)
+
+    def compare(
+        self, foot: Shape, last: str, **reading: Unpack[ReadingKeywords]
+    ) -> results.Comparison:
+        """A foot in a stored last.
+
+        Raises
+        ------
+        UnknownLast
+            There is no last of that name.
+        InputError, GeometryRefused
+            As `flare`; or the foot cannot be laid into the last.
+        """
+        from footfit.pipeline.fit.compare import compared, stored_last
+
+        around = stored_last(self.path, last)
+        return compared(profiled_shape(foot, reading), around)
+
+    def _question(self, question: MatchKeywords) -> Question:
+        from footfit.pipeline.fit.fit_profile import fit_profile
+        from footfit.pipeline.fit.match import Question
+
+        return Question(
+            by=question.get("by", "fit"),
+            top=question.get("top", 5),
+            profile=fit_profile(question.get("profile", "walking")),
+            size_system=question.get("size_system"),
+            surfaces_in=self.path if question.get("clearance") else None,
+        )
+
+    def _choice(self, question: MatchKeywords) -> results.Library:
+        from footfit.pipeline.fit.candidates import choice
+
+        filters = question.get("style"), question.get("size_system")
+        if filters not in self._chosen:
+            self._chosen[filters] = choice(self.path, *filters)
+        return self._chosen[filters]
+
+    # ------------------------------------------------------------ lasts
+
+    def ingest(
+        self,
+        lasts: Meshes | None = None,
+        *,
+        manifest: FilePath | None = None,
+        labels: results.LastLabels = NO_LABELS,
+        **options: Unpack[IngestKeywords],
+    ) -> tuple[results.IngestOutcome, ...]:
+        """Read, align, measure and store lasts; what became of each file.
+
+        Parameters
+        ----------
+        lasts : mesh or list of meshes, optional
+            Files, folders and globs too; without any, the files that the manifest names.
+        manifest : path, optional
+            A CSV file with the labels of each last; docs/catalogue.md lists its columns.
+        labels : LastLabels, optional
+            What the manifest does not say; its ``name`` only for a single last.
+        **options
+            See `IngestKeywords`.
+
+        Raises
+        ------
+        BadOption, BadManifest
+            There is nothing to ingest, one name for several files, or a wrong manifest.
+        """
+        from footfit.pipeline.library.ingest import entries
+        from footfit.pipeline.library.manifest import read_manifest
+
+        rows = [] if manifest is None else read_manifest(Path(manifest))
+        given = [] if lasts is None else sources(lasts)
+        batch = entries(given, rows, labels, reading_options(options))
+        each = self.ingest_each(
+            batch,
+            replace=options.get("replace", False),
+            dry_run=options.get("dry_run", False),
+            jobs=options.get("jobs", HERE),
+        )
+        return tuple(each)
+
+    def ingest_each(
+        self,
+        batch: Sequence[Entry],
+        *,
+        replace: bool = False,
+        dry_run: bool = False,
+        jobs: int = HERE,
+        hold_signals: HoldSignals = nullcontext,
+    ) -> Iterator[results.IngestOutcome]:
+        """What became of each entry of ``pipeline.library.ingest``, after it is stored.
+
+        ``hold_signals`` is a block that begins before a last is stored and ends when the next
+        outcome is asked for.
+        """
+        from footfit.pipeline.library.ingest import ingest
+
+        self._chosen.clear()
+        return ingest(
+            batch, self.path, jobs=jobs, replace=replace, dry_run=dry_run, hold_signals=hold_signals
+        )
+
+    def lasts(self) -> results.Library:
+        """Every sound last, by name; its ``warnings`` name those that are damaged."""
+        from footfit.pipeline.library import lasts
+
+        return lasts.list_lasts(self.path)
+
+    def last(self, name: str) -> results.StoredLast:
+        """All that is stored of one last but its mesh; raises UnknownLast."""
+        from footfit.pipeline.library import lasts
+
+        return lasts.last(self.path, name)
+
+    def mesh(self, name: str) -> results.MeshCopy:
+        """The mesh copy of a last, for `mesh_file`; raises UnknownLast."""
+        from footfit.pipeline.library import lasts
+
+        return lasts.mesh_copy(self.path, name)
+
+    def rename(self, name: str, new_name: str) -> results.RenameOutcome:
+        """Give a last another name; raises UnknownLast or NameTaken."""
+        from footfit.pipeline.library import lasts
+
+        self._chosen.clear()
+        return lasts.rename(self.path, name, new_name)
+
+    def remove(self, name: str) -> results.RemoveOutcome:
+        """Remove a last; raises UnknownLast, or BadOption for the reference."""
+        from footfit.pipeline.library import lasts
+
+        self._chosen.clear()
+        return lasts.remove(self.path, name)
+
+    def set_reference(self, name: str) -> results.ReferenceOutcome:
+        """Make a last the one whose OM_E the paper's methods use; raises UnknownLast."""
+        from footfit.pipeline.library import lasts
+
+        self._chosen.clear()
+        return lasts.set_reference(self.path, name)
+
+    def reference(
+        self, last: str | None = None, method: results.Method = "paper"
+    ) -> results.Reference | None:
+        """The reference for `align`: that of a last, or the catalogue's; None for "footfit".
+
+        Raises
+        ------
+        NoReference, UnknownLast
+            There is none, or no such last.
+        BadOption
+            A last for the method "footfit", which needs no reference.
+        """
+        from footfit.pipeline.library import lasts
+
+        return lasts.alignment_reference(self.path, method, last)
+
+    # ------------------------------------------------------------ the file
+
+    def info(self) -> results.CatalogueFacts:
+        """Where the file is, and what it holds."""
+        from footfit.pipeline.library import lasts
+
+        return lasts.summary(self.path)
+
+    def check(self) -> results.CheckOutcome:
+        """Everything that is not as it was stored; changes nothing."""
+        from footfit.pipeline.library import check
+
+        return check.check(self.path)
+
+    def backup(self, file: FilePath, *, replace: bool = False) -> results.BackupOutcome:
+        """Copy the catalogue and check the copy; raises OutputExists, CheckFailed or BadOption."""
+        from footfit.pipeline.library import backup
+
+        return backup.back_up(self.path, Path(file), replace=replace)
+
+    def restore(self, file: FilePath) -> results.RestoreOutcome:
+        """Make the catalogue what a backup is; raises UnreadableFile, CheckFailed or BadOption."""
+        from footfit.pipeline.library import backup
+
+        self._chosen.clear()
+        return backup.restore(self.path, Path(file))
+
+    def upgrade(self) -> results.UpgradeOutcome:
+        """Bring an older catalogue to this version; a copy of it is kept beside it."""
+        from footfit.pipeline.library import upgrade
+
+        self._chosen.clear()
+        return upgrade.upgrade(self.path)

@@ -1,0 +1,95 @@
+"""Results as files: meshes, pictures and pages, as bytes or text that the caller writes."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+from footfit import results
+from footfit.api.inputs import FilePath
+from footfit.errors import BadOption
+
+
+def picture(result: Any, kind: str = "svg") -> bytes:
+    """A result of `align`, `flare`, `curvature` or `compare` as a picture, "svg" or "png".
+
+    Raises
+    ------
+    BadOption
+        There is no picture of such a result.
+    """
+    from footfit.pipeline import export
+    from footfit.pipeline.drawables import canonical_view
+    from footfit.report.pictures.curvature_figure import curvature_figure
+    from footfit.report.pictures.figures import picture_bytes
+    from footfit.report.pictures.flare_figure import flare_figure
+    from footfit.report.pictures.frames_figure import frames_figure
+    from footfit.report.pictures.section_figure import section_figure
+
+    export.require_kind(kind, export.PICTURE_KINDS)
+    match result:
+        case results.AlignedScan():
+            figure = frames_figure(result)
+        case results.Profiled():
+            figure = flare_figure(result)
+        case results.SurfaceCurvature():
+            figure = curvature_figure(result, canonical_view(result))
+        case results.Comparison():
+            figure = section_figure(result)
+        case _:
+            raise BadOption(f"there is no picture of a {type(result).__name__}")
+    return picture_bytes(figure, kind)
+
+
+def mesh_file(result: Any, kind: str) -> bytes:
+    """The mesh of a result as a file in mm: "stl", "ply", "obj" or "off".
+
+    What `curvature` gave is a "ply" (coloured) or an "npz" with the values of every vertex; what
+    `compare` gave is a "ply" coloured by the clearance, or a picture of it.
+
+    Raises
+    ------
+    BadOption
+        There is no mesh in such a result.
+    """
+    from footfit.pipeline import export
+    from footfit.report.pictures.curvature_figure import curvature_colours
+    from footfit.report.pictures.heat_figure import HEAT_KINDS, heat_bytes
+
+    kinds = {
+        results.SurfaceCurvature: export.CURVATURE_KINDS,
+        results.Comparison: HEAT_KINDS,
+    }
+    export.require_kind(kind, kinds.get(type(result), export.MESH_KINDS))
+    match result:
+        case results.AlignedScan():
+            return export.aligned_bytes(result, kind)
+        case results.MeshCopy():
+            return export.copy_bytes(result, kind)
+        case results.SurfaceCurvature():
+            colours = curvature_colours(result) if kind == "ply" else None
+            return export.curvature_bytes(result, kind, colours)
+        case results.Comparison():
+            return heat_bytes(result, kind)
+    raise BadOption(f"there is no mesh in a {type(result).__name__}")
+
+
+def page(result: results.Match | results.Comparison, catalogue: FilePath | None = None) -> str:
+    """A match or a comparison as one HTML page; with its ``catalogue`` a match draws the lasts.
+
+    Raises
+    ------
+    NotInCatalogue, CatalogueUnusable
+        The catalogue is not there, or cannot be read.
+    """
+    from footfit.pipeline import drawables
+    from footfit.report.page.compare_page import compare_report
+    from footfit.report.page.match_page import match_report
+
+    if isinstance(result, results.Comparison):
+        return compare_report(drawables.drawable(result))
+    if catalogue is None:
+        return match_report(result)
+    path = Path(catalogue)
+    shapes = drawables.candidate_shapes(path, result)
+    return match_report(result, shapes, drawables.best_comparisons(path, result))

@@ -1,0 +1,97 @@
+"""What the library takes: meshes in any form, and how they are to be understood."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Mapping
+from typing import Any, Literal, TypedDict
+
+from footfit.pipeline.batch.sources import ReadingOptions, Source, mesh_sources
+from footfit.results import AlignedScan, Profiled, SearchBy
+
+FilePath = str | os.PathLike[str]
+Mesh = FilePath | bytes | Source
+"""A file, its bytes, or one of `sources`."""
+Shape = Mesh | AlignedScan | Profiled
+"""A mesh of one foot or last, or what `align` or `flare` gave for it."""
+Feet = Shape | list[Shape] | list[str] | list[Source]
+"""One foot, or a list of them."""
+Meshes = Mesh | list[Mesh] | list[str] | list[Source]
+"""Meshes, files, folders and globs; several in a list."""
+
+
+class ScaleKeywords(TypedDict, total=False):
+    """How long a mesh is: its ``units``, or the ``known_length_mm`` of the foot or last in it.
+
+    ``format`` is what bytes must be; without it the content decides.
+    """
+
+    units: Literal["auto", "mm", "cm", "m", "in"]
+    known_length_mm: float | None
+    format: str | None
+
+
+class ReadingKeywords(ScaleKeywords, total=False):
+    """How a foot or a last is to be understood; "auto" is decided by its shape."""
+
+    side: Literal["auto", "left", "right"]
+
+
+class MatchKeywords(ReadingKeywords, total=False):
+    """What is asked of a catalogue, and how the feet are to be understood.
+
+    ``profile`` is the name or the file of a fit profile, ``top`` how many lasts to show (0: all).
+    ``style`` and ``size_system`` filter the lasts; ``clearance`` lays the feet into those shown.
+    """
+
+    by: SearchBy
+    profile: str
+    top: int
+    style: str | None
+    size_system: str | None
+    clearance: bool
+
+
+class IngestKeywords(ReadingKeywords, total=False):
+    """How lasts are stored: over one of the same name, not at all, on how many processes."""
+
+    replace: bool
+    dry_run: bool
+    jobs: int
+
+
+def sources(meshes: Meshes, *, split: bool = False, **reading: Any) -> list[Source]:
+    """The meshes in files, folders and globs; with ``split`` each foot of a file by itself.
+
+    Raises
+    ------
+    UnreadableFile
+        The only argument is a folder or a glob without a mesh.
+    """
+    given: list[Any] = list(meshes) if isinstance(meshes, list) else [meshes]
+    names = [mesh for mesh in given if isinstance(mesh, str | os.PathLike)]
+    if len(names) == len(given):
+        single = mesh_sources([os.fspath(name) for name in names])
+    else:
+        single = [source_of(mesh, reading) for mesh in given]
+    if not split:
+        return single
+    from footfit.pipeline.scan.split import split_sources
+
+    return split_sources(single, reading_options(reading))
+
+
+def source_of(mesh: Mesh, scale: Mapping[str, Any]) -> Source:
+    """A mesh as a pipeline takes it."""
+    match mesh:
+        case Source():
+            return mesh
+        case bytes():
+            return Source(None, mesh, scale.get("format"))
+    return Source(os.fspath(mesh), None, scale.get("format"))
+
+
+def reading_options(options: Mapping[str, Any]) -> ReadingOptions:
+    """What `ScaleKeywords` and `ReadingKeywords` say, without the rest."""
+    names = ("units", "known_length_mm", "side")
+    return ReadingOptions(**{name: options[name] for name in names if name in options})

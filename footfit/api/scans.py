@@ -1,0 +1,168 @@
+"""What can be asked of scans: read, align, flare, curvature, measure, compare; one or many."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Mapping
+from functools import partial
+from typing import Any, TypeVar, Unpack
+
+from footfit.api.inputs import (
+    Mesh,
+    Meshes,
+    ReadingKeywords,
+    ScaleKeywords,
+    Shape,
+    reading_options,
+    source_of,
+    sources,
+)
+from footfit.pipeline.batch import runs
+from footfit.pipeline.batch.sources import ReadingOptions, Source
+from footfit.results import (
+    AlignedScan,
+    Comparison,
+    MeasuredScan,
+    Method,
+    Profiled,
+    Reference,
+    Scan,
+    SurfaceCurvature,
+)
+
+T = TypeVar("T")
+
+
+def read(mesh: Mesh, **scale: Unpack[ScaleKeywords]) -> Scan:
+    """The surface of a mesh in mm, welded and cleaned, in the axes of its file.
+
+    Raises
+    ------
+    InputError
+        UnreadableFile, UnknownFormat, DamagedMesh, EmptyMesh, TooLarge or UnknownUnits.
+    """
+    from footfit.pipeline.scan import reading
+
+    return reading.read(source_of(mesh, scale), reading_options(scale))
+
+
+def align(
+    mesh: Mesh,
+    *,
+    method: Method = "footfit",
+    reference: Reference | None = None,
+    **reading: Unpack[ReadingKeywords],
+) -> AlignedScan:
+    """A foot or a last in the canonical frame: heel to toe along X, sole down, mm.
+
+    Parameters
+    ----------
+    mesh : path, bytes, (vertices, faces) or Scan
+    method : {"footfit", "paper", "paper-literal"}
+        The paper's methods need a ``reference``; see `Catalogue.reference`.
+    reference : Reference, optional
+    **reading
+        See `ReadingKeywords`.
+
+    Raises
+    ------
+    InputError
+        The mesh cannot be read.
+    GeometryRefused
+        It is not one whole foot or last.
+    """
+    from footfit.pipeline.scan.reading import aligned_source
+
+    return aligned_source(source_of(mesh, reading), reading_options(reading), method, reference)
+
+
+def flare(shape: Shape, **reading: Unpack[ReadingKeywords]) -> Profiled:
+    """The flare of a foot or a last: its profile, and the angle with its uncertainty.
+
+    Raises
+    ------
+    InputError, GeometryRefused
+        As `align`; also SideUndecided where the shape does not tell left from right.
+    """
+    return profiled_shape(shape, reading)
+
+
+def measure(shape: Shape, **reading: Unpack[ReadingKeywords]) -> MeasuredScan:
+    """Lengths, widths, girths and heights of a foot or a last, each with its uncertainty.
+
+    Raises
+    ------
+    InputError, GeometryRefused
+        As `flare`.
+    """
+    from footfit.pipeline.scan.measure import measured_scan
+
+    return measured_scan(_aligned(shape, reading))
+
+
+def curvature(
+    mesh: Mesh, *, radius_mm: float | None = None, **scale: Unpack[ScaleKeywords]
+) -> SurfaceCurvature:
+    """The concentrated curvature of any surface at every vertex, in 1/mm.
+
+    ``radius_mm`` is the scale; 0 is the paper's one ring, None 6 % of the longest extent.
+
+    Raises
+    ------
+    InputError
+        As `read`.
+    """
+    from footfit.pipeline.scan.curvature import surface_curvature
+
+    return surface_curvature(read(mesh, **scale), radius_mm)
+
+
+def compare(foot: Shape, last: Mesh, **reading: Unpack[ReadingKeywords]) -> Comparison:
+    """A foot in a last that has a file of its own; for a stored last see `Catalogue.compare`.
+
+    Raises
+    ------
+    InputError, GeometryRefused
+        As `flare`, of either; or the foot cannot be laid into the last.
+    """
+    from footfit.pipeline.fit.compare import compared, scanned_last
+
+    return compared(flare(foot, **reading), scanned_last(source_of(last, {}), ReadingOptions()))
+
+
+def outcomes(
+    verb: Callable[..., T], meshes: Meshes, *, jobs: int = runs.HERE, **options: Any
+) -> Iterator[runs.Outcome[Source, T]]:
+    """Do ``verb`` with each of many meshes: ``outcomes(measure, "feet/", jobs=2)``.
+
+    One that fails stops nothing. Each outcome has a ``value``, or the ``error`` that says why not;
+    its ``item`` names the file. They come in the order of the meshes, whatever ``jobs``.
+
+    Parameters
+    ----------
+    verb : callable
+        A function that takes a mesh, such as `measure`; with ``jobs`` one of a module.
+    meshes : mesh or list of meshes
+        Files, folders and globs too; see `sources`.
+    jobs : int
+        Processes to work with; 0 works in this one.
+    **options
+        For ``verb``.
+    """
+    return runs.outcomes(partial(verb, **options), sources(meshes), jobs)
+
+
+def profiled_shape(shape: Shape, reading: Mapping[str, Any]) -> Profiled:
+    """A shape as a match takes it; ``reading`` may hold other keys too."""
+    from footfit.pipeline.scan.flare import profiled
+
+    return shape if isinstance(shape, Profiled) else profiled(_aligned(shape, reading))
+
+
+def _aligned(shape: Shape, reading: Mapping[str, Any]) -> AlignedScan:
+    if isinstance(shape, Profiled):
+        return shape.aligned
+    if isinstance(shape, AlignedScan):
+        return shape
+    from footfit.pipeline.scan.reading import aligned_source
+
+    return aligned_source(source_of(shape, reading), reading_options(reading))
