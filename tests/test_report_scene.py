@@ -16,8 +16,8 @@ from footfit.report.page.rendering import content_hash, html_page, page_file, te
 from footfit.report.page.scene import (
     MOST_VERTICES,
     UNKNOWN,
+    packed_clearance,
     packed_mesh,
-    packed_room,
     scene_of,
 )
 from footfit.report.pictures.heat import (
@@ -59,9 +59,9 @@ def test_a_packed_mesh_reads_back_within_its_step():
     assert np.array_equal(array(mesh["faces"], "<u2").reshape(-1, 3), faces)
 
 
-def test_the_room_reads_back_and_what_is_not_compared_stays_so():
-    room = np.array([-3.21, 0.0, np.nan, 12.345, 900.0])
-    back = array(packed_room(room), "<i2")
+def test_the_clearance_reads_back_and_what_is_not_compared_stays_so():
+    clearance = np.array([-3.21, 0.0, np.nan, 12.345, 900.0])
+    back = array(packed_clearance(clearance), "<i2")
     assert back.tolist() == [-321, 0, UNKNOWN, 1234, 30000]
 
 
@@ -89,7 +89,7 @@ def test_the_colours_of_the_view_are_the_legends():
 
 
 def test_the_scale_is_told_apart_without_red_and_green():
-    """Seen by a deuteranope, tight and room still differ, and darker is always farther from 0.
+    """Seen by a deuteranope, tight and loose still differ, and darker is always farther from 0.
 
     Viénot, Brettel and Mollon's projection, on linear light.
     """

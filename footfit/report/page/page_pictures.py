@@ -30,12 +30,12 @@ class Picture:
 
 
 def heat_picture(comparison: Comparison) -> Picture:
-    """The room from four sides."""
+    """The clearance around the foot from four sides."""
     from footfit.report.pictures.heat_figure import heat_figure
 
     foot, last = comparison_names(comparison)
     words = (
-        f"{foot} in {last} from four sides: blue is room, red is where the foot is larger; the "
+        f"{foot} in {last} from four sides: blue is space, red is where the foot is larger; the "
         "dashed line is the last."
     )
     return _picture(heat_figure(comparison, titled=False), words, "wide")

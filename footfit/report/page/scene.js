@@ -1,13 +1,12 @@
 "use strict";
-// The foot in its last, turned by pointer, keys or buttons. WebGL; without it a 2D canvas that
-// paints far triangles first. The page holds the meshes: nothing is fetched.
+// Draws the foot in its last; the pointer, the keys and the buttons turn it. It uses WebGL or, on
+// a machine without, a 2D canvas that paints far triangles first. Nothing is fetched.
 (() => {
   const canvas = document.getElementById("scene-view");
   if (!canvas) return;
   const scene = JSON.parse(canvas.dataset.scene);
   const status = document.getElementById("scene-status");
   const view = { azimuth: scene.view[0], elevation: scene.view[1], zoom: 1, foot: true, last: true };
-  const UNKNOWN = -32768;
 
   const bytes = (text) => Uint8Array.from(atob(text), (sign) => sign.charCodeAt(0)).buffer;
   const unpacked = (mesh) => {
@@ -26,15 +25,15 @@
       const size = Math.hypot(normals[i], normals[i + 1], normals[i + 2]) || 1;
       for (let k = 0; k < 3; k++) normals[i + k] /= size;
     }
-    const room = mesh.room ? new Int16Array(bytes(mesh.room)) : null;
-    return { points, normals, faces, room };
+    const clearance = mesh.clearance ? new Int16Array(bytes(mesh.clearance)) : null;
+    return { points, normals, faces, clearance };
   };
   const foot = unpacked(scene.foot), last = unpacked(scene.last);
   const rgb = (hex) => [1, 3, 5].map((k) => parseInt(hex.slice(k, k + 2), 16) / 255);
-  const palette = scene.colours.map(rgb), grey = rgb(scene.unknown);
-  const LIGHT = [-0.352, 0.553, 0.755], SHADE = 0.42, GLASS = [0.36, 0.44, 0.52];
+  const palette = scene.colours.map(rgb), grey = rgb(scene.grey);
+  const LIGHT = scene.light, SHADE = scene.shade, UNKNOWN = scene.unknown, GLASS = [0.36, 0.44, 0.52];
 
-  // Rows: the picture's right, its up, the way to the eye.
+  // Rows: the picture's right, its up, the direction to the eye.
   const axes = () => {
     const a = (view.azimuth * Math.PI) / 180, e = (view.elevation * Math.PI) / 180;
     return [
@@ -56,12 +55,12 @@
     gl.linkProgram(made);
     return gl.getProgramParameter(made, gl.LINK_STATUS) ? made : null;
   };
-  const VERTEX = `attribute vec3 place, normal; attribute float room, known;
+  const VERTEX = `attribute vec3 place, normal; attribute float clearance, known;
     uniform mat3 axes; uniform vec3 centre; uniform vec2 scale;
     varying vec3 facing; varying float mm, judged;
     void main() {
       vec3 seen = axes * (place - centre);
-      facing = axes * normal; mm = room; judged = known;
+      facing = axes * normal; mm = clearance; judged = known;
       gl_Position = vec4(seen.xy * scale, -seen.z / 1000.0, 1.0);
     }`;
   const STEPS = scene.breaks.map((mm, i) => `if (mm >= ${mm.toFixed(1)}) colour = vec3(${palette[i + 1].map((v) => v.toFixed(4))});`);
@@ -94,8 +93,8 @@
     const loaded = (mesh) => ({
       place: buffer(gl.ARRAY_BUFFER, mesh.points),
       normal: buffer(gl.ARRAY_BUFFER, mesh.normals),
-      room: mesh.room && buffer(gl.ARRAY_BUFFER, Float32Array.from(mesh.room, (v) => (v === UNKNOWN ? 0 : v / 100))),
-      known: mesh.room && buffer(gl.ARRAY_BUFFER, Float32Array.from(mesh.room, (v) => (v === UNKNOWN ? 0 : 1))),
+      clearance: mesh.clearance && buffer(gl.ARRAY_BUFFER, Float32Array.from(mesh.clearance, (v) => (v === UNKNOWN ? 0 : v / 100))),
+      known: mesh.clearance && buffer(gl.ARRAY_BUFFER, Float32Array.from(mesh.clearance, (v) => (v === UNKNOWN ? 0 : 1))),
       faces: buffer(gl.ELEMENT_ARRAY_BUFFER, mesh.faces),
       count: mesh.faces.length,
     });
@@ -117,7 +116,7 @@
       gl.uniform2f(gl.getUniformLocation(use, "scale"), (2 * scale()) / canvas.width, (2 * scale()) / canvas.height);
       feed(use, "place", mesh.place, 3);
       feed(use, "normal", mesh.normal, 3);
-      feed(use, "room", mesh.room, 1);
+      feed(use, "clearance", mesh.clearance, 1);
       feed(use, "known", mesh.known, 1);
       gl.bindBuffer(gl.ELEMENT_ARRAY_BUFFER, mesh.faces);
       gl.drawElements(gl.TRIANGLES, mesh.count, gl.UNSIGNED_SHORT, 0);
@@ -146,14 +145,14 @@
       const turn = (list, at) => rows.map((row) => row.reduce((sum, v, k) => sum + v * (list[at + k] - (list === mesh.points ? scene.centre[k] : 0)), 0));
       const seen = [], facing = [];
       for (let i = 0; i < mesh.points.length; i += 3) { seen.push(turn(mesh.points, i)); facing.push(turn(mesh.normals, i)); }
-      const found = [];
+      const front = [];
       for (let f = 0; f < mesh.faces.length; f += 3) {
         const ids = [mesh.faces[f], mesh.faces[f + 1], mesh.faces[f + 2]];
         const [a, b, c] = ids.map((id) => seen[id]);
         if ((b[0] - a[0]) * (c[1] - a[1]) <= (b[1] - a[1]) * (c[0] - a[0])) continue;
-        found.push({ ids, corners: [a, b, c], depth: a[2] + b[2] + c[2], facing });
+        front.push({ ids, corners: [a, b, c], depth: a[2] + b[2] + c[2], facing });
       }
-      return found.sort((one, other) => one.depth - other.depth);
+      return front.sort((a, b) => a.depth - b.depth);
     };
     const fill = (triangle, style, outlined) => {
       const k = scale(), at = ([x, y]) => [canvas.width / 2 + k * x, canvas.height / 2 - k * y];
@@ -166,9 +165,9 @@
     };
     const mean = (triangle) => [0, 1, 2].map((k) => triangle.ids.reduce((sum, id) => sum + triangle.facing[id][k] / 3, 0));
     const heat = (triangle) => {
-      const rooms = triangle.ids.map((id) => foot.room[id]);
-      const known = !rooms.includes(UNKNOWN);
-      const colour = known ? palette[step(rooms.reduce((sum, v) => sum + v / 300, 0))] : grey;
+      const corners = triangle.ids.map((id) => foot.clearance[id]);
+      const known = !corners.includes(UNKNOWN);
+      const colour = known ? palette[step(corners.reduce((sum, v) => sum + v / 300, 0))] : grey;
       const n = mean(triangle), size = Math.hypot(...n) || 1;
       const light = Math.max(n.reduce((sum, v, k) => sum + (v * LIGHT[k]) / size, 0), 0);
       return `rgb(${colour.map((v) => Math.round(255 * v * (1 - SHADE * (1 - light))))})`;
@@ -181,8 +180,8 @@
       const rows = axes();
       context.fillStyle = "#fff";
       context.fillRect(0, 0, canvas.width, canvas.height);
-      if (view.foot) for (const one of triangles(foot, rows)) fill(one, heat(one), true);
-      if (view.last) for (const one of triangles(last, rows)) fill(one, glass(one), false);
+      if (view.foot) for (const triangle of triangles(foot, rows)) fill(triangle, heat(triangle), true);
+      if (view.last) for (const triangle of triangles(last, rows)) fill(triangle, glass(triangle), false);
     };
   };
 
@@ -237,6 +236,6 @@
   }
   window.addEventListener("resize", fit);
   document.getElementById("scene").hidden = false;
-  if (status) status.textContent = "Drag to turn, click and scroll to zoom, or use the arrow keys.";
+  if (status) status.textContent = "Drag to turn. Click, then scroll to zoom. Arrow keys turn, + and - zoom.";
   fit();
 })();

@@ -1,7 +1,8 @@
-"""The page's 3D view: the foot, coloured by its room, in a glassy last; turned without a network.
+"""The 3D view of a page: the foot, coloured by its clearance, in a last of glass.
 
-The meshes stand in the page, quantised. The script (``scene.js``) draws them by WebGL, or paints
-them on a plain canvas; without any script the view stays hidden and the pictures stand.
+The page holds the meshes, quantised, so that nothing is fetched. The script (``scene.js``) draws
+them with WebGL, or on a plain canvas. Without a script the view stays hidden, and the page shows
+its pictures.
 """
 
 from __future__ import annotations
@@ -15,22 +16,28 @@ import numpy as np
 from numpy.typing import NDArray
 
 from footfit.geometry.numeric.arrays import Floats, Ints
-from footfit.report.pictures.heat import BREAKS_MM, COLOURS, NOT_COMPARED, step_words
+from footfit.report.pictures.heat import BREAKS_MM, COLOURS, NOT_COMPARED, SHADE, step_words
+from footfit.report.pictures.shading import light_direction
 from footfit.report.pictures.sides import Mesh, is_left, own_side
 
 if TYPE_CHECKING:
     from footfit.results import Comparison
 
 STEPS = 65_535
-"""Places on each axis: 0.005 mm on a last."""
+"""Steps along an axis: one is 0.005 mm on a last."""
 MOST_VERTICES = 65_536
-"""What 16 bits can name; a heavier mesh has no 3D view, only its pictures."""
+"""The most that 16 bits can number; a mesh with more is shown in pictures only."""
 UNKNOWN = -32_768
-"""The room where nothing is compared, in hundredths of a mm."""
+"""Stands for a clearance, in hundredths of a mm, where nothing is compared."""
 LARGEST_MM = 300.0
+"""The largest clearance that the view keeps: it fits into 16 bits."""
 MARGIN = 1.12
+"""The space around foot and last in the first view."""
 START = {"right": (58.0, 24.0), "left": (-58.0, 24.0)}
-"""Azimuth and elevation at first: from the front of the medial side, where it mostly presses."""
+"""The first view, azimuth and elevation in degrees: the medial side from the front.
+
+Most lasts press there.
+"""
 
 
 @dataclass(frozen=True, slots=True)
@@ -47,7 +54,7 @@ class Scene:
 
 
 def scene_of(comparison: Comparison) -> Scene | None:
-    """The view of a foot in a last; None where a mesh is too heavy for it.
+    """The view of a foot in a last; None if a mesh has too many vertices.
 
     Parameters
     ----------
@@ -84,11 +91,14 @@ def _scene_data(comparison: Comparison, foot: Mesh, last: Mesh) -> str:
     turn, lean = np.radians(START[side])
     deep = length * abs(np.cos(turn)) * np.sin(lean)
     scene = {
-        "foot": packed_mesh(*foot) | {"room": packed_room(comparison.clearance_mm)},
+        "foot": packed_mesh(*foot) | {"clearance": packed_clearance(comparison.clearance_mm)},
         "last": packed_mesh(*last),
         "breaks": BREAKS_MM,
         "colours": COLOURS,
-        "unknown": NOT_COMPARED,
+        "grey": NOT_COMPARED,
+        "light": [round(float(value), 3) for value in light_direction()],
+        "shade": SHADE,
+        "unknown": UNKNOWN,
         "centre": [round(float(value), 3) for value in 0.5 * (low + high)],
         "size": [
             round(MARGIN * length, 1),
@@ -112,10 +122,10 @@ def packed_mesh(vertices: Floats, faces: Ints) -> dict[str, object]:
     }
 
 
-def packed_room(room_mm: Floats) -> str:
-    """The room at each vertex in hundredths of a mm, base64 of 16-bit integers."""
-    hundredths = np.rint(100.0 * np.clip(np.nan_to_num(room_mm), -LARGEST_MM, LARGEST_MM))
-    return _base64(np.where(np.isfinite(room_mm), hundredths, UNKNOWN).astype("<i2"))
+def packed_clearance(clearance_mm: Floats) -> str:
+    """The clearance at each vertex in hundredths of a mm, base64 of 16-bit integers."""
+    hundredths = np.rint(100.0 * np.clip(np.nan_to_num(clearance_mm), -LARGEST_MM, LARGEST_MM))
+    return _base64(np.where(np.isfinite(clearance_mm), hundredths, UNKNOWN).astype("<i2"))
 
 
 def _base64(values: NDArray[np.integer[Any]]) -> str:

@@ -137,8 +137,8 @@ def _legend(axes: Axes) -> None:
     for edge, value in enumerate(BREAKS_MM, start=1):
         axes.text(1.15, edge, f"{value:+.0f}" if value else "0", va="center", fontsize=8)
     axes.text(1.15, -1.0, "not\ncompared", va="center", fontsize=7.5)
-    axes.text(0.0, len(COLOURS) + 0.25, "mm of room", fontsize=8.5, fontweight="bold")
-    axes.text(1.15, len(COLOURS) - 0.5, "room", va="center", fontsize=8)
+    axes.text(0.0, len(COLOURS) + 0.25, "clearance, mm", fontsize=8.5, fontweight="bold")
+    axes.text(1.15, len(COLOURS) - 0.5, "loose", va="center", fontsize=8)
     axes.text(1.15, 0.5, "tight", va="center", fontsize=8)
     axes.set_xlim(0.0, 3.6)
     axes.set_ylim(-1.6, len(COLOURS) + 1.0)

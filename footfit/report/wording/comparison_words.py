@@ -46,7 +46,7 @@ def swing_words(comparison: Comparison) -> str:
     swing = comparison.placement.swing_mm
     side = "medial" if swing > 0 else "lateral"
     return (
-        f"heel on heel, the foot's tread had to go {plain(abs(swing))} mm to {side} to lie on the "
+        f"heel on heel, the foot's tread was moved {plain(abs(swing))} mm to {side} to lie on the "
         "last's"
     )
 
@@ -74,10 +74,10 @@ def surface_words(room: SurfaceClearance) -> str:
     >>> surface_words(SurfaceClearance("right", 2.9, (tight, loose)))
     'tight: medial -6.2 mm (26 cm2); loose: toe +12.3 mm (18 cm2)'
     >>> surface_words(SurfaceClearance("right", None, (), "the sole is open"))
-    'no room between the surfaces: the sole is open'
+    'no clearance between the surfaces: the sole is open'
     """
     if room.reason is not None:
-        return f"no room between the surfaces: {visible(room.reason)}"
+        return f"no clearance between the surfaces: {visible(room.reason)}"
     zones = room.zones
     tight = _zones_words((z.zone, z.p05_mm, z.tight_cm2, z.area_cm2) for z in zones)
     loose = _zones_words((z.zone, z.p95_mm, z.loose_cm2, z.area_cm2) for z in zones)
