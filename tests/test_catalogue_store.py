@@ -13,6 +13,7 @@ import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
+from footfit.catalogue import store
 from footfit.catalogue.rows import reference_last
 from footfit.catalogue.rows.schema import METADATA
 from footfit.catalogue.store import Catalogue, open_catalogue
@@ -175,12 +176,11 @@ def test_a_fault_in_the_middle_of_an_add_leaves_no_half_last(
     catalogue: Catalogue, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     before = content(catalogue)
-    from footfit.catalogue.rows import editing
 
     def failing(*given: object) -> None:
         raise RuntimeError("after its rows were written")
 
-    monkeypatch.setattr(editing, "express", failing)
+    monkeypatch.setattr(store, "express", failing)
     with pytest.raises(RuntimeError):
         catalogue.add(records.last("half", 9), records.mesh_copy(9))
     with pytest.raises(RuntimeError):
@@ -304,12 +304,13 @@ def test_a_parent_must_be_there_and_no_descendant(catalogue: Catalogue) -> None:
 
 def test_a_profile_made_anew_says_what_it_replaces(catalogue: Catalogue) -> None:
     flare, measures = records.profile(77), records.last(seed=78).measures
-    catalogue.update_profile("last-1", flare, upgraded_from="flare/0")
+    changed = replace(catalogue.record("last-1"), flare=flare, upgraded_from="flare/0")
+    catalogue.update_profile(changed)
     found = catalogue.record("last-1")
     assert records.plain(found.flare) == records.plain(flare)
     assert found.upgraded_from == "flare/0"
     assert found.measures == records.last("last-1", 1).measures
-    catalogue.update_profile("last-1", flare, measures=measures)
+    catalogue.update_profile(replace(changed, upgraded_from=None, measures=measures))
     assert catalogue.record("last-1").measures == measures
     assert catalogue.record("last-1").upgraded_from is None
     assert catalogue.findings() == []
@@ -362,7 +363,7 @@ def test_damage_is_never_sealed_as_sound(catalogue: Catalogue) -> None:
     for write in (
         lambda: catalogue.set_reference("last-2"),
         lambda: catalogue.rename("last-1", "x"),
-        lambda: catalogue.update_profile("last-1", records.profile()),
+        lambda: catalogue.update_profile(records.last("last-1")),
         lambda: catalogue.record("last-1"),
     ):
         with pytest.raises(CatalogueDamaged, match="'last-1'") as caught:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
 
@@ -11,23 +11,35 @@ from footfit.catalogue.file.copying import copy_into
 from footfit.catalogue.file.engine import SETTINGS, CatalogueFile, sqlite_errors_in_words
 from footfit.catalogue.file.migrate import Revisions, Schema
 from footfit.catalogue.file.opening import open_for_reading, open_for_writing
-from footfit.catalogue.rows import editing
-from footfit.catalogue.rows.columns import MESH_COPY
+from footfit.catalogue.rows.columns import FLARE, LAST, MEASURE, MESH_COPY
 from footfit.catalogue.rows.records import mesh_copy_of, record_of
-from footfit.catalogue.rows.reference_last import make_reference, reference_of, stored_reference
+from footfit.catalogue.rows.reference_last import (
+    express,
+    make_reference,
+    reference_of,
+    stored_reference,
+)
+from footfit.catalogue.rows.requirements import place_of, require_removable, require_storable
 from footfit.catalogue.rows.search import Filters, SearchRows, all_records, search_rows
 from footfit.catalogue.rows.summary import summary
 from footfit.catalogue.rows.verified_rows import (
     intact_last,
+    key_where,
     last_id,
     last_names,
     row_digest,
     rows,
 )
-from footfit.catalogue.rows.writing import driver_of
-from footfit.errors import CatalogueDamaged, UnknownLast
-from footfit.geometry.flare.definition import FlareProfile
-from footfit.results import CatalogueFacts, Finding, LastRecord, Measure, MeshCopy, Reference
+from footfit.catalogue.rows.writing import (
+    delete_rows,
+    driver_of,
+    seal,
+    update_row,
+    write_last,
+    write_owned,
+)
+from footfit.errors import CatalogueDamaged, NameTaken, UnknownLast
+from footfit.results import CatalogueFacts, Finding, LastRecord, MeshCopy, Reference
 
 
 @contextmanager
@@ -194,8 +206,7 @@ class Catalogue:
         UnknownLast, BadOption
             Its parent is not in the catalogue; its name cannot be stored.
         """
-        with self.file.atomic() as connection:
-            editing.place(connection, record, copy, replace=False)
+        self._place(record, copy, replace=False)
 
     def replace(self, record: LastRecord, copy: MeshCopy | None = None) -> None:
         """Store a last in place of the one of its name, or as a new one if there is none.
@@ -205,8 +216,12 @@ class Catalogue:
         NameTaken, UnknownLast, BadOption
             The same as for :meth:`add`, except that the name may be taken.
         """
+        self._place(record, copy, replace=True)
+
+    def _place(self, record: LastRecord, copy: MeshCopy | None, *, replace: bool) -> None:
         with self.file.atomic() as connection:
-            editing.place(connection, record, copy, replace=True)
+            key, parent_id = place_of(driver_of(connection), record, replace=replace)
+            express(connection, write_last(connection, record, copy, parent_id, key))
 
     def remove(self, name: str) -> None:
         """Remove a last with everything that the catalogue holds of it.
@@ -217,7 +232,10 @@ class Catalogue:
             There is no such last; it is the reference, or the parent of another last.
         """
         with self.file.atomic() as connection:
-            editing.remove(connection, name)
+            driver = driver_of(connection)
+            key = last_id(driver, name)
+            require_removable(driver, key, name)
+            delete_rows(connection, LAST, key)
 
     def rename(self, name: str, new_name: str) -> None:
         """Give a last another name.
@@ -228,7 +246,13 @@ class Catalogue:
             There is no such last; the new name is taken, or cannot be stored.
         """
         with self.file.atomic() as connection:
-            editing.rename(connection, name, new_name)
+            require_storable(new_name)
+            driver = driver_of(connection)
+            key = intact_last(driver, last_id(driver, name)).id
+            if key_where(driver, "name", new_name) not in (None, key):
+                raise NameTaken(f"{new_name!r} is in the catalogue; choose another name")
+            update_row(connection, LAST, key, {"name": new_name})
+            seal(connection, key)
 
     def set_reference(self, name: str) -> Reference:
         """Make a last the reference, and rewrite the ``paper_transform`` of every last.
@@ -241,15 +265,8 @@ class Catalogue:
         with self.file.atomic() as connection:
             return make_reference(connection, last_id(driver_of(connection), name))
 
-    def update_profile(
-        self,
-        name: str,
-        flare: FlareProfile,
-        upgraded_from: str | None = None,
-        measures: Sequence[Measure] | None = None,
-    ) -> None:
-        """Replace a last's flare profile, and its measures if some are given; ``upgraded_from``
-        is the version of the definition that the profile replaces.
+    def update_profile(self, record: LastRecord) -> None:
+        """Replace the flare profile and the measures of the last that has the record's name.
 
         Raises
         ------
@@ -257,4 +274,8 @@ class Catalogue:
             There is no last of that name, or its rows are not what was stored.
         """
         with self.file.atomic() as connection:
-            editing.update_profile(connection, name, flare, measures, upgraded_from)
+            driver = driver_of(connection)
+            key = intact_last(driver, last_id(driver, record.labels.name)).id
+            for table in (FLARE, MEASURE):
+                write_owned(connection, key, table, record)
+            seal(connection, key)

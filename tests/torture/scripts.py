@@ -11,7 +11,7 @@ import shutil
 import sqlite3
 from collections.abc import Callable, Iterator
 from contextlib import closing, suppress
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import lru_cache
 from pathlib import Path
 
@@ -159,7 +159,11 @@ EDITS: tuple[Callable[[Path], None], ...] = (
     _edit(lambda c: c.rename("last-1", "renamed")),
     _edit(lambda c: c.remove("last-2")),
     _edit(lambda c: c.replace(records.last("last-4", 40), mesh_copy(1))),
-    _edit(lambda c: c.update_profile("last-5", records.profile(50), "flare/0")),
+    _edit(
+        lambda c: c.update_profile(
+            replace(c.record("last-5"), flare=records.profile(50), upgraded_from="flare/0")
+        )
+    ),
     _edit(lambda c: c.add(records.last("graded", 41, parent="last-0"), mesh_copy(0))),
     lambda folder: _back_up(folder, "backup.footfit"),
     _edit(lambda c: c.remove("graded")),

@@ -6,14 +6,14 @@ that is not there (an older schema) is not looked at.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 
 import numpy as np
 
 from footfit.catalogue.rows.array_blobs import array_of, definition_of
 from footfit.catalogue.rows.columns import FLARE, FRAME, LAST, MEASURE, NOTICE, Table
 from footfit.catalogue.rows.digests import Row
-from footfit.catalogue.rows.rules import LIMITS, is_rotation
+from footfit.catalogue.rows.rules import LIMITS, Rule, is_rotation
 from footfit.catalogue.rows.verified_rows import StoredLast
 
 
@@ -27,12 +27,9 @@ def implausible(stored: StoredLast) -> Iterator[str]:
         yield from implausible_values(MEASURE, row)
     for row in stored.notices:
         yield from implausible_values(NOTICE, row)
-    if not _holds(lambda: _is_similarity(frame, stored.last)):
-        yield "frame.canonical_transform is not a rigid motion with the unit's scale"
-    if not _holds(lambda: _curves_fit(flare)):
-        yield "the curves of flare do not fit its stations"
-    if not _holds(lambda: _has_its_version(flare)):
-        yield "flare.definition does not have the version of flare.definition_version"
+    for rule in RULES:
+        if not rule.holds(stored):
+            yield rule.words
 
 
 def implausible_values(table: Table, row: Row) -> Iterator[str]:
@@ -46,34 +43,36 @@ def implausible_values(table: Table, row: Row) -> Iterator[str]:
                 yield f"{table.name}.{column.name} is {shown}; it must be {expected}"
 
 
-def _holds(test: Callable[[], bool]) -> bool:
-    try:
-        return test()
-    except (KeyError, TypeError, ValueError, AttributeError):
-        return False
-
-
-def _is_similarity(frame: Row, last: Row) -> bool:
-    matrix = array_of(frame["canonical_transform"], 4, 4)
+def _is_similarity(stored: StoredLast) -> bool:
+    matrix = array_of((stored.frame or {})["canonical_transform"], 4, 4)
     return (
         bool(np.isfinite(matrix).all())
         and bool((matrix[3] == (0, 0, 0, 1)).all())
-        and is_rotation(matrix[:3, :3] / last["unit_scale"])
+        and is_rotation(matrix[:3, :3] / stored.last["unit_scale"])
     )
 
 
-def _curves_fit(flare: Row) -> bool:
+def _curves_fit(stored: StoredLast) -> bool:
     """Every curve has a value per station, and no heading turns more than half a circle."""
+    flare = stored.flare or {}
     count = len(array_of(flare["stations"]))
     heading = array_of(flare["heading_deg"], count)
-    curves = (data for column, data in flare.items() if column.startswith("curvature_"))
-    for data in curves:
-        if data is not None:
-            array_of(data, count)
     array_of(flare["centre_line"], count, 2)
+    for column, data in flare.items():
+        if column.startswith("curvature_") and data is not None:
+            array_of(data, count)
     known = heading[np.isfinite(heading)]
     return bool((np.abs(known) <= LIMITS.heading_deg).all())
 
 
-def _has_its_version(flare: Row) -> bool:
-    return bool(definition_of(flare["definition"]).version == flare["definition_version"])
+def _has_its_version(stored: StoredLast) -> bool:
+    version = (stored.flare or {})["definition_version"]
+    return bool(definition_of(stored.definition).version == version)
+
+
+RULES = (
+    Rule("frame.canonical_transform is not a rigid motion with the unit's scale", _is_similarity),
+    Rule("the curves of flare do not fit its stations", _curves_fit),
+    Rule("flare.definition is not of the version in definition_version", _has_its_version),
+)
+"""The rules about several columns; the words say what is wrong."""

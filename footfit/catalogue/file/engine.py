@@ -47,22 +47,21 @@ SETTINGS = Settings()
 
 HELD = "is held by another program; wait until it is done, then try again"
 LACKS = "lacks a table or a column that it must have; restore it from a backup"
-
-_HELD = (CatalogueLocked, HELD)
+_SAFE = "all that was stored before is still there"
 _BY_RESULT_CODE: dict[int, tuple[type[CatalogueUnusable], str]] = {
-    sqlite3.SQLITE_BUSY: _HELD,
-    sqlite3.SQLITE_LOCKED: _HELD,
+    sqlite3.SQLITE_BUSY: (CatalogueLocked, HELD),
+    sqlite3.SQLITE_LOCKED: (CatalogueLocked, HELD),
     sqlite3.SQLITE_READONLY: (
         CatalogueNotWritable,
         "cannot be written; check who may write the file and its folder",
     ),
     sqlite3.SQLITE_FULL: (
         CatalogueNotWritable,
-        "could not be written because the disk is full; all that was stored before is still there",
+        f"could not be written because the disk is full; {_SAFE}",
     ),
     sqlite3.SQLITE_IOERR: (
         CatalogueNotWritable,
-        "could not be read or written (disk error); all that was stored before is still there",
+        f"could not be read or written (disk error); {_SAFE}",
     ),
     sqlite3.SQLITE_CANTOPEN: (
         CatalogueNotWritable,

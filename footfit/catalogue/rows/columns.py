@@ -21,7 +21,7 @@ from typing import Any, Literal, TypeVar, cast
 from footfit.catalogue.rows import rules
 from footfit.catalogue.rows.array_blobs import array_of, blob, definition_of, definition_text
 from footfit.catalogue.rows.digests import Row
-from footfit.catalogue.rows.rules import LIMITS, Rule, choice, number
+from footfit.catalogue.rows.rules import Rule, choice, number
 from footfit.geometry.flare.definition import CHANNELS
 
 T = TypeVar("T")
@@ -182,12 +182,7 @@ LAST = Table(
         Column("file_name", FILE_NAME, "info.path", nullable=True),
         Column("format", TEXT, "info.format"),
         Column("units", TEXT, "info.units", choice("mm", "cm", "m", "in", "scaled")),
-        Column(
-            "units_source",
-            TEXT,
-            "info.units_source",
-            choice("declared", "detected", "known-length"),
-        ),
+        Column("units_source", TEXT, "info.units_source", rules.UNITS_SOURCE),
         Column("unit_scale", REAL, "info.unit_scale", rules.ABOVE_ZERO),
         Column("vertices", INTEGER, "info.vertices", rules.ABOVE_ZERO),
         Column("faces", INTEGER, "info.faces", rules.ABOVE_ZERO),
@@ -217,7 +212,7 @@ FRAME = _owned(
     Column("pose_support", REAL, "pose.support"),
     Column("pose_sole", FLAG, "pose.sole"),
     Column("pose_kind", TEXT, "pose.kind", choice("foot", "last")),
-    Column("length_mm", REAL, "extent_mm", number(*LIMITS.length_mm)),
+    Column("length_mm", REAL, "extent_mm", rules.LENGTH),
 )
 """How the last lies: its exact and its printed eigenframe, both transforms, its pose.
 
@@ -226,15 +221,9 @@ FRAME = _owned(
 
 FLARE = _owned(
     "flare",
-    Column(
-        "angle_deg",
-        REAL_OR_NAN,
-        "flare.angle_deg",
-        number(-LIMITS.flare_deg, LIMITS.flare_deg),
-        nullable=True,
-    ),
+    Column("angle_deg", REAL_OR_NAN, "flare.angle_deg", rules.FLARE_ANGLE, nullable=True),
     Column("angle_sd_deg", REAL_OR_NAN, "flare.angle_sd_deg", number(0.0), nullable=True),
-    Column("flare_class", TEXT, "flare.flare_class", choice("outflare", "straight", "inflare")),
+    Column("flare_class", TEXT, "flare.flare_class", rules.FLARE_CLASS),
     Column("definition_version", TEXT, "flare.definition.version", read=False),
     Column("definition", DEFINITION, "flare.definition"),
     Column("stations", SERIES, "flare.stations", rules.STATIONS),

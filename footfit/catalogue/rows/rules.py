@@ -41,7 +41,7 @@ class Rule:
         """Whether the value passes; one of another type or another length does not."""
         try:
             return bool(self.test(value))
-        except (AttributeError, TypeError, ValueError):
+        except (AttributeError, LookupError, TypeError, ValueError):
             return False
 
 
@@ -98,4 +98,8 @@ SHA256 = Rule("a SHA-256 hash", _is_sha256)
 POINT = Rule("a point", lambda data: bool(np.isfinite(array_of(data, 3)).all()))
 ROTATION = Rule("a rotation", lambda data: is_rotation(array_of(data, 3, 3)))
 MOMENTS = Rule("three moments that are not negative", _are_moments)
+LENGTH = number(*LIMITS.length_mm)
+FLARE_ANGLE = number(-LIMITS.flare_deg, LIMITS.flare_deg)
+FLARE_CLASS = choice("outflare", "straight", "inflare")
+UNITS_SOURCE = choice("declared", "detected", "known-length")
 STATIONS = Rule("stations that increase from heel to toe", _are_stations)

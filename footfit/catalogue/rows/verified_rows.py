@@ -9,7 +9,6 @@ from __future__ import annotations
 import sqlite3
 from collections import defaultdict
 from dataclasses import dataclass
-from typing import Any
 
 from footfit.catalogue.rows.columns import FLARE, FRAME, LAST, MEASURE, NOTICE, Table
 from footfit.catalogue.rows.digests import Row, digest, hash_content
@@ -124,13 +123,8 @@ def _by_last(rows_of_all: list[Row]) -> dict[int, list[Row]]:
     for row in rows_of_all:
         groups[row["last_id"]].append(row)
     for group in groups.values():
-        group.sort(key=_position)
+        group.sort(key=lambda row: (type(row.get("position")).__name__, row.get("position")))
     return groups
-
-
-def _position(row: Row) -> tuple[str, Any]:
-    position = row.get("position")
-    return type(position).__name__, position
 
 
 def last_names(connection: sqlite3.Connection) -> dict[int, str]:
@@ -147,11 +141,14 @@ def last_id(connection: sqlite3.Connection, name: str) -> int:
     UnknownLast
         There is none; the message gives the nearest name.
     """
+    from difflib import get_close_matches
+
     key = key_where(connection, "name", name)
     if key is not None:
         return key
-    near = _nearest(name, last_names(connection))
-    raise UnknownLast(f"no last is named {name!r}{near}; see footfit list-lasts")
+    close = get_close_matches(name, last_names(connection).values(), n=1)
+    nearest = f" (the nearest is {close[0]!r})" if close else ""
+    raise UnknownLast(f"no last is named {name!r}{nearest}; see footfit list-lasts")
 
 
 def key_where(connection: sqlite3.Connection, column: str, value: str) -> int | None:
@@ -162,13 +159,6 @@ def key_where(connection: sqlite3.Connection, column: str, value: str) -> int | 
     except UnicodeEncodeError:  # no catalogue holds a text that UTF-8 cannot hold
         return None
     return None if row is None else int(row[0])
-
-
-def _nearest(name: str, names: dict[int, str]) -> str:
-    from difflib import get_close_matches
-
-    close = get_close_matches(name, [str(stored) for stored in names.values()], n=1)
-    return f" (the nearest is {close[0]!r})" if close else ""
 
 
 def intact_last(connection: sqlite3.Connection, key: int) -> StoredLast:

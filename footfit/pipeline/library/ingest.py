@@ -9,7 +9,7 @@ from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
 
-from footfit.catalogue.rows.editing import same_scan
+from footfit.catalogue.rows.requirements import same_scan
 from footfit.catalogue.store import Catalogue, open_catalogue
 from footfit.errors import BadOption, ExitCode, FootfitError, NameTaken, NoCatalogue
 from footfit.pipeline.batch.runs import HERE, Outcome, outcomes

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
 
 from footfit.catalogue.store import Catalogue, open_catalogue
@@ -50,7 +51,8 @@ def _renew(catalogue: Catalogue, record: LastRecord, definition: FlareDefinition
     """Measure a last again, and profile it by ``definition``; None keeps the profile."""
     copy, kind = catalogue.mesh_copy(record.labels.name), record.pose.kind
     right = stored_shape(copy.data, record.side.side)
-    flare, upgraded_from = record.flare, record.upgraded_from
+    record = replace(record, measures=measured(*right, kind))
     if definition is not None:
-        flare, upgraded_from = flare_profile(*right, definition, kind), flare.definition.version
-    catalogue.update_profile(record.labels.name, flare, upgraded_from, measured(*right, kind))
+        flare = flare_profile(*right, definition, kind)
+        record = replace(record, flare=flare, upgraded_from=record.flare.definition.version)
+    catalogue.update_profile(record)

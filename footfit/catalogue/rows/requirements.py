@@ -1,0 +1,99 @@
+"""What must be true before a last is changed, checked in the transaction that changes it."""
+
+from __future__ import annotations
+
+import sqlite3
+
+from footfit.catalogue.rows.reference_last import reference_key
+from footfit.catalogue.rows.verified_rows import key_where, last_id, last_names, stored_lasts
+from footfit.errors import BadOption, NameTaken
+from footfit.results import LastLabels, LastRecord
+
+
+def place_of(
+    connection: sqlite3.Connection, record: LastRecord, *, replace: bool
+) -> tuple[int | None, int | None]:
+    """The key of the last that a record takes the place of, and its parent's; None for none.
+
+    Without ``replace`` a record may only take the place of a damaged last that was made from the
+    same file: this is how a damaged last is repaired.
+
+    Raises
+    ------
+    NameTaken
+        Another last has the name or the content.
+    UnknownLast, BadOption
+        The parent is not in the catalogue, or it is the last itself or one of its descendants;
+        the name cannot be stored.
+    """
+    name, sha256 = record.labels.name, record.info.sha256
+    require_storable(name)
+    holder = key_where(connection, "content_sha256", sha256)
+    if holder is not None and last_names(connection)[holder] != name:
+        raise same_scan(last_names(connection)[holder])
+    key = key_where(connection, "name", name)
+    parent_id = _parent_id(connection, record.labels, key)
+    if key is not None and not replace:
+        (stored,) = stored_lasts(connection, key)
+        if stored.intact or stored.last["content_sha256"] != sha256:
+            raise NameTaken(f"{name!r} is in the catalogue; add --replace, or another --name")
+    return key, parent_id
+
+
+def same_scan(holder: str) -> NameTaken:
+    """The refusal of a file whose content the catalogue has under the name ``holder``."""
+    return NameTaken(f"the same scan is in the catalogue as {holder!r}; nothing was stored")
+
+
+def require_storable(name: str) -> None:
+    """Refuse a name that no last can have.
+
+    Raises
+    ------
+    BadOption
+        It is blank, or not a text that UTF-8 can hold.
+    """
+    if not name.strip():
+        raise BadOption("a last needs a name that is not blank; give one with --name")
+    try:
+        name.encode("utf-8")
+    except UnicodeEncodeError as error:
+        words = f"{name!r} cannot be stored as a name; give another one with --name"
+        raise BadOption(words) from error
+
+
+def require_removable(connection: sqlite3.Connection, key: int, name: str) -> None:
+    """Refuse to remove a last that others depend on.
+
+    Raises
+    ------
+    BadOption
+        It is the reference, or the parent of another last.
+    """
+    if key == reference_key(connection):
+        raise BadOption(
+            f"{name!r} is the reference; choose another one first: footfit set-reference LAST"
+        )
+    children = connection.execute(
+        "SELECT name FROM last NOT INDEXED WHERE parent_id = ? ORDER BY name", (key,)
+    ).fetchall()
+    if children:
+        names = ", ".join(repr(child) for (child,) in children)
+        raise BadOption(f"{name!r} is the parent of {names}; remove those first")
+
+
+def _parent_id(connection: sqlite3.Connection, labels: LastLabels, key: int | None) -> int | None:
+    """The parent's key; a last cannot be its own ancestor."""
+    if labels.parent is None:
+        return None
+    parent_id = last_id(connection, labels.parent)
+    parents = dict(connection.execute("SELECT id, parent_id FROM last NOT INDEXED").fetchall())
+    ancestor: int | None = parent_id
+    line: set[int] = set()
+    while ancestor is not None and ancestor not in line:
+        line.add(ancestor)
+        ancestor = parents.get(ancestor)
+    if ancestor is not None or key in line:
+        words = f"{labels.parent!r} descends from {labels.name!r}, so it cannot be its parent"
+        raise BadOption(words)
+    return parent_id
