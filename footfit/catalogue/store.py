@@ -20,7 +20,7 @@ from footfit.catalogue.rows.reference_last import (
     stored_reference,
 )
 from footfit.catalogue.rows.requirements import place_of, require_removable, require_storable
-from footfit.catalogue.rows.search import Filters, SearchRows, all_records, search_rows
+from footfit.catalogue.rows.search import SearchRows, all_records, search_rows
 from footfit.catalogue.rows.summary import summary
 from footfit.catalogue.rows.verified_rows import (
     intact_last,
@@ -119,9 +119,9 @@ class Catalogue:
     def rows_for_search(
         self, style: str | None = None, size_system: str | None = None
     ) -> SearchRows:
-        """The lasts to rank, by :class:`Filters`; no mesh is read."""
+        """The lasts to rank that have these labels; no mesh is read."""
         with self.file.reading() as connection:
-            return search_rows(connection, Filters(style, size_system))
+            return search_rows(connection, style=style, size_system=size_system)
 
     def reference(self) -> Reference | None:
         """The reference last; None in an empty catalogue.

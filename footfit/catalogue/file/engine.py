@@ -168,13 +168,13 @@ def engine_on(connection: sqlite3.Connection) -> Engine:
     return engine
 
 
+@dataclass
 class CatalogueFile:
     """One open catalogue file: a connection and the two kinds of transaction on it."""
 
-    def __init__(self, path: Path, connection: sqlite3.Connection, *, writable: bool) -> None:
-        self.path = path
-        self.connection = connection
-        self.writable = writable
+    path: Path
+    connection: sqlite3.Connection
+    writable: bool
 
     @cached_property
     def _engine(self) -> Engine:

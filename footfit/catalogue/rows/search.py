@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import sqlite3
 from collections import Counter
+from collections.abc import Mapping
 from dataclasses import dataclass
 
 from footfit.catalogue.rows.array_blobs import definition_text
@@ -11,14 +12,6 @@ from footfit.catalogue.rows.records import record_of
 from footfit.catalogue.rows.verified_rows import StoredLast, last_names, stored_lasts
 from footfit.geometry.flare.definition import FlareDefinition
 from footfit.results import LastRecord
-
-
-@dataclass(frozen=True, slots=True)
-class Filters:
-    """Labels that a last must have, whatever their case; None lets every last pass."""
-
-    style: str | None = None
-    size_system: str | None = None
 
 
 @dataclass(frozen=True, slots=True)
@@ -50,8 +43,8 @@ def all_records(connection: sqlite3.Connection) -> list[LastRecord]:
     return [record_of(stored, names) for stored in sorted_lasts(connection)[0]]
 
 
-def search_rows(connection: sqlite3.Connection, filters: Filters) -> SearchRows:
-    """The lasts that pass the filters and can be ranked."""
+def search_rows(connection: sqlite3.Connection, **filters: str | None) -> SearchRows:
+    """The lasts that pass the filters (see :func:`rejection`) and can be ranked."""
     names = last_names(connection)
     intact, damaged = sorted_lasts(connection)
     current = definition_text(FlareDefinition())
@@ -70,10 +63,13 @@ def search_rows(connection: sqlite3.Connection, filters: Filters) -> SearchRows:
     )
 
 
-def rejection(record: LastRecord, filters: Filters) -> str | None:
-    """The first filter that a last does not pass, or None."""
-    for name in ("style", "size_system"):
-        wanted, label = getattr(filters, name), getattr(record.labels, name)
+def rejection(record: LastRecord, filters: Mapping[str, str | None]) -> str | None:
+    """The first filter that a last does not pass, or None.
+
+    A filter names a label and what it must be, whatever the case; None lets every last pass.
+    """
+    for name, wanted in filters.items():
+        label = getattr(record.labels, name)
         if wanted is not None and (label is None or label.casefold() != wanted.casefold()):
             return name
     return None
