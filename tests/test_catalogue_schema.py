@@ -109,6 +109,16 @@ def test_every_column_has_a_rule_that_can_be_broken(table: Table, column: Column
     assert (column.implausible(None) is None) is column.nullable
 
 
+def test_a_catalogue_that_lacks_a_column_can_be_checked(path: Path) -> None:
+    """As one of an older schema does; no check needs a column that came later."""
+    with closing(sqlite3.connect(path)) as connection:
+        connection.execute("ALTER TABLE last DROP COLUMN family")
+    with open_catalogue(path) as catalogue:
+        assert [finding.code for finding in catalogue.findings()] == ["schema"]
+        with pytest.raises(CatalogueDamaged, match="column"):
+            catalogue.records()
+
+
 def test_the_known_revisions_are_the_scripts() -> None:
     from alembic.config import Config
     from alembic.script import ScriptDirectory

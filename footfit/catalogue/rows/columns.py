@@ -30,10 +30,10 @@ Reader = Callable[[Row], T]
 
 @dataclass(frozen=True, slots=True)
 class Kind:
-    """How a value of a record is kept in SQLite, and how it comes back.
+    """How a value of a record is stored in SQLite, and how it is read back.
 
     ``from_sql`` None leaves a value as SQLite gives it. A null becomes ``null`` in the record.
-    ``rule`` holds for every column of the kind that has no rule of its own.
+    ``rule`` is for the columns of this kind that have no rule of their own.
     """
 
     sql: Literal["integer", "real", "text", "flag", "blob"]
@@ -74,9 +74,10 @@ class Column:
     """One column.
 
     ``path`` says where its value stands in the record, such as ``side.score``; it is empty for
-    a value that the writer adds. ``read`` is False where another column tells the same.
-    ``on_delete`` marks a key of a last, and says what happens when that last is removed.
-    ``hashed`` is False for keys, which foreign keys check, and for the hash itself.
+    a value that the writer adds. ``rule`` None takes the rule of the kind. ``on_delete`` marks a
+    key of a last, and says what happens when that last is removed. ``hashed`` is False for keys,
+    which foreign keys check, and for the hash itself; columns are hashed in the order of their
+    names. ``read`` is False for a value that another column gives.
     """
 
     name: str
@@ -103,7 +104,7 @@ class Column:
         return lambda row: null if row[name] is None else from_sql(row[name])
 
     def implausible(self, value: object) -> str | None:
-        """What the value must be, in words; None where it is plausible."""
+        """What the value must be, in words; None if it is plausible."""
         rule = self.rule or self.kind.rule
         return None if (value is None and self.nullable) or rule.holds(value) else rule.words
 

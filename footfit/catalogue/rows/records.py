@@ -30,7 +30,7 @@ _info = LAST.reader("info", MeshInfo)
 _side = LAST.reader("side", SideVerdict)
 _pose = FRAME.reader("pose", PoseQuality)
 _eigenframe = FRAME.reader("eigenframe", Eigenframe)
-_printed_frame = FRAME.reader("printed_frame", Eigenframe)
+printed_frame_of = FRAME.reader("printed_frame", Eigenframe)
 _of_frame = FRAME.fields_reader("")
 _curvature = FLARE.fields_reader("flare.curvature")
 _profile = FLARE.reader("flare", FlareProfile, curvature=_curvature)
@@ -62,7 +62,7 @@ def record_of(stored: StoredLast, names: Mapping[int, str]) -> LastRecord:
             side=_side(last),
             pose=_pose(frame),
             eigenframe=_eigenframe(frame),
-            printed_frame=_printed_frame(frame),
+            printed_frame=printed_frame_of(frame),
             flare=_profile(flare),
             measures=tuple(map(_measure, stored.measures)),
             warnings=tuple(map(_notice, stored.notices)),

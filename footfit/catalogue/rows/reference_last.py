@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 
 from footfit.catalogue.rows.array_blobs import blob
 from footfit.catalogue.rows.columns import FRAME, REFERENCE
-from footfit.catalogue.rows.records import record_of, reference_from
+from footfit.catalogue.rows.records import printed_frame_of, record_of, reference_from
 from footfit.catalogue.rows.verified_rows import (
     StoredLast,
     last_names,
@@ -72,12 +72,16 @@ def reference_of(record: LastRecord) -> Reference:
     )
 
 
-def transform_by(reference: Reference, record: LastRecord) -> Floats:
-    """A last's ``paper_transform`` (4, 4) to the frame of a reference (Eq. 8)."""
-    P_c, R = record.printed_frame.centroid_mm, record.printed_frame.eigenvectors
-    if record.side.side == "left":
+def transform_by(reference: Reference, stored: StoredLast) -> Floats:
+    """A last's ``paper_transform`` (4, 4) to the frame of a reference (Eq. 8).
+
+    It needs few columns, so that a catalogue of an older schema can be checked too.
+    """
+    assert stored.frame is not None
+    printed, scale = printed_frame_of(stored.frame), stored.last["unit_scale"]
+    P_c, R = printed.centroid_mm, printed.eigenvectors
+    if stored.last["side"] == "left":
         P_c, R = mirrored_frame(P_c, R)
-    scale = record.info.unit_scale
     return paper_transform(P_c, R, reference.om_e, reference.centroid_mm, scale)
 
 
@@ -92,7 +96,7 @@ def express(connection: sa.Connection, key: int) -> None:
         make_reference(connection, key)
         return
     (stored,) = stored_lasts(driver, key)
-    _write_transform(connection, key, record_of(stored, last_names(driver)), reference[1])
+    _write_transform(connection, stored, reference[1])
 
 
 def make_reference(connection: sa.Connection, key: int) -> Reference:
@@ -104,13 +108,13 @@ def make_reference(connection: sa.Connection, key: int) -> Reference:
         A last is damaged: a new seal would make the damage look sound.
     """
     driver = driver_of(connection)
-    lasts, names = stored_lasts(driver), last_names(driver)
+    lasts = stored_lasts(driver)
     _require_intact(lasts)
-    records = {stored.id: record_of(stored, names) for stored in lasts}
-    reference = reference_of(records[key])
+    (chosen,) = (stored for stored in lasts if stored.id == key)
+    reference = reference_of(record_of(chosen, last_names(driver)))
     write_reference(connection, key, reference)
-    for owner, record in records.items():
-        _write_transform(connection, owner, record, reference)
+    for stored in lasts:
+        _write_transform(connection, stored, reference)
     return reference
 
 
@@ -123,10 +127,8 @@ def _require_intact(lasts: list[StoredLast]) -> None:
         )
 
 
-def _write_transform(
-    connection: sa.Connection, key: int, record: LastRecord, reference: Reference
-) -> None:
+def _write_transform(connection: sa.Connection, stored: StoredLast, reference: Reference) -> None:
     """Write a last's ``paper_transform``, and seal the last."""
-    transform = blob(transform_by(reference, record))
-    update_row(connection, FRAME, key, {"paper_transform": transform})
-    seal(connection, key)
+    transform = blob(transform_by(reference, stored))
+    update_row(connection, FRAME, stored.id, {"paper_transform": transform})
+    seal(connection, stored.id)
