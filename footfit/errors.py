@@ -1,4 +1,4 @@
-"""Everything that can go wrong on purpose, and the exit code each wrong has.
+"""Every error that footfit raises on purpose, and its exit code.
 
 The whole tree (a test compares this drawing with the classes)::
 
@@ -49,7 +49,7 @@ from footfit.version import __version__
 
 
 class ExitCode(IntEnum):
-    """What the process answers; ``docs/exit-codes.md`` says it in words."""
+    """The process's exit codes, which ``docs/exit-codes.md`` explains."""
 
     OK = 0
     BUG = 1
@@ -64,12 +64,12 @@ class ExitCode(IntEnum):
 
 
 class FootfitError(Exception):
-    """One line for a person: what is wrong, with which thing, and what to do next.
+    """A line for a person: what is wrong, where, and what to do next.
 
     Parameters
     ----------
     message : str
-        The line, without the path: the boundary puts the path in front.
+        The line without the path, which the command line puts in front.
     path : str, optional
         The file (or the catalogue) that the line is about.
     """
@@ -108,18 +108,18 @@ class FootfitError(Exception):
 
 
 class UsageError(FootfitError):
-    """The command was given in a way that cannot be carried out."""
+    """The command cannot be carried out as it was typed."""
 
     exit = ExitCode.USAGE
     code = "usage"
 
 
 class BadOption(UsageError):
-    """An option's value is outside what the option takes."""
+    """The option does not take this value."""
 
 
 class NameTaken(UsageError):
-    """The name, or the content, is in the catalogue already under another label."""
+    """The catalogue already has this name, or this content under another label."""
 
 
 class OutputExists(UsageError):
@@ -138,11 +138,11 @@ class UnreadableFile(InputError):
 
 
 class UnknownFormat(InputError):
-    """The content is no mesh format that footfit reads."""
+    """footfit does not read a format with this content."""
 
 
 class DamagedMesh(InputError):
-    """The file breaks its own format: truncated, lying counts, NaN, bad indices."""
+    """The file breaks its own format: cut off, wrong counts, NaN, wrong indices."""
 
 
 class EmptyMesh(InputError):
@@ -150,19 +150,19 @@ class EmptyMesh(InputError):
 
 
 class TooLarge(InputError):
-    """The file is past a stated limit of size or memory."""
+    """The file is over a stated limit of size or memory."""
 
 
 class TooSlow(InputError):
-    """The work on the file takes longer than one file may."""
+    """The work on the file takes longer than is allowed for a file."""
 
 
 class UnknownUnits(InputError):
-    """No unit makes the scan a plausible length, and none was declared."""
+    """In no unit does the scan have a plausible length, and no unit was declared."""
 
 
 class ImplausibleSize(InputError):
-    """With the declared unit the scan is no foot's and no last's length."""
+    """In the declared unit, the scan is not as long as a foot or a last."""
 
 
 class BadManifest(InputError):
@@ -174,7 +174,7 @@ class BadProfile(InputError):
 
 
 class NotInCatalogue(FootfitError):
-    """The catalogue, or what was asked of it, is not there."""
+    """The catalogue, or something in it, is missing."""
 
     exit = ExitCode.NOT_IN_CATALOGUE
 
@@ -188,37 +188,37 @@ class EmptyCatalogue(NotInCatalogue):
 
 
 class UnknownLast(NotInCatalogue):
-    """No last of that name."""
+    """The catalogue has no last of this name."""
 
 
 class NoReference(NotInCatalogue):
-    """A paper method needs a reference last and none is set."""
+    """A method of the paper needs a reference last, and none is set."""
 
 
 class NoCandidate(NotInCatalogue):
-    """No last of the catalogue passes the filters given."""
+    """No last of the catalogue passes the given filters."""
 
 
 class GeometryRefused(FootfitError):
-    """The mesh is well formed and is not what the command needs."""
+    """The mesh is valid, but it is not what the command needs."""
 
     exit = ExitCode.GEOMETRY_REFUSED
 
 
 class NotAFoot(GeometryRefused):
-    """Neither a foot nor a last, as far as its shape tells."""
+    """By its shape it is neither a foot nor a last."""
 
 
 class SeveralFeet(GeometryRefused):
-    """More than one foot in one file."""
+    """The file holds more than one foot."""
 
 
 class HalfScan(GeometryRefused):
-    """Only a part of a foot: a plantar sheet, a forefoot."""
+    """The file holds only a part of a foot, such as its sole or its forefoot."""
 
 
 class SideUndecided(GeometryRefused):
-    """The shape does not tell left from right, and the answer depends on it."""
+    """The side cannot be told from the shape, and the answer depends on it."""
 
 
 class NoSole(GeometryRefused):
@@ -232,7 +232,7 @@ class CatalogueUnusable(FootfitError):
 
 
 class CatalogueLocked(CatalogueUnusable):
-    """Another process holds the catalogue past the timeout."""
+    """Another process keeps the catalogue locked for longer than the timeout."""
 
 
 class CatalogueNotWritable(CatalogueUnusable):
@@ -240,7 +240,7 @@ class CatalogueNotWritable(CatalogueUnusable):
 
 
 class NotACatalogue(CatalogueUnusable):
-    """The file is something else."""
+    """The file is not a catalogue."""
 
 
 class CatalogueDamaged(CatalogueUnusable):
@@ -248,10 +248,10 @@ class CatalogueDamaged(CatalogueUnusable):
 
 
 class NewerCatalogue(CatalogueUnusable):
-    """A later version of footfit wrote the file."""
+    """A newer version of footfit wrote the file."""
 
 
 class CheckFailed(FootfitError):
-    """A check was asked for and is not met."""
+    """A requested check has failed."""
 
     exit = ExitCode.CHECK_FAILED

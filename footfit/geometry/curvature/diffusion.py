@@ -1,8 +1,8 @@
-"""Pooling over a surface: values spread as heat does, so that each vertex sees its neighbourhood.
+"""Pooling over a surface: values spread as heat does, and each vertex gets a local mean.
 
-The weights are those of exp(-t L), close to a Gaussian of standard deviation sqrt(2 t) along the
-surface: they follow it and never jump to another sheet nearby. L is the cotangent Laplacian; exp
-is replaced by a short Chebyshev polynomial, so that nothing is solved and NumPy is enough.
+The weights are those of exp(-t L), where L is the cotangent Laplacian. They are close to a Gaussian
+of standard deviation sqrt(2 t) along the surface, and never jump to another sheet nearby. A short
+Chebyshev polynomial stands for exp, so that no system of equations is solved.
 """
 
 from __future__ import annotations
@@ -11,7 +11,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from footfit.geometry.mesh.surface import area_vectors
+from footfit.geometry.mesh.surface import area_vectors, vertex_sums
 from footfit.geometry.mesh.topology import dilated_mask, sorted_keys
 from footfit.geometry.numeric.arrays import Bools, Floats, Ints
 
@@ -20,23 +20,25 @@ from footfit.geometry.numeric.arrays import Bools, Floats, Ints
 class DiffusionSettings:
     """How exactly exp(-t L) is followed.
 
-    tolerance
+    Attributes
+    ----------
+    tolerance : float
         Chebyshev coefficients below it are left out; the weights still sum to 1.
-    degree_most
-        The longest polynomial: what spreads faster than it follows is slowed to it.
-    nodes
-        Chebyshev nodes from which the coefficients are taken.
-    crowding_quantile, crowding
-        Vertices that exchange heat faster than ``crowding`` times this quantile of all (those of
-        slivers) are slowed to it.
-    reach_least
-        t times the rate of every vertex is at least this: the nearest ring is always seen.
-    slot_least
+    degree_most : int
+        The highest degree. Vertices that exchange heat too fast for it are slowed down.
+    nodes : int
+        The number of Chebyshev nodes from which the coefficients are computed.
+    crowding_quantile, crowding : float
+        The vertices of slivers exchange heat very fast. Rates over ``crowding`` times this quantile
+        of all rates are cut to it.
+    reach_least : float
+        t times the rate of every vertex is at least this, so that the nearest ring always counts.
+    slot_least : float
         The least share of the vertices for which a j-th neighbour is handled as a slot.
-    followed
+    followed : float
         The largest product of time and rate that the polynomials follow, over degree_most^2.
-    cotangent_least
-        Obtuse corners would give negative weights: cotangents are at least this.
+    cotangent_least : float
+        Cotangents are at least this, since obtuse corners would give negative weights.
     """
 
     tolerance: float = 1e-3
@@ -55,12 +57,12 @@ SETTINGS = DiffusionSettings()
 
 @dataclass(frozen=True, slots=True)
 class Diffusion:
-    """Polynomials in the Laplacian of one mesh, one per deviation, ready for :func:`pooled_fields`.
+    """Polynomials in a mesh's Laplacian, one for each deviation, for :func:`pooled_fields`.
 
-    The k vertices it works on are taken in the order ``order``, those with the most neighbours
-    first. Slot j holds the j-th neighbour of the first ``len(columns[j])`` of them and its weight;
-    the many neighbours of a few vertices (the hub of a fan) stand in ``rest_*``, entry by entry.
-    ``centre`` (k,) is the weight of the vertex itself. ``coefficients`` are those of Chebyshev
+    ``order`` (k,) are the vertices that the operator works on, those with the most neighbours
+    first. Slot j holds the j-th neighbour of the first ``len(columns[j])`` of them, and its weight.
+    A few vertices with many neighbours (the hub of a fan) have those in ``rest_*``, entry by entry.
+    ``centre`` (k,) is the weight of the vertex itself. ``coefficients`` are those of the Chebyshev
     polynomials, (degree + 1,) for each deviation.
     """
 
@@ -77,22 +79,22 @@ class Diffusion:
 def diffusion(
     vertices: Floats, faces: Ints, deviations: tuple[float, ...], subset: Bools | None = None
 ) -> Diffusion:
-    """The operator that pools with each of some standard deviations along the surface.
+    """The operator that pools over a surface, with each of some standard deviations.
 
     Parameters
     ----------
     vertices : (n, 3) float64
     faces : (m, 3) int64
-        Welded and consistently wound; open meshes are welcome.
+        Welded and consistently wound; the mesh may be open.
     deviations : tuple of float
         In the coordinates' unit, > 0.
     subset : (n,) bool, optional
-        Where pooled values are wanted. A polynomial of degree k reaches k rings: the operator
-        works on so many around the subset, where its values are those of the whole mesh.
+        Where pooled values are needed. A polynomial of degree k reaches k rings, so the operator
+        works on k rings around the subset. The subset's values are those of the whole mesh.
 
     Notes
     -----
-    With degrees d, cotangent weights w and vertex areas a: L f = (d f - sum of w f_q) / a. The
+    L f = (d f - sum of w f_q) / a, with degrees d, cotangent weights w and vertex areas a. The
     polynomial is in Y = 2 L / bound - 1, whose eigenvalues lie in [-1, 1].
     """
     n = len(vertices)
@@ -125,9 +127,9 @@ def diffusion(
 
 
 def pooled_fields(operator: Diffusion, fields: Floats) -> Floats:
-    """Pool fields (c, n) over the surface; (deviations, c, n), NaN where nothing was asked.
+    """Fields (c, n) pooled over the surface, (deviations, c, n); NaN outside of the subset.
 
-    Each value is a weighted mean over its neighbourhood with weights that sum to 1.
+    Each value is a mean over its neighbourhood, with weights that sum to 1.
     """
     pooled = np.full((len(operator.coefficients), *fields.shape), np.nan)
     degree = max(map(len, operator.coefficients)) - 1
@@ -152,7 +154,7 @@ def _product(operator: Diffusion, field: Floats, scratch: Floats) -> Floats:
     product = operator.centre * field
     for column, weight in zip(operator.columns, operator.weights, strict=True):
         part = scratch[: len(column)]
-        # "clip" takes straight into the scratch; the places are inside anyway.
+        # With "clip" NumPy writes straight into the scratch array; no place is outside.
         np.take(field, column, out=part, mode="clip")
         part *= weight
         product[: len(column)] += part
@@ -163,22 +165,17 @@ def _product(operator: Diffusion, field: Floats, scratch: Floats) -> Floats:
 
 
 def _projected_areas(vertices: Floats, faces: Ints) -> Floats:
-    """A third of the area around each vertex as its own normal sees it, (n,).
+    """A third of the area around each vertex, seen along its own normal, (n,).
 
-    Noise wrinkles a surface and so adds to its area; the sum of the area vectors stays.
+    Noise wrinkles a surface and so adds to its area, but not to the sum of the area vectors.
     """
-    vectors = area_vectors(vertices, faces)
-    corners = faces.ravel()
-    squared = np.zeros(len(vertices))
-    for axis in range(3):
-        repeated = np.repeat(vectors[:, axis], 3)
-        squared += np.bincount(corners, weights=repeated, minlength=len(vertices)) ** 2
-    areas: Floats = np.sqrt(squared) / 3.0
+    sums = vertex_sums(area_vectors(vertices, faces), faces, len(vertices))
+    areas: Floats = np.sqrt(np.einsum("ij,ij->i", sums, sums)) / 3.0
     return areas
 
 
 def _cotangent_entries(vertices: Floats, faces: Ints) -> tuple[Ints, Ints, Floats]:
-    """Rows, columns and weights of the cotangent matrix without its diagonal, ordered by row."""
+    """The rows, columns and weights of the cotangent matrix off its diagonal, ordered by row."""
     start, end, opposite = faces.ravel(), faces[:, [1, 2, 0]].ravel(), faces[:, [2, 0, 1]].ravel()
     u, v = vertices[start] - vertices[opposite], vertices[end] - vertices[opposite]
     doubled = 2.0 * np.linalg.norm(area_vectors(vertices, faces), axis=1)
@@ -207,7 +204,7 @@ def longest_deviation(vertices: Floats, faces: Ints) -> float:
 
 
 def _free_rates(degree: Floats, area: Floats) -> tuple[Floats, float]:
-    """Degree over area, inf where there is no area, and the rate from which it is a crowd's."""
+    """Each vertex's degree over area, inf without area, and the rate that slivers are cut to."""
     rate = np.divide(degree, area, out=np.full_like(degree, np.inf), where=area > 0.0)
     known = rate[(degree > 0.0) & np.isfinite(rate)]
     if len(known) == 0:
@@ -216,7 +213,7 @@ def _free_rates(degree: Floats, area: Floats) -> tuple[Floats, float]:
 
 
 def _exchange_rates(degree: Floats, area: Floats, time: float) -> Floats:
-    """Degree over area, between what reaches the nearest ring and what the polynomial follows."""
+    """Degree over area, at least what reaches the nearest ring, at most what is followed."""
     rate, crowded = _free_rates(degree, area)
     followed = SETTINGS.followed * SETTINGS.degree_most**2 / time
     least = SETTINGS.reach_least / time
@@ -225,9 +222,9 @@ def _exchange_rates(degree: Floats, area: Floats, time: float) -> Floats:
 
 
 def _slots(row: Ints, kept: Bools) -> tuple[Ints, list[Ints], Ints]:
-    """Kept vertices by falling number of neighbours, the entries of each slot, and the others.
+    """The kept vertices by falling number of neighbours, each slot's entries, and the rest.
 
-    A slot that only a few vertices reach costs as much as a full one: their entries are the others.
+    A slot that only a few vertices reach costs as much as a full slot. Its entries go to the rest.
     """
     count = np.bincount(row, minlength=len(kept))
     order = np.argsort(-count, kind="stable").astype(np.int64)

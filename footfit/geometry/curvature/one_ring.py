@@ -70,9 +70,9 @@ def one_ring_curvature(vertices: Floats, faces: Ints, density: bool = True) -> P
 
 
 def _fans(faces: Ints, n: int) -> list[tuple[Ints, Ints, Ints]]:
-    """Vertices with a closed fan, by valence d: centre (k,), the link's edges near -> far (k, d).
+    """The vertices with a closed fan, by valence d: centre (k,), the link's edges near, far (k, d).
 
-    On a closed fan the near ends are each neighbour once.
+    On a closed fan, the near ends are all neighbours, each once.
     """
     corners = faces.ravel()
     near, far = faces[:, [1, 2, 0]].ravel(), faces[:, [2, 0, 1]].ravel()
@@ -99,7 +99,7 @@ def _normal_curvatures(
     flat_v = v - height_v[:, :, None] * n[:, None]
     side = np.cross(n[:, None], flat_v)
     along = unit(flat_v.reshape(-1, 3)).reshape(flat_v.shape)
-    # Place of every link vertex j against the plane of neighbour i: (k, i, j).
+    # On which side of neighbour i's plane each link vertex j lies: (k, i, j).
     off_v, off_b = side @ v.transpose(0, 2, 1), side @ b.transpose(0, 2, 1)
     crossed = (off_v < 0.0) != (off_b < 0.0)
     share = off_v / np.where(crossed, off_v - off_b, 1.0)
@@ -107,7 +107,7 @@ def _normal_curvatures(
     w_along = u_v + share * (u_b - u_v)
     w_up = height_v[:, None] + share * (height_b - height_v)[:, None]
     backward = np.where(crossed & (w_along < 0.0), -w_along / np.hypot(w_along, w_up), -np.inf)
-    # A link that folds is cut more than once: w_i is then the cut that bends least.
+    # A link that folds is cut several times; w_i is then the cut that bends least.
     best = np.argmax(backward, axis=2)[:, :, None]
     w = np.stack([np.take_along_axis(x, best, axis=2)[:, :, 0] for x in (w_along, w_up)], axis=2)
     v_plane = np.stack([np.einsum("kdx,kdx->kd", v, along), height_v], axis=2)

@@ -26,23 +26,26 @@ from footfit.geometry.numeric.arrays import Bools, Floats, Ints
 class PoolingSettings:
     """The constants of :func:`pooled_curvature`.
 
-    radius_over_deviation
+    Attributes
+    ----------
+    radius_over_deviation : float
         The radius in standard deviations of the narrower pooling weights.
-    wider
-        The wider weights' variance over the narrower ones': what changes between the two is
-        taken on to no width at all.
-    widening_least
-        Where a mesh lets the weights widen by less than this share of what was asked, they count
-        as that much wider.
-    side_over_radius
-        Sides longer than this share of the radius are split where they lie in a flat facet: it
-        has no vertices of its own to pool.
-    rounds, arc_most
-        How often normals are corrected for the arcs over the facets' sides, and the largest angle
-        such an arc may turn: a crease is no arc.
-    flattest
-        Where the weights' two principal variances in the tangent plane are in a smaller ratio
-        than this, one curvature cannot be told: NaN.
+    wider : float
+        The variance of the wider weights over that of the narrower ones. The change between the
+        two is extrapolated to no width at all.
+    widening_least : float
+        On some meshes the weights cannot widen as they should. They then count as wider by at
+        least this share of it.
+    side_over_radius : float
+        Sides longer than this share of the radius are split where they lie in a flat facet, which
+        otherwise has no vertices to pool.
+    rounds : int
+        How often normals are corrected for the arcs over the facets' sides.
+    arc_most : float
+        The largest angle in radians that such an arc may turn; a crease is not an arc.
+    flattest : float
+        NaN is returned where the weights' two principal variances in the tangent plane have a
+        smaller ratio than this, since a curvature cannot be determined there.
     """
 
     radius_over_deviation: float = 2.2
@@ -62,32 +65,34 @@ def pooled_curvature(
 ) -> PrincipalCurvatures:
     """Curvature at the scale ``radius``, 1/length: concentrated curvatures pooled over it.
 
-    Between p and any q nearby the normal turns by (n_q - n_p).(q - p)/|q - p|^2 per length, exactly
-    1/R on a circle: a concentrated curvature over its length. One ring of them drowns in a scan's
-    noise. Here n_q - n = S (q - c) is fitted over the neighbourhood by least squares in the tangent
-    plane, S symmetric; k1 and k2 are its eigenvalues. The weights are those of heat
-    (:mod:`footfit.geometry.curvature.diffusion`) with standard deviation radius / 2.2; n, c and
-    the tangent plane are the pooled ones, so that p's own noise counts no more than
-    its neighbours'. What the pooling smooths away is found by a second, wider pooling and put
-    back. Spheres and cylinders come out exactly for any radius, up to the mesh.
+    Between p and any q nearby, the normal turns by (n_q - n_p).(q - p)/|q - p|^2 per length, which
+    is exactly 1/R on a circle: a concentrated curvature over its length. A single ring of them
+    drowns in a scan's noise. Here n_q - n = S (q - c), with a symmetric S, is fitted over the
+    neighbourhood by least squares in the tangent plane; k1 and k2 are the eigenvalues of S. The
+    weights are those of heat (:mod:`footfit.geometry.curvature.diffusion`) with the standard
+    deviation ``radius / POOLING.radius_over_deviation``. n, c and the tangent plane are pooled too,
+    so that p's own noise counts no more than its neighbours'. A second, wider pooling tells what
+    the first has smoothed away, and this is put back. Spheres and cylinders come out exactly for
+    any radius, up to the mesh.
 
     Parameters
     ----------
     vertices, faces
-        See the module. n_q is the area-weighted normal of the faces around q, with their sides
-        bent into arcs, and stands for their centroid, not for q.
+        See the module. n_q is the area-weighted normal of the faces around q, after their sides
+        were bent into arcs. It stands for their centroid, not for q.
     radius : float
-        > 0. Smaller than the edges: the nearest ring counts. Big flat facets are split first
-        (:mod:`footfit.geometry.mesh.refinement`). More than :func:`longest_radius`: cut to that.
+        > 0. If it is smaller than the edges, the nearest ring counts. If it is over
+        :func:`longest_radius`, it is cut to that. Big flat facets are split first
+        (:mod:`footfit.geometry.mesh.refinement`).
     subset : (n,) bool, optional
-        Where the curvature is wanted, NaN elsewhere; only what it needs is worked on, and the
-        values are those of the whole mesh.
+        Where the curvature is needed; it is NaN elsewhere. Only the part of the mesh around it is
+        worked on, and the values are those of the whole mesh.
 
     Returns
     -------
     PrincipalCurvatures
-        At a boundary it is one-sided. NaN where a vertex has no face, where the normals around
-        cancel, or where the neighbourhood is a line.
+        At a boundary it is one-sided. NaN where a vertex has no face, where the normals around it
+        cancel, or where its neighbourhood is a line.
 
     Raises
     ------
@@ -112,9 +117,9 @@ def pooled_curvature(
 
 
 def longest_radius(vertices: Floats, faces: Ints) -> float:
-    """The radius to which :func:`pooled_curvature` is cut where it is larger; inf without area.
+    """The largest radius that :func:`pooled_curvature` uses; inf without area.
 
-    That of the median vertex: about 45 mean edges on an even mesh, 33 on a random one.
+    It is that of the median vertex: about 45 mean edges on an even mesh, 33 on a random mesh.
     """
     widest = longest_deviation(vertices, faces)
     return POOLING.radius_over_deviation * widest / float(np.sqrt(POOLING.wider))
@@ -123,9 +128,9 @@ def longest_radius(vertices: Floats, faces: Ints) -> float:
 def _pooling(
     vertices: Floats, faces: Ints, radius: float, subset: Bools | None
 ) -> tuple[Floats, Floats, Diffusion]:
-    """Centroids, normals and the pooling operator; vertices put into flat facets come last."""
+    """Centroids, normals and the pooling operator; the new vertices in flat facets come last."""
     if not radius > 0.0:
-        raise ValueError("the pooling radius must be positive; the one ring has its own function")
+        raise ValueError("the pooling radius must be positive; for one ring use one_ring_curvature")
     given = len(vertices)
     vertices, faces = with_flat_facets_split(vertices, faces, POOLING.side_over_radius * radius)
     if subset is not None:
@@ -138,9 +143,9 @@ def _pooling(
 def _stars(vertices: Floats, faces: Ints) -> tuple[Floats, Floats]:
     """The middle of the faces around each vertex and the mean normal there, (n, 3) each.
 
-    Their centroid lies under a bent surface; it is put to the height of the vertex, or a sphere of
-    radius R reads (edge / R)^2 / 3 too much. A vertex without faces stands for itself, with normal
-    zero.
+    The centroid lies under a bent surface, so it is raised to the height of the vertex; otherwise a
+    sphere of radius R reads (edge / R)^2 / 3 too much. A vertex without faces stands for itself,
+    with a zero normal.
     """
     flat = area_vectors(vertices, faces)
     areas = np.sqrt(np.einsum("ij,ij->i", flat, flat))
@@ -154,12 +159,12 @@ def _stars(vertices: Floats, faces: Ints) -> tuple[Floats, Floats]:
 
 
 def _arched_normals(vertices: Floats, faces: Ints, centres: Floats, flat: Floats) -> Floats:
-    """The area-weighted normals (n, 3) of the faces with each side bent from a chord into its arc.
+    """The area-weighted normals (n, 3) of the faces, after each side is bent into its arc.
 
-    Between chord and arc of a side of length e and curvature k lies the area k e^3 / 12. Facets
-    (``flat``, their area vectors) leave it out, and an uneven mesh unevenly: without it the error
-    stays at (edge / radius)^2. k is the side's own turning over its length, between the centroids
-    at its ends, and is known better with each round.
+    The area between the chord and the arc of a side of length e and curvature k is k e^3 / 12. Flat
+    facets (``flat`` are their area vectors) leave it out, an uneven mesh unevenly. Without it the
+    error stays at (edge / radius)^2. k is the side's own turning over its length, between the
+    centroids at its ends, and gets better with each round.
     """
     sides, ways = _sides(vertices[faces]), _sides(centres[faces])
     square = np.einsum("mcx,mcx->mc", ways, ways)
@@ -176,7 +181,7 @@ def _arched_normals(vertices: Floats, faces: Ints, centres: Floats, flat: Floats
 
 
 def _sides(corners: Floats) -> Floats:
-    """The three differences along the sides of triangles, (m, 3, 3) in and out."""
+    """The vectors along the three sides of triangles, (m, 3, 3) in and out."""
     sides = np.empty_like(corners)
     np.subtract(corners[:, 1:], corners[:, :2], out=sides[:, :2])
     np.subtract(corners[:, 0], corners[:, 2], out=sides[:, 2])
@@ -184,11 +189,11 @@ def _sides(corners: Floats) -> Floats:
 
 
 _UPPER = (np.array([0, 0, 0, 1, 1, 2]), np.array([0, 1, 2, 1, 2, 2]))  # xx xy xz yy yz zz
-_SQUARE = np.array([[0, 1, 2], [1, 3, 4], [2, 4, 5]])  # where in them each entry of 3 x 3 stands
+_SQUARE = np.array([[0, 1, 2], [1, 3, 4], [2, 4, 5]])  # the place in them of each 3 x 3 entry
 
 
 def _moment_fields(centres: Floats, normals: Floats) -> Floats:
-    """What is pooled, (18, n): x (3), x x' (6), n (3), the symmetric part of n x' (6)."""
+    """The fields to pool, (18, n): x (3), x x' (6), n (3), the symmetric part of n x' (6)."""
     x, n = centres.T - centres.mean(axis=0)[:, None], normals.T
     row, column = _UPPER
     turns = 0.5 * (n[row] * x[column] + n[column] * x[row])
@@ -196,12 +201,12 @@ def _moment_fields(centres: Floats, normals: Floats) -> Floats:
 
 
 def _unsmoothed(pooled: Floats) -> tuple[Floats, Floats, Floats]:
-    """S = [[a, b], [b, c]] in the tangent planes without what pooling smooths away, (k,) each.
+    """S = [[a, b], [b, c]] in the tangent planes, (k,) each, corrected for the smoothing.
 
-    Pooled S is off by a multiple of the weights' variance, and by its square and so on: the two
-    scales (2, 18, k) give S = narrow + (narrow - wide) / (wide's variance / narrow's - 1) with
-    nothing of the first kind. The variances are those found, since a mesh may not let the weights
-    spread as they were asked to.
+    Pooled S is off by a multiple of the weights' variance, of its square and so on. From the two
+    scales (2, 18, k), S = narrow + (narrow - wide) / (wide's variance / narrow's variance - 1)
+    removes the first term. The variances are measured, since on some meshes the weights do not
+    spread as they should.
     """
     narrow, wide = pooled
     basis = _tangent_bases(unit(narrow[9:12].T))
@@ -213,11 +218,10 @@ def _unsmoothed(pooled: Floats) -> tuple[Floats, Floats, Floats]:
 
 
 def _turning(pooled: Floats, basis: Floats) -> tuple[Floats, Floats]:
-    """The S (3, k) that best makes turns = S ways, and the ways' variance (k,); NaN on a line.
+    """The S (3, k) that best fits turns = S ways, and the ways' variance (k,); NaN on a line.
 
-    The normal equations of min |turn - S way|^2 in S = [[a, b], [b, c]] are, with the tangent
-    covariances [[p, q], [q, r]] of the ways and [[u, v/2], [v/2, w]] of the turns (symmetric
-    part)::
+    The tangent covariances are [[p, q], [q, r]] of the ways and [[u, v/2], [v/2, w]] of the turns
+    (symmetric part). The normal equations of min |turn - S way|^2 in S = [[a, b], [b, c]] are::
 
         p a + q b             = u
         q a + (p + r) b + q c = v
@@ -238,7 +242,7 @@ def _turning(pooled: Floats, basis: Floats) -> tuple[Floats, Floats]:
 
 
 def _tangent_part(upper: Floats, basis: Floats) -> Floats:
-    """The entries 11, 12, 22 (3, k) in the tangent planes of symmetric matrices (6, k)."""
+    """The entries 11, 12, 22 (3, k) of symmetric matrices (6, k) in the tangent planes."""
     matrices = np.moveaxis(upper[_SQUARE], -1, 0)
     tangent = basis @ matrices @ basis.transpose(0, 2, 1)
     return np.stack([tangent[:, 0, 0], tangent[:, 0, 1], tangent[:, 1, 1]])

@@ -1,7 +1,7 @@
-"""Centroids, second moments and principal axes of a surface: as printed, and exact.
+"""Centroids, second moments and principal axes of a surface: as the paper prints them, and exact.
 
-The paper's Eq. 1-4 depend on how the surface is cut into triangles; the exact moments of the
-surface do not. Both are kept: the methods ``paper`` and ``paper-literal`` use the former.
+The paper's Eq. 1-4 depend on how the surface is cut into triangles. The exact moments of the
+surface do not. The methods ``paper`` and ``paper-literal`` use the former.
 """
 
 from __future__ import annotations
@@ -15,14 +15,14 @@ from footfit.geometry.numeric.arrays import Floats, Ints
 def face_barycentres(vertices: Floats, faces: Ints) -> Floats:
     """The mean of each face's corners, (m, 3).
 
-    By columns: the mean over the middle axis of (m, 3, 3) takes six times as long.
+    Taken by columns, since the mean over the middle axis of (m, 3, 3) takes six times as long.
     """
     a, b, c = (vertices.take(faces[:, corner], axis=0) for corner in range(3))
     return np.asarray((a + b + c) / 3.0, dtype=np.float64)
 
 
 def vertex_mean(vertices: Floats) -> Floats:
-    """The barycentre as printed: the mean of the vertices (n, 3) -> (3,)."""
+    """The barycentre as printed, the mean of the vertices: (n, 3) -> (3,)."""
     return np.asarray(vertices.mean(axis=0), dtype=np.float64)  # Eq. 1
 
 
@@ -39,7 +39,7 @@ def printed_covariance(vertices: Floats, faces: Ints) -> Floats:
 
 
 def surface_centroid(vertices: Floats, faces: Ints) -> Floats:
-    """The area-weighted centroid of the surface, (3,): what Eq. 1 must mean.
+    """The area-weighted centroid of the surface, (3,), which Eq. 1 must mean.
 
     Examples
     --------
@@ -54,8 +54,8 @@ def surface_centroid(vertices: Floats, faces: Ints) -> Floats:
 def surface_second_moment(vertices: Floats, faces: Ints) -> Floats:
     """The exact second moment of the surface about its centroid, over its area, (3, 3).
 
-    sum A_i (9 T T' + sum v v') / 12 A, T a triangle's barycentre and v its corners relative
-    to the centroid. Splitting a triangle does not change it.
+    It is sum A_i (9 T T' + sum v v') / 12 A, with each triangle's barycentre T and corners v
+    relative to the centroid. Splitting a triangle does not change it.
 
     Examples
     --------
@@ -69,16 +69,16 @@ def surface_second_moment(vertices: Floats, faces: Ints) -> Floats:
     barycentres = face_barycentres(vertices, faces)
     centroid = areas @ barycentres / areas.sum()
     away, corners = barycentres - centroid, vertices - centroid
-    # Of the corners one by one: each vertex counts with the areas of all faces around it.
+    # The corners' part, vertex by vertex: each counts with the areas of all faces around it.
     around = np.bincount(faces.ravel(), np.repeat(areas, 3), minlength=len(vertices))
     moment = 9 * (areas[:, None] * away).T @ away + (around[:, None] * corners).T @ corners
     return np.asarray(moment / (12 * areas.sum()), dtype=np.float64)
 
 
 def principal_axes(second_moment: Floats) -> tuple[Floats, Floats]:
-    """Eigenvalues, descending, (3,), and unit eigenvectors as rows, (3, 3), of a second moment.
+    """The descending eigenvalues (3,) of a second moment, and its unit eigenvectors as rows (3, 3).
 
-    The rows' signs are whatever the solver gave:
+    The rows' signs are those that the solver gives:
     :func:`footfit.geometry.pose.paper_frame.settled` and
     :func:`footfit.geometry.pose.paper_frame.largest_positive` choose them.
     """
@@ -89,7 +89,7 @@ def principal_axes(second_moment: Floats) -> tuple[Floats, Floats]:
 def moments_along(second_moment: Floats, rows: Floats) -> Floats:
     """The second moment along each unit row (k, 3): the diagonal of R C R^T, (k,).
 
-    Of eigenvectors in any order and with any signs it is their eigenvalues, paired with the rows.
+    Along eigenvectors, in any order and with any signs, these are their eigenvalues.
 
     Examples
     --------

@@ -1,4 +1,4 @@
-"""The nearest point of a triangle surface, and on which side of the surface one is."""
+"""The nearest point of a triangle surface, and on which side of the surface a point is."""
 
 from __future__ import annotations
 
@@ -51,7 +51,7 @@ class Nearest:
 def nearest_on_surface(
     points: Floats, vertices: Floats, faces: Ints, settings: NearestSettings = NEAREST
 ) -> Nearest:
-    """The nearest point of a surface to each point.
+    """The point of a surface that is nearest to each given point.
 
     Parameters
     ----------
@@ -63,8 +63,8 @@ def nearest_on_surface(
     Examples
     --------
     >>> corners, faces = np.array([[0.0, 0, 0], [4, 0, 0], [0, 4, 0]]), np.array([[0, 1, 2]])
-    >>> found = nearest_on_surface(np.array([[1.0, 1, 7], [-3, -4, 0]]), corners, faces)
-    >>> found.distance.tolist(), found.place.tolist()
+    >>> nearest = nearest_on_surface(np.array([[1.0, 1, 7], [-3, -4, 0]]), corners, faces)
+    >>> nearest.distance.tolist(), nearest.place.tolist()
     ([7.0, 5.0], [[1.0, 1.0, 0.0], [0.0, 0.0, 0.0]])
     """
     from scipy.spatial import KDTree
@@ -155,8 +155,8 @@ def _on_edges(points: Floats, corners: Floats) -> Floats:
     return best
 
 
-def _dot(one: Floats, other: Floats) -> Floats:
-    products: Floats = np.einsum("ij,ij->i", one, other)
+def _dot(rows: Floats, others: Floats) -> Floats:
+    products: Floats = np.einsum("ij,ij->i", rows, others)
     return products
 
 
@@ -192,7 +192,7 @@ def triangle_samples(
 
 
 def part_middles(split: int) -> Floats:
-    """Barycentric coordinates (split^2, 3) of the middles of a triangle's equal parts.
+    """The middles of the split^2 equal parts of a triangle, barycentric, (split^2, 3).
 
     Examples
     --------
@@ -208,32 +208,32 @@ def part_middles(split: int) -> Floats:
 # ---------------------------------------------------------------- the side
 
 
-def outward_at(found: Nearest, vertices: Floats, faces: Ints) -> Floats:
-    """The surface's outward direction (p, 3) at the nearest points, for telling the sides apart.
+def outward_at(nearest: Nearest, vertices: Floats, faces: Ints) -> Floats:
+    """The surface's outward direction at the nearest points, (p, 3).
 
-    The pseudonormal of [baerentzen2005]: a face's normal inside a face, the mean of two on an
-    edge, the sum weighted by the corners' angles at a vertex. Its dot product with the way from
-    the nearest point to the point is positive outside and negative inside, exactly, also where
-    the nearest point lies on a crease.
+    It is the pseudonormal of [baerentzen2005]: inside a face the face's normal, on an edge the sum
+    of two normals, at a vertex the sum of the normals weighted by the corners' angles. Take its
+    dot product with the way from the nearest point to the point: it is positive outside and
+    negative inside, exactly, also where the nearest point lies on a crease.
     """
     normals = unit(area_vectors(vertices, faces))
-    lying = found.weights > 0.0
+    lying = nearest.weights > 0.0
     on = lying.sum(axis=1)
-    outward = normals[found.face].copy()
+    outward = normals[nearest.face].copy()
     at_vertex = np.flatnonzero(on == 1)
     if len(at_vertex):
         sums = _vertex_pseudonormals(vertices, faces, normals)
         corner = np.argmax(lying[at_vertex], axis=1)
-        outward[at_vertex] = sums[faces[found.face[at_vertex], corner]]
+        outward[at_vertex] = sums[faces[nearest.face[at_vertex], corner]]
     at_edge = np.flatnonzero(on == 2)
     if len(at_edge):
         missing = np.argmin(lying[at_edge], axis=1)
-        outward[at_edge] += normals[faces_across(faces, found.face[at_edge], missing)]
+        outward[at_edge] += normals[faces_across(faces, nearest.face[at_edge], missing)]
     return outward
 
 
 def _vertex_pseudonormals(vertices: Floats, faces: Ints, normals: Floats) -> Floats:
-    """The faces' normals summed at each vertex (n, 3), by the angle that they have there."""
+    """The sum of the faces' normals at each vertex (n, 3), weighted by their angle there."""
     angles = corner_angles(vertices, faces)
     sums = np.empty_like(vertices)
     for axis in range(3):
@@ -243,8 +243,9 @@ def _vertex_pseudonormals(vertices: Floats, faces: Ints, normals: Floats) -> Flo
 
 
 def faces_across(faces: Ints, face: Ints, corner: Ints) -> Ints:
-    """The face (p,) beyond the edge of ``face`` (p,) that lies opposite to its ``corner`` (p,); the
-    face itself where there is none.
+    """The neighbours (p,) of ``face`` (p,), over the edge opposite to its ``corner`` (p,).
+
+    Where there is no neighbour, it is the face itself.
 
     Examples
     --------
@@ -262,8 +263,8 @@ def faces_across(faces: Ints, face: Ints, corner: Ints) -> Ints:
     return np.where(keys[other] == reverse, other // 3, face)
 
 
-def at_rim(found: Nearest, faces: Ints, n_vertices: int) -> Bools:
-    """Which points (p,) are nearest to the surface's open rim, where it has no side."""
-    rim = boundary_vertices(faces, n_vertices)[faces[found.face]]
-    lying = found.weights > 0.0
+def at_rim(nearest: Nearest, faces: Ints, n_vertices: int) -> Bools:
+    """Which points (p,) are nearest to the surface's open rim, where there is no side."""
+    rim = boundary_vertices(faces, n_vertices)[faces[nearest.face]]
+    lying = nearest.weights > 0.0
     return np.asarray(~lying.all(axis=1) & (rim | ~lying).all(axis=1))

@@ -1,8 +1,8 @@
 """The outermost point of a surface in a direction, steadier than its outermost vertex.
 
-A vertex that sticks out is noise as often as shape: the extreme of a scan with 0.3 mm of noise lies
-about half a millimetre too far out. Here the extreme is found from how much of the surface lies
-beyond a level instead, as that level moves in.
+A vertex that sticks out is noise as often as shape. With 0.3 mm of noise, the outermost vertex of a
+scan lies about half a millimetre too far out. So the extreme is computed from the area that lies
+beyond a level, as that level moves inward.
 """
 
 from __future__ import annotations
@@ -19,11 +19,19 @@ _PARTS = part_middles(4)
 
 @dataclass(frozen=True, slots=True)
 class TipSettings:
-    """Depths under the outermost vertex, over the length."""
+    """Depths under the outermost vertex, over the shape's length.
 
-    law: tuple[float, float] = (0.0026, 0.0085)  # where the area is taken to grow evenly
+    Attributes
+    ----------
+    law, levels : tuple of float, int
+        Between which depths, and at how many, the area is taken to grow evenly.
+    cap : float
+        The part of the surface above this depth is the cap whose middle is the tip's place.
+    """
+
+    law: tuple[float, float] = (0.0026, 0.0085)
     levels: int = 6
-    cap: float = 0.012  # whose middle is the tip's place
+    cap: float = 0.012
 
 
 TIPS = TipSettings()
@@ -31,7 +39,7 @@ TIPS = TipSettings()
 
 @dataclass(frozen=True, slots=True)
 class Tip:
-    """``reach`` is the extreme of p . direction; ``place`` (3,) is the middle of the cap there."""
+    """``reach`` is the largest p . direction; ``place`` (3,) is the middle of the cap there."""
 
     reach: float
     place: Floats
@@ -42,11 +50,10 @@ def tip(
 ) -> Tip:
     """The outermost point of a surface in a direction.
 
-    The area beyond a level that lies t inside the extreme of a smooth surface is 2 pi t times a
-    radius: it grows evenly from the extreme on (exactly so on a sphere: Archimedes). So the
-    extreme is where the straight line through the areas at several depths meets zero. Noise
-    that is as often in as out leaves that line where it is. The areas are exact, whatever the
-    triangles' sizes.
+    Take a level at the depth t under the extreme of a smooth surface. The area beyond it is 2 pi t
+    times a radius (exactly so on a sphere: Archimedes), so it grows evenly with t. The extreme is
+    where the straight line through the areas at several depths meets zero. Noise that is as often
+    inward as outward does not move that line. The areas are exact for triangles of any size.
 
     Parameters
     ----------
@@ -56,12 +63,12 @@ def tip(
     direction : (3,)
         A unit vector.
     length : float
-        Of the shape: the unit of the settings' depths.
+        The shape's length, which the settings' depths are multiplied by.
 
     Returns
     -------
     Tip
-        Never beyond the outermost vertex, nor deeper under it than the first level.
+        Not beyond the outermost vertex, and not deeper under it than the first level.
 
     Examples
     --------
@@ -83,7 +90,7 @@ def tip(
     inward = -start / slope if slope > 0.0 else 0.0
     weight = np.maximum(corner @ _PARTS.T - (top - settings.cap * length), 0.0) * area[:, None]
     place = np.einsum("ts,sk,tkj->j", weight, _PARTS, triangles) / max(weight.sum(), 1e-300)
-    if not weight.any():  # a spike so thin that none of its parts' middles counts
+    if not weight.any():  # a spike so thin that no middle of a part lies in the cap
         place = vertices[faces].reshape(-1, 3)[np.argmax(values[faces])]
     return Tip(top - float(np.clip(inward, 0.0, depth[0])), place)
 
@@ -103,7 +110,7 @@ def share_over(corner_values: Floats, levels: Floats) -> Floats:
     """
     low, middle, high = (column[:, None] for column in np.sort(corner_values, axis=1).T)
     rise, fall = (middle - low) * (high - low), (high - middle) * (high - low)
-    under = np.square(levels - low) / np.where(rise > 0.0, rise, 1.0)
-    over = np.square(high - levels) / np.where(fall > 0.0, fall, 1.0)
-    inside = np.where(levels <= middle, 1.0 - under, over)
-    return np.where(levels <= low, 1.0, np.where(levels >= high, 0.0, inside))
+    at = np.clip(levels, low, high)
+    under = np.square(at - low) / np.where(rise > 0.0, rise, 1.0)
+    over = np.square(high - at) / np.where(fall > 0.0, fall, 1.0)
+    return np.asarray(np.where(levels <= middle, 1.0 - under, over))

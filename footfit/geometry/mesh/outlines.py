@@ -1,4 +1,4 @@
-"""Section curves: the segments of a plane section joined into smooth, closed outlines."""
+"""Outlines: the segments of a plane section, joined to closed loops and smoothed."""
 
 from __future__ import annotations
 
@@ -12,12 +12,22 @@ from footfit.geometry.numeric.arrays import Floats, Ints
 
 @dataclass(frozen=True, slots=True)
 class OutlineSettings:
-    """Everything numeric of an outline, over the length."""
+    """All numbers of an outline; lengths over the shape's length.
+
+    Attributes
+    ----------
+    pitch : float
+        The distance between the points of a smooth loop, about.
+    smoothing, reach : float
+        The kernel's standard deviation, and how many of them it reaches.
+    speck : float
+        A loop shorter than this share of the longest loop is dropped.
+    """
 
     pitch: float = 0.007
-    smoothing: float = 0.012  # standard deviation of the kernel
-    reach: float = 4.0  # of the kernel, in standard deviations
-    speck: float = 0.05  # a loop shorter than this share of the longest is none
+    smoothing: float = 0.012
+    reach: float = 4.0
+    speck: float = 0.05
 
 
 OUTLINES = OutlineSettings()
@@ -25,9 +35,10 @@ OUTLINES = OutlineSettings()
 
 @dataclass(frozen=True, slots=True)
 class Outline:
-    """One section: ``loops`` of even points (k, 2) across and up, smoothed; ``gaps`` (g, 2, 2)
-    are the ends of the straight pieces that close what was open; ``face`` (m,) are the faces cut,
-    each over ``length_mm`` (m,).
+    """A section: ``loops`` of smoothed, evenly spaced points (k, 2), across and up.
+
+    ``gaps`` (g, 2, 2) are the ends of the straight pieces that close open loops. ``face`` (m,) are
+    the faces that the plane cuts, each over the length ``length_mm`` (m,).
     """
 
     loops: tuple[Floats, ...]
@@ -36,7 +47,7 @@ class Outline:
     length_mm: Floats
 
     def gap_mm(self, below_mm: float = np.inf) -> float:
-        """The longest of the straight pieces that begin below a height; 0 where there is none."""
+        """The longest straight piece with an end below a height; 0 where there is none."""
         low = self.gaps[self.gaps[:, :, 1].min(axis=1) < below_mm]
         return float(np.linalg.norm(low[:, 1] - low[:, 0], axis=1).max(initial=0.0))
 
@@ -56,8 +67,8 @@ def outline(
 ) -> Outline:
     """The section of a mesh by a plane, as smooth loops.
 
-    Each loop is cut into even steps and smoothed by a kernel without a second moment, so that a
-    parabola stays what it is: 0.3 mm of noise is halved and the curve does not shrink.
+    Each loop is cut into even steps and smoothed by a kernel that leaves a parabola as it is. This
+    halves 0.3 mm of noise and does not shrink the curve.
 
     Parameters
     ----------
@@ -68,7 +79,7 @@ def outline(
     axes : (2, 3)
         Unit vectors in the plane: across and up.
     length : float
-        Of the shape: the unit of the settings.
+        The shape's length, which the settings are multiplied by.
     """
     normal = np.cross(axes[0], axes[1])
     level = float(origin @ normal)
@@ -89,14 +100,16 @@ def outline(
 
 
 def closed_loops(points: Floats) -> tuple[list[Floats], Floats]:
-    """Segments (m, 2, 3) joined where their ends are equal; the open pieces joined to one loop.
+    """The loops of segments (m, 2, 3), joined where their ends are equal.
+
+    All open pieces together become the last loop.
 
     Returns
     -------
     loops : list of (k, 3)
         Each closed: its last point is followed by its first.
     gaps : (g, 2, 3)
-        The ends of the straight pieces that were needed to close them.
+        The ends of the straight pieces that close the last loop.
 
     Examples
     --------
@@ -132,7 +145,7 @@ def _nodes(points: Floats) -> tuple[Floats, Ints]:
 
 
 def _chains(node: Ints) -> list[list[int]]:
-    """Walks (node rows) over segments (m, 2), each segment once; open ends are begun at first."""
+    """Walks (node rows) over segments (m, 2), each segment once; first those from open ends."""
     ends = node.ravel()
     partner = _partners(ends)
     row, onward = ends.tolist(), partner.tolist()
@@ -152,10 +165,10 @@ def _chains(node: Ints) -> list[list[int]]:
 
 
 def _partners(ends: Ints) -> Ints:
-    """For each end (k,) of a segment the end of another in the same node, -1 where there is none.
+    """For each end (k,) of a segment, an end of another segment in the same node; -1 without one.
 
-    Ends are numbered so that 2 i and 2 i + 1 are of one segment. Where more than two meet, as on
-    an edge of four faces, they are paired in order.
+    The ends 2 i and 2 i + 1 belong to the same segment. Where more than two ends meet, as on an
+    edge of four faces, they are paired in order.
     """
     order = np.argsort(ends, kind="stable")
     ordered = ends[order]
@@ -172,7 +185,7 @@ def _partners(ends: Ints) -> Ints:
 
 
 def _joined(pieces: list[Floats]) -> tuple[Floats, Floats]:
-    """One loop of open pieces, each joined to the nearest end of another, and the joints' ends."""
+    """A loop of all open pieces, joined at their nearest ends, and the ends of its joints."""
     loop, rest, gaps = pieces[0], pieces[1:], []
     while rest:
         reached = [
@@ -192,9 +205,9 @@ def _steps(loop: Floats) -> Floats:
 
 
 def smooth_loop(loop: Floats, length: float, settings: OutlineSettings = OUTLINES) -> Floats:
-    """A closed polyline (n, 2) as even points (k, 2), smoothed along its arc.
+    """A closed polyline (n, 2) as evenly spaced points (k, 2), smoothed along its arc.
 
-    Counter-clockwise from the point farthest across, whatever the order of the mesh's faces.
+    It runs counter-clockwise from the point farthest across, for any order of the mesh's faces.
     """
     after = np.roll(loop, -1, axis=0)
     if loop[:, 0] @ after[:, 1] < loop[:, 1] @ after[:, 0]:
@@ -214,7 +227,10 @@ def smooth_loop(loop: Floats, length: float, settings: OutlineSettings = OUTLINE
 
 
 def parabola_keeping_kernel(spread: float, reach: float) -> Floats:
-    """A bell (k,) of standard deviation ``spread`` in steps, times what makes its second moment 0.
+    """A smoothing kernel (k,) with sum 1 and second moment 0, which leaves a parabola as it is.
+
+    It is a bell of standard deviation ``spread``, in steps, times a parabola. It reaches ``reach``
+    standard deviations.
 
     Examples
     --------

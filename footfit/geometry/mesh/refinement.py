@@ -1,4 +1,4 @@
-"""Vertices put into big flat facets, so that what is measured at vertices can see them."""
+"""New vertices inside big flat facets, for measures that are taken at vertices."""
 
 from __future__ import annotations
 
@@ -15,15 +15,17 @@ from footfit.geometry.numeric.arrays import Bools, Floats, Ints
 class RefinementSettings:
     """When a side is inside a flat facet, and how far splitting goes.
 
-    turn_most_deg
-        Faces that turn by less than this over their common side are one facet.
-    faces_least
-        A facet of fewer faces is left: on a curved surface two faces may chance to lie in one
-        plane, and the middle of a chord is not on the surface.
-    rounds
-        Each halves what is too long.
-    growth_most, vertices_enough
-        No further round is begun past this many times the given vertices, and this many.
+    Attributes
+    ----------
+    turn_most_deg : float
+        Two faces that turn by less than this over their common side belong to the same facet.
+    faces_least : int
+        A facet of fewer faces is not split. On a curved surface two faces can lie in a plane by
+        chance, and the middle of a chord is not on the surface.
+    rounds : int
+        In each round, sides that are too long are halved.
+    growth_most, vertices_enough : int
+        No round begins with more vertices than this many times the given ones, and this many.
     """
 
     turn_most_deg: float = 0.02
@@ -37,7 +39,7 @@ SETTINGS = RefinementSettings()
 
 
 def with_flat_facets_split(vertices: Floats, faces: Ints, longest: float) -> tuple[Floats, Ints]:
-    """Split sides longer than ``longest`` that lie inside flat facets.
+    """The mesh with the sides longer than ``longest`` split where they lie inside flat facets.
 
     Parameters
     ----------
@@ -50,9 +52,9 @@ def with_flat_facets_split(vertices: Floats, faces: Ints, longest: float) -> tup
     Returns
     -------
     vertices : (k, 3) float64
-        The given ones first, then mid-points. No point of the surface moves.
+        The given ones first, then the middles of sides. No point of the surface moves.
     faces : (l, 3) int64
-        Neighbours share every new vertex: a closed mesh stays closed.
+        Neighbours share every new vertex, so a closed mesh stays closed.
 
     Examples
     --------
@@ -79,9 +81,9 @@ def with_flat_facets_split(vertices: Floats, faces: Ints, longest: float) -> tup
 
 
 def _some_to_split(vertices: Floats, faces: Ints, longest: float) -> bool:
-    """Whether a side longer than ``longest`` lies inside a facet: mostly none does, and fast.
+    """Whether any side longer than ``longest`` lies inside a facet; on most meshes none does.
 
-    Where two faces lie in one plane by chance, the rings around them hold no facet.
+    Where two faces lie in a plane by chance, the rings around them hold no facet.
     """
     corners = [np.take(vertices[:, axis], faces) for axis in range(3)]
     square = sum(((x[:, [1, 2, 0]] - x) ** 2 for x in corners), start=np.zeros(faces.shape))
@@ -107,7 +109,7 @@ def _turn_little(normals: Floats, others: Floats) -> Bools:
 def _sides(vertices: Floats, faces: Ints, least: int) -> tuple[Ints, Ints, Bools]:
     """The side's number of each half-edge (m, 3), each side's ends (k, 2), and whether it is flat.
 
-    Flat is a side inside a facet of at least ``least`` faces.
+    A side is flat where it lies inside a facet of at least ``least`` faces.
     """
     ends = half_edges(faces)
     order, ordered = sorted_keys(ends.min(axis=1) * len(vertices) + ends.max(axis=1))
@@ -125,9 +127,9 @@ def _sides(vertices: Floats, faces: Ints, least: int) -> tuple[Ints, Ints, Bools
 
 
 def _split(vertices: Floats, faces: Ints, middle: Ints) -> Ints:
-    """The faces with the new vertices (m, 3) in the middle of their sides; -1 is a whole side."""
+    """The faces, cut at the new vertices (m, 3) in the middle of sides; -1 is a whole side."""
     count = (middle >= 0).sum(axis=1)
-    # Turn each face so that with one split side it comes first, with two the whole one comes last.
+    # Turn each face: a lone split side comes first, a lone whole side comes last.
     lone = np.where(count[:, None] == 1, middle >= 0, middle < 0)
     turn = np.argmax(lone, axis=1) + (count == 2)
     places = (turn[:, None] + np.arange(3)) % 3
@@ -147,6 +149,6 @@ def _split(vertices: Floats, faces: Ints, middle: Ints) -> Ints:
     return np.concatenate(pieces)
 
 
-def _distance(vertices: Floats, one: Ints, other: Ints) -> Floats:
-    distance: Floats = np.linalg.norm(vertices[one] - vertices[other], axis=1)
+def _distance(vertices: Floats, start: Ints, end: Ints) -> Floats:
+    distance: Floats = np.linalg.norm(vertices[start] - vertices[end], axis=1)
     return distance

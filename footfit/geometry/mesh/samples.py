@@ -1,4 +1,4 @@
-"""Points spread over a surface: for fitting (few, even) and for integrals (many, exact areas)."""
+"""Points on a surface: a few evenly spread ones for fitting, and many with areas for integrals."""
 
 from __future__ import annotations
 
@@ -10,17 +10,17 @@ import numpy as np
 from footfit.geometry.mesh.surface import area_vectors, unit, vertex_sums
 from footfit.geometry.numeric.arrays import Floats, Ints
 
-# The plastic number's fractions: the R2 sequence fills the unit square evenly and needs no seed.
+# Fractions of the plastic number: the R2 sequence fills the unit square evenly, without a seed.
 _R2 = np.array([0.7548776662466927, 0.5698402909980532])
-# A triangle turned farther than this against its surroundings lies at a crease, not in noise.
+# A triangle that is turned farther than this from its surroundings lies at a crease.
 CREASE_COSINE = 0.85
-# Of the edge that quadrature allows: larger triangles are hardly tilted by noise.
+# A share of the edge that quadrature allows: noise hardly tilts larger triangles.
 CALMED_EDGE = 0.4
 
 
 @dataclass(frozen=True, slots=True)
 class SurfaceSample:
-    """Points (k, 3) with unit outward normals (k, 3) and the area (k,) each stands for."""
+    """Points (k, 3) with unit outward normals (k, 3) and the area (k,) that each stands for."""
 
     points: Floats
     normals: Floats
@@ -28,9 +28,9 @@ class SurfaceSample:
 
 
 def even_sample(vertices: Floats, faces: Ints, count: int) -> SurfaceSample:
-    """``count`` points spread by area over the surface, the same for the same mesh.
+    """``count`` points spread over the surface by area; the same mesh gives the same points.
 
-    Normals are smooth: interpolated from the vertices', so that a scanner's noise is averaged.
+    The normals are interpolated from those at the vertices, which averages a scanner's noise.
     """
     vectors = area_vectors(vertices, faces)
     areas = np.sqrt(np.einsum("ij,ij->i", vectors, vectors))
@@ -50,9 +50,9 @@ def even_sample(vertices: Floats, faces: Ints, count: int) -> SurfaceSample:
 
 
 def farthest_points(points: Floats, count: int) -> Ints:
-    """Indices of ``count`` points, each the farthest from those before it.
+    """The indices of ``count`` points, each the farthest from those before it.
 
-    The first is the one farthest from the mean. (n, 3) -> (min(count, n),).
+    The first is the point farthest from the mean. (n, 3) -> (min(count, n),).
     """
     count = min(count, len(points))
     chosen = np.empty(count, dtype=np.int64)
@@ -67,10 +67,10 @@ def farthest_points(points: Floats, count: int) -> Ints:
 
 
 def quadrature(vertices: Floats, faces: Ints, edge: float, rounds: int = 5) -> SurfaceSample:
-    """One point per triangle, after triangles with an edge longer than ``edge`` are quartered.
+    """A point for each triangle, after triangles with an edge longer than ``edge`` are cut in four.
 
-    So that an integral over a coarse mesh or over a big flat facet is as good as over a fine one;
-    ``rounds`` bounds the splitting.
+    So an integral over a coarse mesh, or over a big flat facet, is as exact as over a fine mesh. A
+    triangle is cut ``rounds`` times at most.
     """
     corners = vertices[faces]
     longest = _longest_sides(corners)
@@ -127,7 +127,7 @@ def short_triangles(corners: Floats, longest: float, rounds: int) -> tuple[Float
 
 
 def _quartered(corners: Floats) -> Floats:
-    """The four triangles (4 k, 3, 3) that the middles of the sides cut out of each, k of a kind."""
+    """Each triangle (k, 3, 3) cut in four at the middles of its sides, (4 k, 3, 3)."""
     middles = 0.5 * (corners + corners[:, [1, 2, 0]])
     a, b, c = (corners[:, i] for i in range(3))
     ab, bc, ca = (middles[:, i] for i in range(3))
@@ -136,9 +136,10 @@ def _quartered(corners: Floats) -> Floats:
 
 
 def gathered_sample(sample: SurfaceSample, edge: float) -> SurfaceSample:
-    """One point for those in a cube of ``edge`` that face alike: their mean, their area together.
+    """A sample with a single point for those in a cube of ``edge`` that face the same way.
 
-    Area and first moments stay as they are; the order of the points does not matter.
+    It lies at their mean and stands for all their area. The whole area and the first moments do
+    not change, and the order of the points does not matter.
     """
     cells = np.floor(sample.points / edge).astype(np.int64)
     cells -= cells.min(axis=0)
@@ -156,11 +157,11 @@ def gathered_sample(sample: SurfaceSample, edge: float) -> SurfaceSample:
 
 
 def calm_vectors(vectors: Floats, faces: Ints, n_vertices: int) -> Floats:
-    """Area vectors (m, 3) laid along the mean normal of their surroundings, creases left alone.
+    """Area vectors (m, 3), projected on the mean normal of their surroundings except at creases.
 
-    Noise tilts triangles and so enlarges their areas, the more the smaller they are: a finely
-    meshed toe outweighs the heel. Projected, they lose that: with 0.3 mm of noise the frame's
-    worst turn over 45 cases fell from .40 to .24 deg.
+    Noise tilts triangles and so enlarges their areas, the more the smaller they are. So a finely
+    meshed toe outweighs the heel. The projection removes this: with 0.3 mm of noise, the worst turn
+    of the frame in 45 cases fell from .40 to .24 deg.
     """
     around = unit(vertex_sums(vectors, faces, n_vertices))
     normals = unit(around[faces[:, 0]] + around[faces[:, 1]] + around[faces[:, 2]])

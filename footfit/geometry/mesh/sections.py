@@ -1,8 +1,8 @@
 """Exact plane sections of a triangle mesh, many planes at a time.
 
 A section is the set of segments in which a plane cuts the faces. It does not depend on where the
-vertices lie on a flat facet, so that everything measured on sections is the same on a subdivided
-mesh, and a sole of a few big facets is measured as well as a fine one.
+vertices lie on a flat facet. So a measure taken on sections is the same on a subdivided mesh, and
+a sole of a few big facets is measured as well as a fine sole.
 """
 
 from __future__ import annotations
@@ -14,8 +14,7 @@ import numpy as np
 
 from footfit.geometry.numeric.arrays import Bools, Floats, Ints
 
-# Of three corners on two sides of a plane, the one that is alone; the index is the number whose
-# bit i says that corner i is above.
+# The corner that is alone on its side of a plane. Bit i of the index says that corner i is above.
 _LONE_CORNER = np.array([0, 0, 1, 2, 2, 1, 0, 0])
 
 
@@ -23,9 +22,9 @@ _LONE_CORNER = np.array([0, 0, 1, 2, 2, 1, 0, 0])
 class Planes:
     """A family of planes that do not meet inside the mesh, in ascending order.
 
-    ``levels`` (k,) ascending: plane i passes between the vertices whose value is at most
-    ``levels[i]`` and those whose value is more. ``origins`` (k, 3) on the planes, ``normals``
-    (k, 3) of unit length and towards ascending levels.
+    Plane i passes between the vertices whose value is at most ``levels[i]`` and those whose value
+    is more; ``levels`` (k,) ascend. ``origins`` (k, 3) lie on the planes. ``normals`` (k, 3) have
+    unit length and look towards higher levels.
     """
 
     levels: Floats
@@ -35,9 +34,10 @@ class Planes:
 
 @dataclass(frozen=True, slots=True)
 class Segments:
-    """Where planes cut faces: ``points`` (m, 2, 3), ordered by ``plane`` (m,), with ``face`` (m,).
+    """Where planes cut faces: the segments' ends ``points`` (m, 2, 3), ordered by ``plane`` (m,).
 
-    ``planes`` is the number of planes of the family; some may cut nothing.
+    ``face`` (m,) is the face of each. ``planes`` is the number of planes in the family, of which
+    some may cut nothing.
     """
 
     planes: int
@@ -72,15 +72,15 @@ def plane_sections(vertices: Floats, faces: Ints, values: Floats, planes: Planes
     vertices : (n, 3)
     faces : (m, 3)
     values : (n,)
-        The level of each vertex in the family: a vertex is above plane i where its value is
-        more than ``planes.levels[i]``. For :func:`planes_across` these are the x coordinates.
+        The level of each vertex in the family: a vertex is above plane i if its value is more
+        than ``planes.levels[i]``. For :func:`planes_across` these are the x coordinates.
     planes : Planes
 
     Returns
     -------
     Segments
-        A vertex that lies on a plane counts as below it, so that each crossed face gives one
-        segment and a closed mesh gives closed sections.
+        A vertex on a plane counts as below it. So each crossed face gives a single segment, and a
+        closed mesh gives closed sections.
 
     Examples
     --------
@@ -113,7 +113,7 @@ def sections_across(vertices: Floats, faces: Ints, x: Floats) -> Segments:
 
 def _crossings(corner_values: Floats, levels: Floats) -> tuple[Ints, Ints]:
     """Which plane crosses which face, ordered by plane: both (m,)."""
-    # Column by column: a reduction over an axis of three is five times slower.
+    # Column by column: a reduction over an axis of three takes five times as long.
     a, b, c = corner_values.T
     first = np.searchsorted(levels, np.minimum(np.minimum(a, b), c), side="left")
     last = np.searchsorted(levels, np.maximum(np.maximum(a, b), c), side="left")
@@ -121,7 +121,7 @@ def _crossings(corner_values: Floats, levels: Floats) -> tuple[Ints, Ints]:
     face = np.repeat(np.arange(len(count)), count)
     before = np.cumsum(count) - count
     plane = first[face] + np.arange(len(face)) - before[face]
-    # A 16-bit stable sort is a radix sort: ten times faster here than sorting 64-bit numbers.
+    # NumPy sorts 16-bit numbers by radix, which is ten times as fast here as for 64 bits.
     narrow = plane.astype(np.uint16) if len(levels) < 2**16 else plane
     order = np.argsort(narrow, kind="stable")
     return plane[order], face[order]
@@ -141,7 +141,7 @@ def _crossing_points(
 
 
 def lowest(values: Floats, segments: Segments) -> Floats:
-    """The least of ``values`` (m,) or (m, 2) on each plane, (planes,); NaN where there is none."""
+    """The least of ``values`` (m,) or (m, 2) on each plane, (planes,); NaN where it has none."""
     per_segment = values if values.ndim == 1 else np.minimum(values[:, 0], values[:, 1])
     result = np.full(segments.planes, np.nan)
     if len(per_segment):
@@ -151,26 +151,26 @@ def lowest(values: Floats, segments: Segments) -> Floats:
 
 
 def highest(values: Floats, segments: Segments) -> Floats:
-    """The greatest of ``values`` (m,) or (m, 2) on each plane; NaN where there is none."""
+    """The greatest of ``values`` (m,) or (m, 2) on each plane, (planes,); NaN where it has none."""
     return -lowest(-values, segments)
 
 
 def extremes_below(
     across: Floats, height: Floats, limit: Floats, segments: Segments
 ) -> tuple[Floats, Floats]:
-    """The two extremes of each section's part that is not higher than a limit.
+    """The two extremes of the part of each section that is not higher than a limit.
 
     Parameters
     ----------
     across, height : (m, 2)
         Coordinates in the plane of the segments' two ends.
     limit : (planes,)
-        The height at which each section is cut off; the cut is exact, also inside a segment.
+        The height at which each section is cut off, also inside a segment.
 
     Returns
     -------
     least, most : (planes,)
-        Of ``across``; NaN where nothing is low enough.
+        The extremes of ``across``; NaN where nothing is low enough.
     """
     level = limit[segments.plane][:, None]
     low = height <= level
@@ -189,22 +189,22 @@ def extremes_below(
 def depth_at(
     place: Floats, across: Floats, height: Floats, segments: Segments, counts: Bools | None = None
 ) -> tuple[Floats, Ints]:
-    """The lowest height of each section straight above and below a place on its width.
+    """The lowest height of each section at a place on its width.
 
     Parameters
     ----------
     place : (planes,)
-        Where on the width.
+        The place on the width.
     across, height : (m, 2)
     counts : (m,), optional
-        Which segments to look at; all by default.
+        Which segments count; all by default.
 
     Returns
     -------
     depth : (planes,)
         NaN where the section has nothing there.
     segment : (planes,)
-        The segment in which it was found, -1 where there is none.
+        The segment that has this height, -1 where there is none.
     """
     at = place[segments.plane]
     left, right = across[:, 0], across[:, 1]

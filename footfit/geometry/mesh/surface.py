@@ -1,4 +1,4 @@
-"""Normals, areas and volume of triangle surfaces; counter-clockwise faces look outward.
+"""Normals, areas and angles of triangle surfaces. Faces are counter-clockwise from outside.
 
 ``vertices`` is (n, 3) float64, ``faces`` (m, 3) int64; an area has the coordinates' unit squared.
 """
@@ -11,7 +11,7 @@ from footfit.geometry.numeric.arrays import Floats, Ints
 
 
 def area_vectors(vertices: Floats, faces: Ints) -> Floats:
-    """The faces' normals as long as the faces' areas, (m, 3).
+    """The faces' normals, each as long as the face's area, (m, 3).
 
     Examples
     --------
@@ -23,7 +23,7 @@ def area_vectors(vertices: Floats, faces: Ints) -> Floats:
 
 
 def cross(u: Floats, v: Floats) -> Floats:
-    """The cross products of rows, (k, 3); written out, since np.cross takes three times as long."""
+    """The cross products of rows, (k, 3); three times as fast as np.cross."""
     product = np.empty_like(u)
     product[:, 0] = u[:, 1] * v[:, 2] - u[:, 2] * v[:, 1]
     product[:, 1] = u[:, 2] * v[:, 0] - u[:, 0] * v[:, 2]
@@ -32,7 +32,7 @@ def cross(u: Floats, v: Floats) -> Floats:
 
 
 def unit(vectors: Floats) -> Floats:
-    """Rows brought to length 1; a zero row stays zero. (k, d) in, (k, d) out."""
+    """The rows (k, d) at length 1; a zero row stays zero."""
     length = np.sqrt(np.einsum("ij,ij->i", vectors, vectors))
     units: Floats = vectors / np.where(length > 0.0, length, 1.0)[:, None]
     return units
@@ -51,7 +51,7 @@ def face_areas(vertices: Floats, faces: Ints) -> Floats:
 
 
 def corner_angles(vertices: Floats, faces: Ints) -> Floats:
-    """The angle of each face at each of its corners in radians, (m, 3), by atan2."""
+    """The angle of each face at each of its corners, (m, 3), in radians, by atan2."""
     doubled_area = 2.0 * face_areas(vertices, faces)
     angles = np.empty(faces.shape, dtype=np.float64)
     for corner in range(3):
@@ -63,7 +63,7 @@ def corner_angles(vertices: Floats, faces: Ints) -> Floats:
 
 
 def vertex_sums(values: Floats, faces: Ints, n_vertices: int) -> Floats:
-    """The sum at each vertex of its faces' values: (m,) or (m, d) in, (n,) or (n, d) out."""
+    """The sum of its faces' values at each vertex: (m,) or (m, d) in, (n,) or (n, d) out."""
     columns = values.reshape(len(faces), int(np.prod(values.shape[1:])))
     sums = np.empty((n_vertices, columns.shape[1]), dtype=np.float64)
     corners = faces.ravel()
@@ -75,13 +75,13 @@ def vertex_sums(values: Floats, faces: Ints, n_vertices: int) -> Floats:
 
 
 def vertex_areas(vertices: Floats, faces: Ints) -> Floats:
-    """A third of the area of the faces around each vertex, (n,); they sum to the surface's area."""
+    """A third of the area of the faces around each vertex, (n,); the sum is the surface's area."""
     return vertex_sums(face_areas(vertices, faces), faces, len(vertices)) / 3.0
 
 
 def vertex_normals(vertices: Floats, faces: Ints) -> Floats:
     """Unit normals at the vertices, (n, 3): the mean of the faces' normals, weighted by area.
 
-    Zero where a vertex has no face, or faces that cancel.
+    Zero where a vertex has no face, or where its faces cancel.
     """
     return unit(vertex_sums(area_vectors(vertices, faces), faces, len(vertices)))

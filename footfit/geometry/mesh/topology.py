@@ -1,4 +1,4 @@
-"""Which vertices, edges and faces of a triangle mesh belong together; NumPy only.
+"""Which vertices, edges and faces of a triangle mesh belong together.
 
 Faces are (m, 3) int64 indices into ``n`` vertices. Nothing here looks at coordinates, and nothing
 drops a face.
@@ -90,9 +90,9 @@ def boundary_vertices(faces: Ints, n_vertices: int) -> Bools:
 def boundary_loops(faces: Ints) -> list[Ints]:
     """The boundary as closed loops of vertices, the last joined to the first.
 
-    Where the mesh is wound consistently a loop has the surface on its left, seen from outside.
-    Where loops touch in a vertex they are split there, so that no loop meets a vertex twice. On
-    inconsistently wound faces the pieces that do not close are returned as they are.
+    Seen from outside, a loop of consistently wound faces has the surface on its left. Loops that
+    touch in a vertex are split there, so that no loop meets a vertex twice. Where the winding is
+    not consistent, some pieces do not close; they are returned as they are.
 
     Examples
     --------
@@ -110,7 +110,7 @@ def boundary_loops(faces: Ints) -> list[Ints]:
 
 
 def _loops_from(start: int, successors: dict[int, list[int]]) -> list[Ints]:
-    """Walk from ``start`` until no edge is left, cutting off a loop at each vertex met again."""
+    """Walk from ``start`` until no edge is left; each vertex met again closes a loop."""
     loops: list[Ints] = []
     path, place = [start], {start: 0}
     while successors.get(path[-1]):
@@ -161,10 +161,11 @@ def face_components(faces: Ints, n_vertices: int) -> Ints:
 
 
 def lowest_connected(groups: Ints, n: int) -> Ints:
-    """The lowest index connected with each of ``n``, where each row of ``groups`` is connected.
+    """The lowest index that each of ``n`` is connected with, (n,).
 
-    Hooking and pointer jumping: every row hangs its members' parents under the lowest one, then
-    each jumps to its grandparent; the rounds needed grow with the logarithm of the size.
+    The members of each row of ``groups`` (k, d) are connected. In every round, each row gives its
+    members' parents the lowest of them as parent, and each then takes its grandparent as parent.
+    The number of rounds grows with the logarithm of ``n``.
     """
     parent = np.arange(n, dtype=np.int64)
     while True:
@@ -185,11 +186,10 @@ def is_closed(faces: Ints) -> bool:
 
 
 def consistent_faces(faces: Ints) -> Ints:
-    """Turn faces over until neighbours agree, (m, 3) int64; as few as possible are turned.
+    """The faces, with as few as possible turned over so that neighbours agree, (m, 3) int64.
 
-    Neighbours are two faces that alone share an edge. Each piece follows its own majority; a
-    piece that has no two sides (a Moebius band) is left as it is. Which side is outside is not
-    decided here.
+    Neighbours are two faces that alone share an edge. Each piece follows its own majority. A piece
+    with only one side (a Moebius band) stays as it is. Which side is outside is not decided here.
 
     Examples
     --------
@@ -199,8 +199,8 @@ def consistent_faces(faces: Ints) -> Ints:
     pairs, disagree = _shared_edges(faces)
     if not disagree.any():
         return faces.copy()
-    # Two copies of each face, as it is (2 f) and turned over (2 f + 1); neighbours' copies that
-    # agree are connected, so that each two-sided piece falls into its two windings.
+    # Each face has two copies: as it is (2 f) and turned over (2 f + 1). Copies of neighbours that
+    # agree are connected, so a piece with two sides falls into its two windings.
     twisted = disagree.astype(np.int64)
     links = np.concatenate(
         [
@@ -220,14 +220,14 @@ def consistent_faces(faces: Ints) -> Ints:
 
 
 def _shared_edges(faces: Ints) -> tuple[Ints, Bools]:
-    """Pairs of faces (k, 2) that alone share an edge, and whether they run it the same way."""
+    """Pairs of faces (k, 2) that alone share an edge, and whether both run it the same way."""
     if len(faces) == 0:
         return np.empty((0, 2), dtype=np.int64), np.empty(0, dtype=bool)
     order, starts, counts = _edge_groups(faces)
     first = starts[counts == 2]
-    one, other = order[first], order[first + 1]
-    origin = half_edges(faces)[:, 0]
-    return np.stack([one // 3, other // 3], axis=1), origin[one] == origin[other]
+    pairs = np.stack([order[first], order[first + 1]], axis=1)
+    begins = half_edges(faces)[:, 0][pairs]
+    return pairs // 3, begins[:, 0] == begins[:, 1]
 
 
 def closed_fan_vertices(faces: Ints, n_vertices: int) -> Bools:
@@ -240,13 +240,13 @@ def closed_fan_vertices(faces: Ints, n_vertices: int) -> Bools:
         return np.zeros(n_vertices, dtype=bool)
     order, starts, counts = _edge_groups(faces)
     ends = half_edges(faces)
-    one, other = order[starts], order[np.minimum(starts + 1, len(order) - 1)]
-    regular = (counts == 2) & (ends[one, 0] == ends[other, 1])
+    here, beyond = order[starts], order[np.minimum(starts + 1, len(order) - 1)]
+    regular = (counts == 2) & (ends[here, 0] == ends[beyond, 1])
     closed = np.bincount(faces.ravel(), minlength=n_vertices) > 0
-    closed[ends[one[~regular]]] = False
-    # A half-edge's number is that of the corner it starts from; a fan is corners joined over edges.
-    one, other = one[regular], other[regular]
-    joined = np.stack([np.append(one, other), _next_corner(np.append(other, one))], axis=1)
+    closed[ends[here[~regular]]] = False
+    # A half-edge has the number of the corner where it starts; a fan is corners joined over edges.
+    here, beyond = here[regular], beyond[regular]
+    joined = np.stack([np.append(here, beyond), _next_corner(np.append(beyond, here))], axis=1)
     roots = np.unique(lowest_connected(joined, faces.size))
     fans = np.bincount(faces.ravel()[roots], minlength=n_vertices)
     single: Bools = closed & (fans == 1)

@@ -1,4 +1,4 @@
-"""Which vertices of a mesh are the same, and which are used.
+"""Which vertices of a mesh are equal or nearly equal, and which are used.
 
 ``vertices`` is (n, 3) float64 in any unit, ``faces`` (m, 3) int64.
 """
@@ -29,11 +29,11 @@ def welded_vertices(vertices: Floats, faces: Ints) -> tuple[Floats, Ints, Ints]:
     Returns
     -------
     vertices : (k, 3) float64
-        In the order of their first occurrence; unreferenced ones are kept.
+        In the order of their first occurrence; those that no face uses are kept.
     faces : (m, 3) int64
-        The same faces in the same order; one that has collapsed is kept too.
+        The same faces in the same order; collapsed faces are kept.
     source_to_vertex : (n,) int64
-        The merged vertex of each vertex given.
+        The merged vertex of each given vertex.
 
     Examples
     --------
@@ -57,10 +57,11 @@ def welded_vertices(vertices: Floats, faces: Ints) -> tuple[Floats, Ints, Ints]:
 
 
 def _runs_of_equals(points: Floats) -> tuple[Ints, Bools]:
-    """Return an order with equal points side by side, and where in it a new point starts.
+    """An order with equal points side by side, and where in it a new point starts.
 
-    Sorting one word that holds a hash and the index is several times as fast as a lexical sort
-    of three columns; where two different points share a hash, the lexical sort is done after all.
+    Each point gets a word that holds a hash and its index. To sort those words is several times as
+    fast as a lexical sort of three columns. Where two different points share a hash, the lexical
+    sort is done instead.
     """
     bits = points.view(np.uint64)
     hashed = np.zeros(len(points), dtype=np.uint64)
@@ -91,9 +92,9 @@ def _distinct(ordered: NDArray[np.uint64]) -> int:
 def nearby_vertices(points: Floats, near: float) -> Ints:
     """For each point (k, 3) the lowest index of its cluster, (k,).
 
-    Points closer than ``near`` along every axis are in one cluster. They share a cell in one of
-    four grids that are shifted against each other by a quarter of a cell: each axis can part them
-    in one grid only.
+    Points closer than ``near`` along every axis are in the same cluster. Four grids are shifted
+    against each other by a quarter of a cell. Each axis can separate such points in one grid only,
+    so they share a cell in at least one grid.
 
     Examples
     --------
