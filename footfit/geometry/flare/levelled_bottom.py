@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -18,17 +19,17 @@ from footfit.geometry.mesh.surface import area_vectors
 from footfit.geometry.mesh.welding import without_unused_vertices
 from footfit.geometry.numeric.arrays import Bools, Floats, Ints
 
-# What may be left out without any value changing (a test holds it); the rest is in the definition.
+# Faces that these leave out change no value, as a test checks; the rest is in the definition.
 _NEIGHBOURHOOD = 0.10  # a normal section reaches less than this forward and backward along x
 _LIFT = 0.02  # the lowest of a normal section lies higher than its neighbours across X by less
 
 
 @dataclass(frozen=True, slots=True)
 class BottomShape:
-    """The faces that a band may touch, over the length, the rearmost point at x = 0.
+    """The faces that a band may touch, over the length, with the rearmost point at x = 0.
 
-    ``tips`` (t, 3, 3) are the triangles where the line may leave the shape, low enough to be no
-    leg; ``origin_mm`` and ``length_mm`` lead back to millimetres.
+    ``tips`` (t, 3, 3) are the triangles where the line may leave the shape, without the leg.
+    ``origin_mm`` and ``length_mm`` lead back to millimetres.
     """
 
     vertices: Floats
@@ -39,7 +40,7 @@ class BottomShape:
 
 
 def low_length(vertices: Floats, height: float, rounds: int = 3) -> tuple[float, float]:
-    """The rearmost x and the extent along x of what lies lower than ``height`` times it.
+    """The rearmost x and the extent along x of the points lower than ``height`` times that extent.
 
     Examples
     --------
@@ -69,9 +70,10 @@ def bottom_shape(vertices_mm: Floats, faces: Ints, definition: FlareDefinition) 
     vertices = (vertices_mm - np.array([origin, 0.0, 0.0])) / length
     x = section_places(definition)
     across = sections_across(vertices, faces, x)
-    stands = _some(across, _standing(x, definition))
+    windows = [(x >= low) & (x <= high) for low, high in (definition.seat, definition.tread)]
+    stands = _some(across, windows[0] | windows[1])
     down = area_vectors(vertices, faces[stands.face])
-    level = _levelling(down, stands, x, definition)
+    level = _levelling(down, stands, windows, definition)
     vertices, across = vertices @ level, _rolled(across, level)
     ceiling = _highest_near(lowest(across.points[:, :, 2], across), x) + definition.band_height
     low = vertices[:, 2] <= np.interp(vertices[:, 0], x, ceiling) + _LIFT
@@ -86,18 +88,21 @@ def bottom_shape(vertices_mm: Floats, faces: Ints, definition: FlareDefinition) 
     return BottomShape(vertices, faces, tips, origin, length)
 
 
-def _levelling(down: Floats, across: Segments, x: Floats, definition: FlareDefinition) -> Floats:
+def _levelling(
+    down: Floats, across: Segments, windows: Sequence[Bools], definition: FlareDefinition
+) -> Floats:
     """The rotation about X, (3, 3) to multiply rows with, that levels seat and tread across.
 
-    The plane of a whole sole rolls with the arch, by a degree or two on a heeled last; where a
-    shape stands, under the seat and the tread, it is level. A roll shifts the places that the
-    slopes are read at, so that the level one is solved for (secant steps); sections across X
-    roll as they are. ``down`` (m, 3) are the area vectors of the segments' faces.
+    The plane of a whole sole rolls with the arch, by a degree or two on a heeled last. But where a
+    shape stands, under the seat and the tread, it is level. A roll moves the places at which the
+    slopes are read, so the roll is found by secant steps. Sections across X roll without a new cut.
+    ``down`` (m, 3) are the area vectors of the segments' faces; ``windows`` say which sections
+    (planes,) are under the seat and which under the tread.
     """
     roll, before = 0.0, None
     for _ in range(definition.level_rounds):
         rotation = _rolling(roll)
-        slope = _stance(down @ rotation, _rolled(across, rotation), x, definition)
+        slope = _stance(down @ rotation, _rolled(across, rotation), windows, definition)
         if slope is None:
             return np.eye(3)  # no sole to stand on: the frame's own level
         rest = float(np.arctan(slope))
@@ -107,14 +112,6 @@ def _levelling(down: Floats, across: Segments, x: Floats, definition: FlareDefin
         before = (roll, rest)
         roll += rest / float(np.clip(gain, *definition.level_gain))
     return _rolling(roll)
-
-
-def _standing(x: Floats, definition: FlareDefinition) -> Bools:
-    """Which sections (k,) are under the seat or the tread."""
-    under = np.zeros(len(x), dtype=np.bool_)
-    for low, high in (definition.seat, definition.tread):
-        under |= (x >= low) & (x <= high)
-    return under
 
 
 def _rolling(roll: float) -> Floats:
@@ -127,17 +124,18 @@ def _rolled(segments: Segments, rotation: Floats) -> Segments:
     return replace(segments, points=segments.points @ rotation)
 
 
-def _stance(down: Floats, across: Segments, x: Floats, definition: FlareDefinition) -> float | None:
-    """The mean slope across of seat and tread, or None where one of them has no bottom."""
+def _stance(
+    down: Floats, across: Segments, windows: Sequence[Bools], definition: FlareDefinition
+) -> float | None:
+    """The mean slope across of seat and tread, or None if one of them has no bottom."""
     slope = _cross_slopes(down[:, 2] < 0.0, across, definition)
-    slopes = []
-    for low, high in (definition.seat, definition.tread):
-        wanted = slope[(x >= low) & (x <= high)]
-        found = wanted[np.isfinite(wanted)]
-        if len(found) == 0 or len(found) < definition.found_least * len(wanted):
+    medians = []
+    for window in windows:
+        known = slope[window & np.isfinite(slope)]
+        if len(known) == 0 or len(known) < definition.found_least * window.sum():
             return None
-        slopes.append(float(np.median(found)))
-    return float(np.mean(slopes))
+        medians.append(float(np.median(known)))
+    return float(np.mean(medians))
 
 
 def _some(segments: Segments, wanted: Bools) -> Segments:
