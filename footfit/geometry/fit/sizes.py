@@ -41,57 +41,26 @@ class SizeSystem:
     numbers_per_size: float = 1.0
 
 
-def _barleycorns(name: str, title: str, zero: float, adult: float, add: float) -> SizeSystem:
-    """A system of thirds of an inch: size = 3 FL_in - ``zero``; last = foot + 2 sizes."""
-    return SizeSystem(
-        name=name,
-        title=title,
-        step_mm=BARLEYCORN_MM,
-        zero_mm=zero * BARLEYCORN_MM,
-        grid=0.5,
-        child_below=adult,
-        child_add=add,
-        least=adult - 13.0,
-        largest=adult + 15.0,
-        allowance_mm=(2.0 * BARLEYCORN_MM, 2.0 * BARLEYCORN_MM),  # 16.9 mm
-    )
-
-
 _EU_ALLOWANCE_MM = 2.0 * PARIS_POINT_MM  # 13.3: size = 1.5 FL_cm + 2 = 1.5 (last length in cm)
-SYSTEMS: dict[str, SizeSystem] = {
-    system.name: system
-    for system in (
-        SizeSystem(
-            name="eu",
-            title="EU",
-            step_mm=PARIS_POINT_MM,
-            zero_mm=-_EU_ALLOWANCE_MM,
-            grid=1.0,
-            child_below=35.0,
-            child_add=None,
-            least=16.0,
-            largest=52.0,
-            allowance_mm=(_EU_ALLOWANCE_MM, _EU_ALLOWANCE_MM),
-        ),
-        _barleycorns("uk", "UK", zero=23.0, adult=1.0, add=13.0),
-        _barleycorns("us-men", "US men", zero=22.0, adult=1.0, add=13.0),
-        _barleycorns("us-women", "US women", zero=20.5, adult=2.5, add=11.5),
-        _barleycorns("us-women-fia", "US women (FIA)", zero=21.0, adult=2.0, add=12.0),
-        SizeSystem(
-            name="mondopoint",
-            title="Mondopoint",
-            step_mm=1.0,
-            zero_mm=0.0,
-            grid=5.0,
-            child_below=220.0,
-            child_add=None,
-            least=95.0,
-            largest=345.0,
-            allowance_mm=(10.0, 17.0),  # the label is the foot's length; the last's is the maker's
-            numbers_per_size=5.0,
-        ),
-    )
-}
+_TWO_BARLEYCORNS_MM = (2.0 * BARLEYCORN_MM, 2.0 * BARLEYCORN_MM)  # 16.9; a size is 3 FL_in - zero
+# fmt: off
+SYSTEMS: dict[str, SizeSystem] = {system.name: system for system in (
+    # name, title; step and zero in mm; grid; child_below, child_add; least, largest; allowance_mm
+    SizeSystem("eu", "EU", PARIS_POINT_MM, -_EU_ALLOWANCE_MM, 1.0, 35.0, None, 16.0, 52.0,
+               (_EU_ALLOWANCE_MM, _EU_ALLOWANCE_MM)),
+    SizeSystem("uk", "UK", BARLEYCORN_MM, 23.0 * BARLEYCORN_MM, 0.5, 1.0, 13.0, -12.0, 16.0,
+               _TWO_BARLEYCORNS_MM),
+    SizeSystem("us-men", "US men", BARLEYCORN_MM, 22.0 * BARLEYCORN_MM, 0.5, 1.0, 13.0, -12.0, 16.0,
+               _TWO_BARLEYCORNS_MM),
+    SizeSystem("us-women", "US women", BARLEYCORN_MM, 20.5 * BARLEYCORN_MM, 0.5, 2.5, 11.5,
+               -10.5, 17.5, _TWO_BARLEYCORNS_MM),
+    SizeSystem("us-women-fia", "US women (FIA)", BARLEYCORN_MM, 21.0 * BARLEYCORN_MM, 0.5, 2.0,
+               12.0, -11.0, 17.0, _TWO_BARLEYCORNS_MM),
+    SizeSystem("mondopoint", "Mondopoint", 1.0, 0.0, 5.0, 220.0, None, 95.0, 345.0,
+               (10.0, 17.0),  # the label is the foot's length; the last's is the maker's
+               numbers_per_size=5.0),
+)}
+# fmt: on
 ALIASES = {"us": "us-men", "fr": "eu", "paris": "eu", "mondo": "mondopoint", "gb": "uk"}
 
 

@@ -9,35 +9,9 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass
 
-from footfit.geometry.measures.girths import (
-    ball_girth,
-    instep_girth,
-    long_heel_girth,
-    short_heel_girth,
-    waist_girth,
-)
-from footfit.geometry.measures.heights import (
-    arch_height,
-    heel_height,
-    instep_height,
-    toe_height,
-    toe_spring,
-)
+from footfit.geometry.measures import girths, heights, lengths, widths
 from footfit.geometry.measures.landmarks import Shape
-from footfit.geometry.measures.lengths import (
-    ball_length,
-    functional_length,
-    length,
-    tape_length,
-)
 from footfit.geometry.measures.measure_value import MeasureValue
-from footfit.geometry.measures.widths import (
-    ball_width,
-    ball_width_orthogonal,
-    bottom_width_ball,
-    bottom_width_heel,
-    heel_width,
-)
 
 BOTH, LAST = ("foot", "last"), ("last",)
 
@@ -46,8 +20,8 @@ BOTH, LAST = ("foot", "last"), ("last",)
 class MeasureDefinition:
     """An entry of the table; all measures are in mm.
 
-    ``version`` counts the changes of the definition, and ``definition`` says it in a line. ``sd``
-    is the repeatability of the whole way from a scan, in any pose, with noise or ripple of 0.3 mm,
+    ``value_of`` is the function whose docstring is the definition, and ``version`` counts the
+    changes of that definition. ``sd`` is the repeatability of the whole way from a scan, in any pose, with noise or ripple of 0.3 mm,
     or with a quarter of the faces (benchmarks/measures.py). ``usual_mm`` in mm, or ``usual_share``
     over the length, is the range of the feet of a survey's 6,068 people [ansur2].
     """
@@ -55,7 +29,6 @@ class MeasureDefinition:
     value_of: Callable[[Shape], MeasureValue]
     version: int
     sd: float
-    definition: str
     kinds: tuple[str, ...] = BOTH
     usual_mm: tuple[float, float] | None = None
     usual_share: tuple[float, float] | None = None
@@ -71,40 +44,27 @@ class MeasureDefinition:
         return f"{self.name}/{self.version}"
 
 
-# fmt: off
 MEASURES: tuple[MeasureDefinition, ...] = (
-    MeasureDefinition(length, 2, 0.25, "pternion to the foremost point, along X",
-                      usual_mm=(200.0, 310.0)),
-    MeasureDefinition(functional_length, 1, 0.25, "pternion to the toe farthest from it, in plan"),
-    MeasureDefinition(ball_length, 1, 0.45, "pternion to MT1, along X", usual_share=(0.66, 0.80)),
-    MeasureDefinition(ball_width, 2, 0.3, "MT1 to MT5, in plan (oblique)",
-                      usual_share=(0.31, 0.46)),
-    MeasureDefinition(ball_width_orthogonal, 1, 0.25,
-                      "between the tangents along X at the forefoot", usual_share=(0.31, 0.46)),
-    MeasureDefinition(ball_girth, 1, 0.6, "around the upright plane through MT1 and MT5",
-                      usual_share=(0.77, 1.10)),
-    MeasureDefinition(waist_girth, 1, 0.35, "around the section half-way from ball to instep"),
-    MeasureDefinition(instep_girth, 1, 0.45, "around the section at half the length"),
-    MeasureDefinition(long_heel_girth, 1, 0.4, "around the heel's base and the instep"),
-    MeasureDefinition(short_heel_girth, 1, 0.6, "the least girth around the heel's base and "
-                      "the ankle's bend, or a last's cone",
-                      usual_share=(1.12, 1.47)),
-    MeasureDefinition(heel_width, 2, 0.2, "across the heel at 1/6 of the length",
-                      usual_share=(0.19, 0.35)),
-    MeasureDefinition(arch_height, 1, 0.2, "the underside's greatest height along the inner arch"),
-    MeasureDefinition(instep_height, 1, 0.3, "the top of the section at half the length"),
-    MeasureDefinition(toe_height, 1, 0.3,
-                      "lowest to highest point of the section at .92 of the length"),
-    MeasureDefinition(toe_spring, 2, 0.3, "the underside at .94 of the length, over the ground"),
-    MeasureDefinition(heel_height, 2, 0.6,
-                      "how high a last's heel stands when its tread lies level"),
-    MeasureDefinition(bottom_width_ball, 1, 0.4,
-                      "feather edge to feather edge at .66 of the length", LAST),
-    MeasureDefinition(bottom_width_heel, 1, 0.2,
-                      "feather edge to feather edge at 1/6 of the length", LAST),
-    MeasureDefinition(tape_length, 1, 0.25, "along the middle of the bottom", LAST),
+    MeasureDefinition(lengths.length, 2, 0.25, usual_mm=(200.0, 310.0)),
+    MeasureDefinition(lengths.functional_length, 1, 0.25),
+    MeasureDefinition(lengths.ball_length, 1, 0.45, usual_share=(0.66, 0.80)),
+    MeasureDefinition(widths.ball_width, 2, 0.3, usual_share=(0.31, 0.46)),
+    MeasureDefinition(widths.ball_width_orthogonal, 1, 0.25, usual_share=(0.31, 0.46)),
+    MeasureDefinition(girths.ball_girth, 1, 0.6, usual_share=(0.77, 1.10)),
+    MeasureDefinition(girths.waist_girth, 1, 0.35),
+    MeasureDefinition(girths.instep_girth, 1, 0.45),
+    MeasureDefinition(girths.long_heel_girth, 1, 0.4),
+    MeasureDefinition(girths.short_heel_girth, 1, 0.6, usual_share=(1.12, 1.47)),
+    MeasureDefinition(widths.heel_width, 2, 0.2, usual_share=(0.19, 0.35)),
+    MeasureDefinition(heights.arch_height, 1, 0.2),
+    MeasureDefinition(heights.instep_height, 1, 0.3),
+    MeasureDefinition(heights.toe_height, 1, 0.3),
+    MeasureDefinition(heights.toe_spring, 2, 0.3),
+    MeasureDefinition(heights.heel_height, 2, 0.6),
+    MeasureDefinition(widths.bottom_width_ball, 1, 0.4, LAST),
+    MeasureDefinition(widths.bottom_width_heel, 1, 0.2, LAST),
+    MeasureDefinition(lengths.tape_length, 1, 0.25, LAST),
 )
-# fmt: on
 
 
 def measure_named(name: str) -> MeasureDefinition:
