@@ -20,9 +20,9 @@ BOTH, LAST = ("foot", "last"), ("last",)
 class MeasureDefinition:
     """An entry of the table; all measures are in mm.
 
-    ``value_of`` is the function whose docstring is the definition, and ``version`` counts the
-    changes of that definition. ``sd`` is the repeatability of the whole way from a scan, in any pose, with noise or ripple of 0.3 mm,
-    or with a quarter of the faces (benchmarks/measures.py). ``usual_mm`` in mm, or ``usual_share``
+    The docstring of ``value_of`` is the definition, and ``version`` counts its changes. ``sd`` is
+    the repeatability of the whole way from a scan, in any pose, with noise or ripple of 0.3 mm, or
+    with a quarter of the faces (benchmarks/measures.py). ``usual_mm`` in mm, or ``usual_share``
     over the length, is the range of the feet of a survey's 6,068 people [ansur2].
     """
 
