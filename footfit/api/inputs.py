@@ -4,14 +4,17 @@ from __future__ import annotations
 
 import os
 from collections.abc import Mapping
-from typing import Any, Literal, TypedDict
+from typing import TYPE_CHECKING, Any, Literal, TypedDict
 
 from footfit.pipeline.batch.sources import ReadingOptions, Source, mesh_sources
-from footfit.results import AlignedScan, Profiled, SearchBy
+from footfit.results import AlignedScan, Profiled, Scan, SearchBy
+
+if TYPE_CHECKING:
+    from numpy.typing import ArrayLike
 
 FilePath = str | os.PathLike[str]
-Mesh = FilePath | bytes | Source
-"""A file, its bytes, or one of `sources`."""
+Mesh = FilePath | bytes | tuple["ArrayLike", "ArrayLike"] | Scan | Source
+"""A file, its bytes, vertices (n, 3) with faces (m, 3), what `read` gave, or one of `sources`."""
 Shape = Mesh | AlignedScan | Profiled
 """A mesh of one foot or last, or what `align` or `flare` gave for it."""
 Feet = Shape | list[Shape] | list[str] | list[Source]
@@ -82,10 +85,25 @@ def sources(meshes: Meshes, *, split: bool = False, **reading: Any) -> list[Sour
 
 
 def source_of(mesh: Mesh, scale: Mapping[str, Any]) -> Source:
-    """A mesh as a pipeline takes it."""
+    """A mesh as a pipeline takes it; files and bytes are read later.
+
+    Raises
+    ------
+    InputError
+        Arrays that are no mesh, or whose unit is not known.
+    """
     match mesh:
         case Source():
             return mesh
+        case Scan():
+            return Source(mesh.info.path, scan=mesh)
+        case tuple():
+            from footfit.meshes.read import array_mesh
+            from footfit.pipeline.scan.cleaning import scan_of
+
+            options = reading_options(scale)
+            file = array_mesh(*mesh)
+            return Source(None, scan=scan_of(file, None, options.units, options.known_length_mm))
         case bytes():
             return Source(None, mesh, scale.get("format"))
     return Source(os.fspath(mesh), None, scale.get("format"))

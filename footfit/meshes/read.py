@@ -4,11 +4,19 @@ from __future__ import annotations
 
 import hashlib
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
+import numpy as np
+
+from footfit.errors import DamagedMesh
 from footfit.meshes.clean.triangles import WeldedMesh, welded_mesh
 from footfit.meshes.formats.known_formats import raw_mesh
+from footfit.meshes.formats.raw import RawMesh, checked_mesh
 from footfit.meshes.read_limits import LIMITS, Limits
 from footfit.results import Notice
+
+if TYPE_CHECKING:
+    from numpy.typing import ArrayLike
 
 
 @dataclass(frozen=True, slots=True)
@@ -54,3 +62,31 @@ def file_mesh(
     name, raw = raw_mesh(data, path, format, limits)
     sha256 = hashlib.sha256(data).hexdigest()
     return FileMesh(name, sha256, raw.unit, welded_mesh(raw.vertices, raw.faces), raw.warnings)
+
+
+def array_mesh(vertices: ArrayLike, faces: ArrayLike, limits: Limits = LIMITS) -> FileMesh:
+    """The mesh in two arrays, as if a file without a unit had held them.
+
+    Parameters
+    ----------
+    vertices : (n, 3) numbers
+    faces : (m, 3) integers
+        Rows of ``vertices``.
+    limits : Limits
+
+    Raises
+    ------
+    InputError
+        DamagedMesh, EmptyMesh or TooLarge.
+    """
+    try:
+        points, rows = np.asarray(vertices, dtype=np.float64), np.asarray(faces)
+    except (TypeError, ValueError) as error:
+        raise DamagedMesh(f"these are no arrays of numbers: {error}") from error
+    if points.ndim != 2 or points.shape[1] != 3:
+        raise DamagedMesh(f"vertices must be (n, 3) numbers; these are {points.shape}")
+    if rows.ndim != 2 or rows.shape[1] != 3 or not np.issubdtype(rows.dtype, np.integer):
+        raise DamagedMesh(f"faces must be (m, 3) integers; these are {rows.shape} {rows.dtype}")
+    raw = checked_mesh(RawMesh(points, rows.astype(np.int64)), limits)
+    sha256 = hashlib.sha256(raw.vertices.tobytes() + raw.faces.tobytes()).hexdigest()
+    return FileMesh("arrays", sha256, None, welded_mesh(raw.vertices, raw.faces), ())

@@ -14,7 +14,6 @@ from footfit.meshes.units import check_unit_options
 from footfit.pipeline.batch.sources import ReadingOptions, Source
 from footfit.pipeline.scan.align import aligned_scan
 from footfit.pipeline.scan.cleaning import scan_of
-from footfit.pipeline.scan.curvature import surface_curvature
 from footfit.pipeline.scan.flare import profiled
 from footfit.pipeline.scan.preparation import prepared_scan
 from footfit.results import (
@@ -24,7 +23,6 @@ from footfit.results import (
     Profiled,
     Reference,
     Scan,
-    SurfaceCurvature,
 )
 
 AS_FOUND = ReadingOptions()
@@ -89,13 +87,3 @@ def aligned_source(
 def profiled_source(source: Source, reading: ReadingOptions) -> Profiled:
     """Read, align, measure and profile one mesh."""
     return profiled(aligned_source(source, reading))
-
-
-def curvature_source(
-    source: Source, reading: ReadingOptions, radius_mm: float | None, output: str | None = None
-) -> SurfaceCurvature:
-    """Read one mesh and estimate its curvature at a scale; None is the default scale.
-
-    ``output`` is the name of the file that will hold the values, for the document.
-    """
-    return replace(surface_curvature(read(source, reading), radius_mm), output=output)
