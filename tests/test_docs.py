@@ -56,6 +56,14 @@ def test_the_commands_of_readme_run(title: str, shop: Path, stocked: Path) -> No
     assert "Traceback" not in done.stderr
 
 
+def test_the_python_of_readme_runs(shop: Path, stocked: Path, monkeypatch, capsys) -> None:
+    shutil.copy(stocked, shop / "home.footfit")
+    monkeypatch.chdir(shop)
+    (block,) = re.findall(r"```python\n(.*?)```", README, re.S)
+    exec(block, {})
+    assert re.fullmatch(r"\d+ [\w-]+ .* toe room .*\n", capsys.readouterr().out)
+
+
 def test_readme_names_every_command() -> None:
     table = README.split("## The commands", 1)[1]
     assert set(re.findall(r"`([a-z]+(?:-[a-z]+)?)`", table)) >= {name for name, _, _ in COMMANDS}
