@@ -235,7 +235,9 @@ def test_nothing_fits_is_an_answer() -> None:
     text = Page(match_report(nothing)).text()
     assert "No last fits." in text
     near = replace(nothing, nearest=answers.match().candidates[:3])
-    assert "what they miss by" in Page(match_report(near)).text()
+    words = Page(match_report(near)).text()
+    assert "what they miss by" in words
+    assert "anna.stl with the nearest lasts: derby-42, oxford-42, trainer-42." in words
     assert "no last has the length" in text
 
 

@@ -10,7 +10,6 @@ import numpy as np
 import pytest
 
 from footfit.errors import BadOption
-from footfit.report.page.page_pictures import flare_picture
 from footfit.report.pictures import curvature_figure as curvature_module
 from footfit.report.pictures import frames_figure as frames_module
 from footfit.report.pictures.curvature_figure import UNDEFINED, colour_reach, curvature_figure
@@ -292,9 +291,6 @@ def test_where_no_last_fits_the_nearest_are_drawn() -> None:
     figure = overlay(answers.match(candidates=(), nearest=near))
     assert "1  derby-42, flare -2.0°" in texts(figure)
     assert "2  oxford-42" in texts(figure)
-    nearest = answers.match(candidates=(), nearest=near)
-    shown = flare_picture(nearest, nearest.feet[0], None)
-    assert "with the nearest lasts: derby-42, oxford-42." in shown.words
 
 
 @pytest.mark.parametrize("name", ["$x^$", "a\\b$", "<svg onload=alert(1)>", "x\x1b]\n"])

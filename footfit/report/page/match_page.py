@@ -5,9 +5,12 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from footfit.geometry.fit.sizes import Size, foot_sizes, system_named
-from footfit.report.page.page_pictures import flare_picture, heat_picture, section_picture
-from footfit.report.page.rendering import html_page
+from footfit.report.page.rendering import html_page, picture_data
 from footfit.report.page.scene import scene_of
+from footfit.report.pictures.heat_figure import heat_figure
+from footfit.report.pictures.overlay_figure import SHOWN, drawn_lasts, overlay_figure
+from footfit.report.pictures.section_figure import STRIP, section_figure
+from footfit.report.wording.comparison_words import comparison_names
 from footfit.report.wording.text import SHOWN_SYSTEMS, file_name, is_scanned_last, size_text
 from footfit.results.values import NOT_YET
 
@@ -40,6 +43,7 @@ def match_report(
         any the page has no surface to show.
     """
     shown = match.candidates or match.nearest
+    several = f"the {'best' if match.candidates else 'nearest'} lasts"
     asked = system_named(match.size_system)
     longer = max(comparisons, key=lambda each: each.foot.length_or_extent_mm, default=None)
     return html_page(
@@ -52,11 +56,18 @@ def match_report(
         length_difference_mm=_length_difference_mm(match),
         comparisons=comparisons,
         longer=longer,
+        drawn=shown[:SHOWN],
         pictures={
-            "heat": [heat_picture(comparison) for comparison in comparisons],
-            "sections": [section_picture(comparison, strip=True) for comparison in comparisons],
-            "flare": [flare_picture(match, foot, shapes) for foot in match.feet],
+            "heat": [picture_data(heat_figure(each, titled=False)) for each in comparisons],
+            "sections": [
+                picture_data(section_figure(each, STRIP, titled=False)) for each in comparisons
+            ],
+            "flare": [
+                picture_data(overlay_figure(foot, drawn_lasts(match, foot, shapes), several))
+                for foot in match.feet
+            ],
         },
+        comparison_names=comparison_names,
         asked_system=asked.name if asked else None,
         unit_signs=UNIT_SIGNS,
         is_scanned_last=is_scanned_last,

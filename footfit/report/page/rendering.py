@@ -13,6 +13,7 @@ from footfit.version import __version__
 
 if TYPE_CHECKING:
     from jinja2 import Environment, Template
+    from matplotlib.figure import Figure
 
     from footfit.report.page.scene import Scene
 
@@ -78,6 +79,13 @@ def templates() -> Environment:
     )
     environment.filters |= {function.__name__: function for function in FILTERS}
     return environment
+
+
+def picture_data(figure: Figure) -> str:
+    """A figure as SVG in base64, for the address of an image inside the page."""
+    from footfit.report.pictures.figures import svg_text
+
+    return base64.b64encode(svg_text(figure).encode("utf-8")).decode("ascii")
 
 
 def _shown(value: Any) -> Any:
