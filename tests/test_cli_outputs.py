@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from footfit.cli.outputs import Outputs, refuse_existing, write_output
+from footfit.cli.outputs import OutputFile, Outputs, refuse_existing, write_output
 from footfit.errors import BadOption, OutputExists
 
 
@@ -19,6 +19,16 @@ def test_a_file_is_written_whole_with_the_usual_permissions(tmp_path: Path) -> N
     os.umask(mask)
     assert path.stat().st_mode & 0o777 == 0o666 & ~mask
     assert list(tmp_path.iterdir()) == [path]
+
+
+def test_a_file_of_one_form_takes_any_name(tmp_path: Path) -> None:
+    page = OutputFile(tmp_path / "page.html", (), lambda result, kind: f"<p>{result}{kind}</p>")
+    picture = OutputFile(tmp_path / "page.svg", ("svg",), lambda _result, kind: kind)
+    outputs = Outputs((page, picture))
+    outputs.refuse(as_json=False)
+    outputs.write("fits")
+    assert (tmp_path / "page.html").read_text() == "<p>fits</p>"
+    assert (tmp_path / "page.svg").read_text() == "svg"
 
 
 def test_an_existing_file_needs_force(tmp_path: Path) -> None:

@@ -19,7 +19,8 @@ from footfit.pipeline.export import file_kind
 class OutputFile:
     """A file to write of one result, if there is a ``path``.
 
-    ``content`` makes it of the result and the path's suffix, which is one of ``kinds``.
+    ``content`` makes it of the result and the path's suffix, which is one of ``kinds``. Without
+    ``kinds`` every name is taken, and there is one form.
     """
 
     path: Path | None
@@ -68,8 +69,8 @@ class Outputs:
         """Write the files of a result."""
         for file in self.files:
             if file.path is not None:
-                data = file.content(result, file_kind(file.path, file.kinds))
-                write_output(file.path, data, force=self.force)
+                kind = file_kind(file.path, file.kinds) if file.kinds else ""
+                write_output(file.path, file.content(result, kind), force=self.force)
 
     def write_csv(self, results: Iterable[Any]) -> None:
         """Write the tables, to a file or to stdout."""
