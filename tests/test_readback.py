@@ -22,8 +22,8 @@ from footfit.pipeline.drawables import best_comparisons
 from footfit.pipeline.fit.candidates import choice
 from footfit.pipeline.fit.match import Question, customers
 from footfit.report.csv import csv_text
-from footfit.report.page.compare_page import compare_report
-from footfit.report.page.match_page import match_report
+from footfit.report.page.compare_page import compare_page
+from footfit.report.page.match_page import match_page
 from footfit.report.terminal.comparison_tables import compare_table
 from footfit.report.terminal.last_tables import list_lasts_table
 from footfit.report.terminal.match_tables import match_table
@@ -227,7 +227,7 @@ def match(request: pytest.FixtureRequest) -> Match:
 
 
 def test_the_page_shows_the_match(match: Match) -> None:
-    reading = readers.read_match_page(match_report(match))
+    reading = readers.read_match_page(match_page(match))
     assert problems(PAGE, reading, match_facts(match)) == []
 
 
@@ -244,7 +244,7 @@ def test_the_terminal_shows_the_match(match: Match) -> None:
 def test_the_page_shows_the_room_in_the_best_last(pair: bool) -> None:
     match = planted(1 + pair)
     rooms = [comparison(True, True, "l.stl"), moved(comparison(path="r.stl"))][1 - pair :]
-    reading = readers.read_match_page(match_report(match, None, rooms))
+    reading = readers.read_match_page(match_page(match, None, rooms))
     assert problems(PAGE, reading, match_facts(match, rooms)) == []
 
 
@@ -283,7 +283,7 @@ COMPARISONS = {
 def test_the_outputs_show_the_comparison(name: str) -> None:
     known = COMPARISONS[name]()
     facts = list(comparison_facts(known))
-    page = readers.read_compare_page(compare_report(known))
+    page = readers.read_compare_page(compare_page(known))
     assert problems(PAGE, page, facts) == []
     table = readers.read_compare_terminal(terminal_text(compare_table(known), WIDE))
     assert problems(TERMINAL, table, facts) == []

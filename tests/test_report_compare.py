@@ -13,7 +13,7 @@ import pytest
 
 from footfit.report.csv import csv_text
 from footfit.report.json import json_line
-from footfit.report.page.compare_page import compare_report
+from footfit.report.page.compare_page import compare_page
 from footfit.report.pictures import figures
 from footfit.report.pictures.figures import svg_text
 from footfit.report.pictures.heat import heat_colours
@@ -31,7 +31,7 @@ from tests.reading import scan_from_bytes
 
 @cache
 def page_of() -> str:
-    return compare_report(comparison())
+    return compare_page(comparison())
 
 
 @pytest.fixture
@@ -78,7 +78,7 @@ def test_a_hostile_name_stays_a_name():
     assert "\x1b" not in terminal_text(compare_table(hostile))
     rows = csv.DictReader(io.StringIO(csv_text(Comparison, [hostile])))
     assert next(iter(rows))["last"].startswith("'=")
-    page = compare_report(hostile)
+    page = compare_page(hostile)
     assert page.count("<script>") == 1
     assert "&lt;script&gt;" in page
 
@@ -128,7 +128,7 @@ def test_pictures_are_the_same_twice():
 
 def test_the_page_is_the_same_twice_small_and_has_no_outside_address():
     page = page_of()
-    assert page == compare_report(comparison())
+    assert page == compare_page(comparison())
     assert len(page.encode()) < 6_000_000
     assert "http://" not in page
     assert "https://" not in page
@@ -138,7 +138,7 @@ def test_the_page_is_the_same_twice_small_and_has_no_outside_address():
 @pytest.mark.usefixtures("unpictured")
 def test_a_warning_is_on_the_page():
     warned = replace(comparison(), warnings=(Notice("far_size", "no shoe for it"),))
-    assert "no shoe for it" in compare_report(warned)
+    assert "no shoe for it" in compare_page(warned)
 
 
 @needs_browser

@@ -15,7 +15,7 @@ from jinja2 import UndefinedError
 from markupsafe import Markup
 
 from footfit.pipeline.fit.match import matched
-from footfit.report.page.match_page import match_report
+from footfit.report.page.match_page import match_page
 from footfit.report.page.rendering import templates
 from footfit.report.pictures import figures
 from footfit.results import LastRecord, Library, Measured, Notice
@@ -70,7 +70,7 @@ def drawn(feet: int = 1, roomy: bool = False) -> str:
         surfaces = answers.roomy_candidate().surfaces * feet
         lasts = tuple(replace(one, surfaces=surfaces) for one in match.candidates)
         match = replace(match, candidates=lasts)
-    return match_report(match, {"derby-42": answers.tube(271.5)}, rooms)
+    return match_page(match, {"derby-42": answers.tube(271.5)}, rooms)
 
 
 @pytest.fixture
@@ -102,7 +102,7 @@ def test_the_policy_allows_the_pages_own_style_and_script_and_nothing_else() -> 
 
 
 def test_a_page_without_a_view_runs_nothing() -> None:
-    page = match_report(answers.match())
+    page = match_page(answers.match())
     assert "<script" not in page
     assert "script-src" not in page
     assert "<canvas" not in page
@@ -149,7 +149,7 @@ def test_every_outside_string_is_escaped() -> None:
     )
     last = comparison().last
     named = replace(last, labels=replace(last.labels, name=HOSTILE))
-    page = Page(match_report(match, None, [replace(comparison(), last=named)]))
+    page = Page(match_page(match, None, [replace(comparison(), last=named)]))
     assert [tag for tag, _ in page.tags].count("script") == 1
     assert not [a for _, attributes in page.tags for a in attributes if a.startswith("on")]
     assert page.text().count("<script>alert(1)</script>") >= 6
@@ -200,10 +200,10 @@ def test_every_verdict_is_a_word_and_a_shape_beside_its_colour() -> None:
     match = judged_match()
     for verdict, shape in lights.items():
         shown = [replace(one, verdict=verdict) for one in match.candidates]
-        page = match_report(replace(match, candidates=tuple(shown)))
+        page = match_page(replace(match, candidates=tuple(shown)))
         assert page.count(f"<i>{shape}</i> {verdict}") == len(shown) + 1  # the best one twice
     zones = [zone for fit in match.candidates[0].fits for zone in fit.zones]
-    page = match_report(match)
+    page = match_page(match)
     for zone in zones:
         mark = lights.get(zone.verdict or "", "–")
         assert f'title="{zone.verdict or "not judged"}">{mark}</i>' in page
@@ -211,10 +211,10 @@ def test_every_verdict_is_a_word_and_a_shape_beside_its_colour() -> None:
 
 @pytest.mark.usefixtures("unpictured")
 def test_the_customers_sizes_come_first_and_the_asked_one_with_its_neighbours() -> None:
-    text = Page(match_report(judged_match())).text()
+    text = Page(match_page(judged_match())).text()
     assert text.index("EU 41") < text.index("The lasts")
     asked = replace(judged_match(), size_system="uk")
-    words = Page(match_report(asked)).text()
+    words = Page(match_page(asked)).text()
     assert "UK 7.5 between UK 7 and UK 8" in words
     assert words.index("UK 7.5") < words.index("EU 41")
 
@@ -222,9 +222,9 @@ def test_the_customers_sizes_come_first_and_the_asked_one_with_its_neighbours() 
 @pytest.mark.usefixtures("unpictured")
 def test_a_pair_says_how_the_feet_differ() -> None:
     feet = (answers.foot("l.stl", left=True, length_mm=258.0), answers.foot("r.stl"))
-    text = Page(match_report(answers.match(feet))).text()
+    text = Page(match_page(answers.match(feet))).text()
     assert "The feet differ by 2.0 mm in length" in text
-    assert "differ" not in Page(match_report(answers.match())).text()
+    assert "differ" not in Page(match_page(answers.match())).text()
 
 
 @pytest.mark.usefixtures("unpictured")
@@ -232,10 +232,10 @@ def test_nothing_fits_is_an_answer() -> None:
     nothing = answers.match(
         candidates=(), warnings=(Notice("nothing_fits", "no last has the length"),)
     )
-    text = Page(match_report(nothing)).text()
+    text = Page(match_page(nothing)).text()
     assert "No last fits." in text
     near = replace(nothing, nearest=answers.match().candidates[:3])
-    words = Page(match_report(near)).text()
+    words = Page(match_page(near)).text()
     assert "what they miss by" in words
     assert "anna.stl with the nearest lasts: derby-42, oxford-42, trainer-42." in words
     assert "no last has the length" in text
@@ -243,7 +243,7 @@ def test_nothing_fits_is_an_answer() -> None:
 
 @pytest.mark.usefixtures("unpictured")
 def test_a_search_by_flare_says_that_it_is_scale_free() -> None:
-    assert "scale-free" in Page(match_report(answers.match(by="flare"))).text()
+    assert "scale-free" in Page(match_page(answers.match(by="flare"))).text()
 
 
 @pytest.mark.usefixtures("unpictured")
@@ -252,7 +252,7 @@ def test_what_is_not_measured_says_why() -> None:
     reason = "the leg is cut at the instep"
     unknown = replace(foot.measures[0], name="instep_girth", measured=Measured(None, None, reason))
     foot = replace(foot, measures=(*foot.measures, unknown))
-    text = Page(match_report(answers.match((foot,)))).text()
+    text = Page(match_page(answers.match((foot,)))).text()
     assert f"Instep girth not measured ({reason})" in text
 
 
@@ -294,6 +294,6 @@ def test_a_telephone_shows_the_page_in_its_width(tmp_path) -> None:
 
 def test_the_room_in_every_last_is_on_the_page_where_it_was_asked_for():
     roomy = answers.roomy_candidate()
-    asked = match_report(replace(answers.match(), candidates=(roomy,)))
+    asked = match_page(replace(answers.match(), candidates=(roomy,)))
     assert "tight: medial -6.2 mm (26 cm²); loose: toe +12.3 mm (18 cm²)" in asked
-    assert "tight or loose on the foot" not in match_report(answers.match())
+    assert "tight or loose on the foot" not in match_page(answers.match())

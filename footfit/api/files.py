@@ -83,13 +83,13 @@ def page(result: results.Match | results.Comparison, catalogue: FilePath | None 
         The catalogue is not there, or cannot be read.
     """
     from footfit.pipeline import drawables
-    from footfit.report.page.compare_page import compare_report
-    from footfit.report.page.match_page import match_report
+    from footfit.report.page.compare_page import compare_page
+    from footfit.report.page.match_page import match_page
 
     if isinstance(result, results.Comparison):
-        return compare_report(drawables.drawable(result))
+        return compare_page(drawables.drawable(result))
     if catalogue is None:
-        return match_report(result)
+        return match_page(result)
     path = Path(catalogue)
     shapes = drawables.candidate_shapes(path, result)
-    return match_report(result, shapes, drawables.best_comparisons(path, result))
+    return match_page(result, shapes, drawables.best_comparisons(path, result))

@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     from footfit.results import Comparison
 
 
-def compare_report(comparison: Comparison) -> str:
+def compare_page(comparison: Comparison) -> str:
     """One foot in one last as a whole HTML page; the same bytes for the same comparison."""
     foot, last = comparison_names(comparison)
     drawn = DrawnLast(1, comparison.last, own_side(comparison)[1])

@@ -25,7 +25,7 @@ PAIR_NOTICES = {"pair_difference", "feet_differ_by_a_size"}
 """What says how two feet differ; without one of them the page says it."""
 
 
-def match_report(
+def match_page(
     match: Match, shapes: Shapes | None = None, comparisons: Sequence[Comparison] = ()
 ) -> str:
     """One customer's answer as a whole HTML page; the same bytes for the same match.
