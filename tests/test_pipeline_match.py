@@ -16,11 +16,15 @@ from footfit.catalogue.store import open_catalogue
 from footfit.errors import BadOption, NoCandidate
 from footfit.pipeline.batch.sources import ReadingOptions, Source
 from footfit.pipeline.fit.candidates import choice
+from footfit.pipeline.fit.compare import best_comparison
 from footfit.pipeline.fit.fit_profile import fit_profile
 from footfit.pipeline.fit.match import Question, matched, meets
 from footfit.pipeline.fit.ranking import TIE_DISTANCE
 from footfit.pipeline.fit.zones import BALL_SHARE, ball_line, last_shape, pitch_gain_mm
 from footfit.pipeline.scan.reading import profiled_source
+from footfit.report.page.match_page import match_report
+from footfit.report.terminal.match_tables import match_table
+from footfit.report.terminal.scan_tables import terminal_text
 from footfit.results import Candidate, LastRecord, Library, Match, Measure, Measured, Profiled
 from tests import answers, records
 from tests.conftest import SAMPLES
@@ -450,3 +454,15 @@ def test_a_last_that_is_taken_for_a_foot_is_said() -> None:
     for by, expected in (("fit", True), ("flare", True), ("shape", False)):
         codes = {one.code for one in answer(last("a"), feet=(scanned,), by=by).warnings}
         assert ("looks_like_a_last" in codes) is expected
+
+
+def test_where_no_length_is_known_no_last_is_shown_and_that_is_said() -> None:
+    cut = replace(last("cut"), measures=measures(length=None, **LAST))
+    found = answer(cut)
+    assert (found.candidates, found.nearest) == ((), ())
+    assert dict(found.rejected) == {"length_unknown": 1}
+    (notice,) = [n for n in found.warnings if n.code == "nothing_fits"]
+    assert "the length of no last is known" in notice.message
+    assert "1 length unknown" in match_report(found)
+    assert "1 length unknown" in terminal_text(match_table(found))
+    assert best_comparison(Path("none.footfit"), found) is None

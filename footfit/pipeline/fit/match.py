@@ -23,6 +23,7 @@ from footfit.pipeline.fit.ranking import (
     nearest,
     ranking,
     refusals,
+    with_toe_room,
 )
 from footfit.pipeline.fit.scoring import UNKNOWN_SCORE, VERDICTS
 from footfit.pipeline.scan.measure import suspects
@@ -302,6 +303,8 @@ def _notices(
     if missed:
         named = "; ".join(f"{candidate.last}: {candidate.why}" for candidate in missed)
         notices.append(Notice("nothing_fits", f"no last fits; the nearest are {named}"))
+    elif judged.by == "fit" and not with_toe_room(judged):
+        notices.append(Notice("nothing_fits", "no last fits: the length of no last is known"))
     known: Bools = np.any(judged.known, axis=0)
     unknown = [
         c.rule.zone
