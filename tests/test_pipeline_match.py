@@ -22,7 +22,7 @@ from footfit.pipeline.fit.match import Question, matched, meets
 from footfit.pipeline.fit.ranking import TIE_DISTANCE
 from footfit.pipeline.fit.zones import BALL_SHARE, ball_line, last_shape, pitch_gain_mm
 from footfit.pipeline.scan.reading import profiled_source
-from footfit.report.page.match_page import match_report
+from footfit.report.page.match_page import match_page
 from footfit.report.terminal.match_tables import match_table
 from footfit.report.terminal.scan_tables import terminal_text
 from footfit.results import Candidate, LastRecord, Library, Match, Measure, Measured, Profiled
@@ -463,6 +463,6 @@ def test_where_no_length_is_known_no_last_is_shown_and_that_is_said() -> None:
     assert dict(found.rejected) == {"length_unknown": 1}
     (notice,) = [n for n in found.warnings if n.code == "nothing_fits"]
     assert "the length of no last is known" in notice.message
-    assert "1 length unknown" in match_report(found)
+    assert "1 length unknown" in match_page(found)
     assert "1 length unknown" in terminal_text(match_table(found))
     assert best_comparison(Path("none.footfit"), found) is None
