@@ -8,12 +8,16 @@ Chebyshev polynomial stands for exp, so that no system of equations is solved.
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from footfit.geometry.mesh.surface import area_vectors, vertex_sums
-from footfit.geometry.mesh.topology import dilated_mask, sorted_keys
+from footfit.geometry.mesh.topology import dilated_mask
 from footfit.geometry.numeric.arrays import Bools, Floats, Ints
+
+if TYPE_CHECKING:
+    from scipy.sparse import csr_array
 
 
 @dataclass(frozen=True, slots=True)
@@ -33,8 +37,6 @@ class DiffusionSettings:
         of all rates are cut to it.
     reach_least : float
         t times the rate of every vertex is at least this, so that the nearest ring always counts.
-    slot_least : float
-        The least share of the vertices for which a j-th neighbour is handled as a slot.
     followed : float
         The largest product of time and rate that the polynomials follow, over degree_most^2.
     cotangent_least : float
@@ -47,7 +49,6 @@ class DiffusionSettings:
     crowding_quantile: float = 0.9
     crowding: float = 1.2
     reach_least: float = 0.25
-    slot_least: float = 0.02
     followed: float = 0.15
     cotangent_least: float = 0.05
 
@@ -59,20 +60,13 @@ SETTINGS = DiffusionSettings()
 class Diffusion:
     """Polynomials in a mesh's Laplacian, one for each deviation, for :func:`pooled_fields`.
 
-    ``order`` (k,) are the vertices that the operator works on, those with the most neighbours
-    first. Slot j holds the j-th neighbour of the first ``len(columns[j])`` of them, and its weight.
-    A few vertices with many neighbours (the hub of a fan) have those in ``rest_*``, entry by entry.
-    ``centre`` (k,) is the weight of the vertex itself. ``coefficients`` are those of the Chebyshev
-    polynomials, (degree + 1,) for each deviation.
+    ``kept`` (k,) are the vertices that the operator works on, and ``step`` (k, k) is the sparse
+    matrix of Y between them. ``coefficients`` are those of the Chebyshev polynomials in Y,
+    (degree + 1,) for each deviation.
     """
 
-    order: Ints
-    centre: Floats
-    columns: tuple[Ints, ...]
-    weights: tuple[Floats, ...]
-    rest_row: Ints
-    rest_column: Ints
-    rest_weight: Floats
+    kept: Ints
+    step: csr_array
     coefficients: tuple[Floats, ...]
 
 
@@ -97,33 +91,25 @@ def diffusion(
     L f = (d f - sum of w f_q) / a, with degrees d, cotangent weights w and vertex areas a. The
     polynomial is in Y = 2 L / bound - 1, whose eigenvalues lie in [-1, 1].
     """
+    from scipy.sparse import diags_array
+
     n = len(vertices)
     times = [0.5 * deviation * deviation for deviation in deviations]
-    row, column, weight = _cotangent_entries(vertices, faces)
-    degree: Floats = np.bincount(row, weights=weight, minlength=n).astype(np.float64)
+    weights = _cotangent_matrix(vertices, faces)
+    degree = weights.sum(axis=1)
     rate = _exchange_rates(degree, _projected_areas(vertices, faces), max(times))
     bound = 2.0 * float(rate.max(initial=0.0)) or 1.0
     scale = 2.0 * rate / bound
-    weight *= -(scale / np.where(degree > 0.0, degree, 1.0))[row]
-    coefficients = tuple(_heat_coefficients(time * bound) for time in times)
-    kept = np.ones(n, dtype=bool)
-    if subset is not None:
-        kept = dilated_mask(subset, faces, max(map(len, coefficients)) - 1)
-        inside = kept[row] & kept[column]
-        row, column, weight = row[inside], column[inside], weight[inside]
-    order, slots, rest = _slots(row, kept)
-    place = np.empty(n, dtype=np.int64)
-    place[order] = np.arange(len(order))
-    return Diffusion(
-        order=order,
-        centre=-1.0 - np.bincount(row, weights=weight, minlength=n).astype(np.float64)[order],
-        columns=tuple(place[column[slot]] for slot in slots),
-        weights=tuple(weight[slot] for slot in slots),
-        rest_row=place[row[rest]],
-        rest_column=place[column[rest]],
-        rest_weight=weight[rest],
-        coefficients=coefficients,
+    step = (
+        diags_array(scale - 1.0)
+        - diags_array(scale / np.where(degree > 0.0, degree, 1.0)) @ weights
     )
+    coefficients = tuple(_heat_coefficients(time * bound) for time in times)
+    kept = np.arange(n)
+    if subset is not None:
+        kept = np.flatnonzero(dilated_mask(subset, faces, max(map(len, coefficients)) - 1))
+        step = step.tocsr()[kept][:, kept]
+    return Diffusion(kept, step.tocsr(), coefficients)
 
 
 def pooled_fields(operator: Diffusion, fields: Floats) -> Floats:
@@ -133,35 +119,20 @@ def pooled_fields(operator: Diffusion, fields: Floats) -> Floats:
     """
     pooled = np.full((len(operator.coefficients), *fields.shape), np.nan)
     degree = max(map(len, operator.coefficients)) - 1
-    scratch = np.empty(len(operator.order))
     for number, field in enumerate(fields):
-        before, now = np.empty(0), field[operator.order]
+        before, now = np.zeros(len(operator.kept)), field[operator.kept]
         totals = [coefficients[0] * now for coefficients in operator.coefficients]
         for k in range(1, degree + 1):
-            following = _product(operator, now, scratch)
+            following = operator.step @ now
             if k > 1:  # T_k = 2 Y T_k-1 - T_k-2
                 following *= 2.0
                 following -= before
             before, now = now, following
             for total, coefficients in zip(totals, operator.coefficients, strict=True):
                 if k < len(coefficients):
-                    total += np.multiply(now, coefficients[k], out=scratch)
-        pooled[:, number, operator.order] = totals
+                    total += coefficients[k] * now
+        pooled[:, number, operator.kept] = totals
     return pooled
-
-
-def _product(operator: Diffusion, field: Floats, scratch: Floats) -> Floats:
-    product = operator.centre * field
-    for column, weight in zip(operator.columns, operator.weights, strict=True):
-        part = scratch[: len(column)]
-        # With "clip" NumPy writes straight into the scratch array; no place is outside.
-        np.take(field, column, out=part, mode="clip")
-        part *= weight
-        product[: len(column)] += part
-    if len(operator.rest_row):
-        rest = operator.rest_weight * field[operator.rest_column]
-        product += np.bincount(operator.rest_row, weights=rest, minlength=len(field))
-    return product
 
 
 def _projected_areas(vertices: Floats, faces: Ints) -> Floats:
@@ -174,27 +145,23 @@ def _projected_areas(vertices: Floats, faces: Ints) -> Floats:
     return areas
 
 
-def _cotangent_entries(vertices: Floats, faces: Ints) -> tuple[Ints, Ints, Floats]:
-    """The rows, columns and weights of the cotangent matrix off its diagonal, ordered by row."""
+def _cotangent_matrix(vertices: Floats, faces: Ints) -> csr_array:
+    """The symmetric matrix (n, n) of the cotangent weights between neighbours."""
+    from scipy.sparse import coo_array
+
     start, end, opposite = faces.ravel(), faces[:, [1, 2, 0]].ravel(), faces[:, [2, 0, 1]].ravel()
     u, v = vertices[start] - vertices[opposite], vertices[end] - vertices[opposite]
     doubled = 2.0 * np.linalg.norm(area_vectors(vertices, faces), axis=1)
     across = np.repeat(np.where(doubled > 0.0, doubled, np.inf), 3)
     weight = np.maximum(np.einsum("ij,ij->i", u, v) / across, SETTINGS.cotangent_least) / 2.0
-    span = len(vertices)
-    keys = np.concatenate([start * span + end, end * span + start])
-    order, ordered = sorted_keys(keys)
-    first = np.flatnonzero(np.append(True, ordered[1:] != ordered[:-1])[: len(ordered)])
-    if len(first) == 0:
-        return np.empty(0, dtype=np.int64), np.empty(0, dtype=np.int64), np.empty(0)
-    summed = np.add.reduceat(np.concatenate([weight, weight])[order], first)
-    return ordered[first] // span, ordered[first] % span, summed
+    shape = (len(vertices), len(vertices))
+    half = coo_array((weight, (start, end)), shape).tocsr()
+    return half + half.T
 
 
 def longest_deviation(vertices: Floats, faces: Ints) -> float:
     """The deviation beyond which half of the vertices spread no further; inf without area."""
-    row, _, weight = _cotangent_entries(vertices, faces)
-    degree = np.bincount(row, weights=weight, minlength=len(vertices)).astype(np.float64)
+    degree = _cotangent_matrix(vertices, faces).sum(axis=1)
     rate, crowded = _free_rates(degree, _projected_areas(vertices, faces))
     known = rate[(degree > 0.0) & np.isfinite(rate)]
     if len(known) == 0:
@@ -219,23 +186,6 @@ def _exchange_rates(degree: Floats, area: Floats, time: float) -> Floats:
     least = SETTINGS.reach_least / time
     limited: Floats = np.clip(rate, least, max(least, min(crowded, followed)))
     return np.where(degree > 0.0, limited, 0.0)
-
-
-def _slots(row: Ints, kept: Bools) -> tuple[Ints, list[Ints], Ints]:
-    """The kept vertices by falling number of neighbours, each slot's entries, and the rest.
-
-    A slot that only a few vertices reach costs as much as a full slot. Its entries go to the rest.
-    """
-    count = np.bincount(row, minlength=len(kept))
-    order = np.argsort(-count, kind="stable").astype(np.int64)
-    order = order[kept[order]]
-    first = (np.cumsum(count) - count)[order]
-    falling = count[order]
-    reach = np.searchsorted(-falling, -np.arange(int(count.max(initial=0))))
-    full = int(np.count_nonzero(reach > SETTINGS.slot_least * len(order)))
-    slots = [first[: int(size)] + j for j, size in enumerate(reach[:full])]
-    place_in_row = np.arange(len(row)) - np.repeat(np.cumsum(count) - count, count)
-    return order, slots, np.flatnonzero(place_in_row >= full)
 
 
 def _heat_coefficients(exponent: float) -> Floats:

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from footfit.geometry.mesh.sections import Planes, plane_sections
+from footfit.geometry.mesh.welding import welded_vertices
 from footfit.geometry.numeric.arrays import Floats, Ints
 
 
@@ -121,7 +122,8 @@ def closed_loops(points: Floats) -> tuple[list[Floats], Floats]:
     """
     if len(points) == 0:
         return [], np.empty((0, 2, 3))
-    place, node = _nodes(points)
+    ends = np.arange(2 * len(points)).reshape(-1, 2)
+    place, node, _ = welded_vertices(points.reshape(-1, 3), ends)
     chains = _chains(node[node[:, 0] != node[:, 1]])
     closed = [place[chain[:-1]] for chain in chains if chain[0] == chain[-1]]
     pieces = [place[chain] for chain in chains if chain[0] != chain[-1]]
@@ -129,19 +131,6 @@ def closed_loops(points: Floats) -> tuple[list[Floats], Floats]:
         return closed, np.empty((0, 2, 3))
     joined, gaps = _joined(pieces)
     return [*closed, joined], gaps
-
-
-def _nodes(points: Floats) -> tuple[Floats, Ints]:
-    """The distinct ends (k, 3) of segments (m, 2, 3), and each end's row (m, 2)."""
-    ends = points.reshape(-1, 3)
-    order = np.lexsort(ends.T)
-    ordered = ends[order]
-    new = np.empty(len(ends), dtype=bool)
-    new[0] = True
-    np.any(ordered[1:] != ordered[:-1], axis=1, out=new[1:])
-    row = np.empty(len(ends), dtype=np.int64)
-    row[order] = np.cumsum(new) - 1
-    return ordered[new], row.reshape(-1, 2)
 
 
 def _chains(node: Ints) -> list[list[int]]:

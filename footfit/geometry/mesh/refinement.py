@@ -7,7 +7,13 @@ from dataclasses import dataclass
 import numpy as np
 
 from footfit.geometry.mesh.surface import face_normals
-from footfit.geometry.mesh.topology import dilated_mask, half_edges, lowest_connected, sorted_keys
+from footfit.geometry.mesh.topology import (
+    dilated_mask,
+    edge_groups,
+    half_edges,
+    lowest_connected,
+    sorted_keys,
+)
 from footfit.geometry.numeric.arrays import Bools, Floats, Ints
 
 
@@ -111,19 +117,15 @@ def _sides(vertices: Floats, faces: Ints, least: int) -> tuple[Ints, Ints, Bools
 
     A side is flat where it lies inside a facet of at least ``least`` faces.
     """
-    ends = half_edges(faces)
-    order, ordered = sorted_keys(ends.min(axis=1) * len(vertices) + ends.max(axis=1))
-    starts = np.append(True, ordered[1:] != ordered[:-1])
-    first = np.flatnonzero(starts)
-    count = np.diff(np.append(first, len(ordered)))
-    side = np.empty(len(ordered), dtype=np.int64)
-    side[order] = np.cumsum(starts) - 1
+    order, first, count = edge_groups(faces)
+    side = np.empty(len(order), dtype=np.int64)
+    side[order] = np.repeat(np.arange(len(first)), count)
     pairs = np.stack([order[first], order[np.minimum(first + 1, len(order) - 1)]], axis=1) // 3
     normals = face_normals(vertices, faces)
     flat = (count == 2) & _turn_little(normals[pairs[:, 0]], normals[pairs[:, 1]])
     facet = lowest_connected(pairs[flat], len(faces))
     flat &= np.bincount(facet, minlength=len(faces))[facet[pairs[:, 0]]] >= least
-    return side.reshape(-1, 3), ends[order[first]], flat
+    return side.reshape(-1, 3), half_edges(faces)[order[first]], flat
 
 
 def _split(vertices: Floats, faces: Ints, middle: Ints) -> Ints:

@@ -57,8 +57,11 @@ def _edge_keys(faces: Ints) -> tuple[Ints, int]:
     return keys, span
 
 
-def _edge_groups(faces: Ints) -> tuple[Ints, Ints, Ints]:
-    """Half-edges ordered by their edge, each edge's first place in that order, and its count."""
+def edge_groups(faces: Ints) -> tuple[Ints, Ints, Ints]:
+    """Half-edges (3 m,) in the order of their edges, each edge's first place in it, and its count.
+
+    A half-edge has the number of its row in :func:`half_edges`.
+    """
     keys, _ = _edge_keys(faces)
     order, ordered = sorted_keys(keys)
     starts = np.flatnonzero(np.append(True, ordered[1:] != ordered[:-1]))
@@ -75,7 +78,7 @@ def boundary_edges(faces: Ints) -> Ints:
     """
     if len(faces) == 0:
         return np.empty((0, 2), dtype=np.int64)
-    order, starts, counts = _edge_groups(faces)
+    order, starts, counts = edge_groups(faces)
     single: Ints = half_edges(faces)[np.sort(order[starts[counts == 1]])]
     return single
 
@@ -182,7 +185,7 @@ def lowest_connected(groups: Ints, n: int) -> Ints:
 
 def is_closed(faces: Ints) -> bool:
     """Whether every edge lies in exactly two faces (False for no faces)."""
-    return len(faces) > 0 and bool(np.all(_edge_groups(faces)[2] == 2))
+    return len(faces) > 0 and bool(np.all(edge_groups(faces)[2] == 2))
 
 
 def consistent_faces(faces: Ints) -> Ints:
@@ -223,7 +226,7 @@ def _shared_edges(faces: Ints) -> tuple[Ints, Bools]:
     """Pairs of faces (k, 2) that alone share an edge, and whether both run it the same way."""
     if len(faces) == 0:
         return np.empty((0, 2), dtype=np.int64), np.empty(0, dtype=bool)
-    order, starts, counts = _edge_groups(faces)
+    order, starts, counts = edge_groups(faces)
     first = starts[counts == 2]
     pairs = np.stack([order[first], order[first + 1]], axis=1)
     begins = half_edges(faces)[:, 0][pairs]
@@ -238,7 +241,7 @@ def closed_fan_vertices(faces: Ints, n_vertices: int) -> Bools:
     """
     if len(faces) == 0:
         return np.zeros(n_vertices, dtype=bool)
-    order, starts, counts = _edge_groups(faces)
+    order, starts, counts = edge_groups(faces)
     ends = half_edges(faces)
     here, beyond = order[starts], order[np.minimum(starts + 1, len(order) - 1)]
     regular = (counts == 2) & (ends[here, 0] == ends[beyond, 1])

@@ -9,7 +9,7 @@ from __future__ import annotations
 import json
 import struct
 from collections.abc import Iterable
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from itertools import islice
 from typing import Any, NoReturn
 
@@ -25,14 +25,14 @@ from footfit.meshes.read_limits import Limits
 from footfit.results import Notice
 
 Tree = dict[str, Any]
+Types = dict[int, str]
 _MAGIC, _VERSION = b"glTF", 2
 _JSON, _BIN = b"JSON", b"BIN\0"
 _HEAD, _CHUNK = struct.Struct("<4sII"), struct.Struct("<I4s")
 _NO_SURFACE = (0, 1, 2, 3)  # points and lines
 _TRIANGLES, _STRIP, _FAN = 4, 5, 6
-_POSITION_TYPES = {5126: "<f4"}
-_INDEX_TYPES = {5121: "<u1", 5123: "<u2", 5125: "<u4"}
-_WIDTHS = {"SCALAR": 1, "VEC3": 3}
+_POINTS = ("VEC3", 3, {5126: "<f4"})
+_INDICES = ("SCALAR", 1, {5121: "<u1", 5123: "<u2", 5125: "<u4"})
 _MOST_STRIDE = 252
 _ONLY_LOOKS = ("KHR_materials_", "KHR_texture_", "EXT_texture_", "KHR_lights_", "KHR_xmp")
 
@@ -66,16 +66,15 @@ def read_glb(data: bytes, limits: Limits) -> RawMesh:
     listed = [(row, placing) for row, placing in listed if row.get("mode") not in _NO_SURFACE]
     if not listed:
         raise UnknownFormat("the GLB has points or lines only: export triangles")
-    primitives = [_primitive(header, row, len(body), limits) for row, _ in listed]
+    corners = [_corners(header, row, body, limits) for row, _ in listed]
     check_counts(
-        sum(primitive.positions.count for primitive in primitives),
-        sum(primitive.triangles for primitive in primitives),
+        sum(len(points) for points, _ in corners),
+        sum(len(rows) for _, rows in corners) // 3,
         limits,
     )
-    placings = [placing for _, placing in listed]
     parts = [
-        primitive.part(body, placing)
-        for primitive, placing in zip(primitives, placings, strict=True)
+        Part(doubles(points), _faces(rows, row.get("mode", _TRIANGLES)), placing)
+        for (points, rows), (row, placing) in zip(corners, listed, strict=True)
     ]
     raw = joined_parts(parts, len(meshes), "m")
     if not trailing:
@@ -197,77 +196,46 @@ def _numbers(node: Tree, key: str, usual: Floats) -> Floats:
 # ---------------------------------------------------------------- triangles
 
 
-@dataclass(frozen=True, slots=True)
-class _Rows:
-    """Where an accessor's ``count`` rows of ``width`` numbers lie in the binary chunk."""
+def _corners(
+    header: Tree, primitive: Tree, body: bytes, limits: Limits
+) -> tuple[NDArray[Any], NDArray[Any] | range]:
+    """The points (n, 3) of one part of a mesh, and the corners (k,) of its triangles, in order.
 
-    offset: int
-    stride: int
-    count: int
-    width: int
-    type: np.dtype[Any]
-
-    def array(self, body: bytes) -> NDArray[Any]:
-        """The rows, (count, width)."""
-        shape, strides = (self.count, self.width), (self.stride, self.type.itemsize)
-        return np.ndarray(shape, self.type, body, self.offset, strides)
-
-
-@dataclass(frozen=True, slots=True)
-class _Primitive:
-    """The triangles of one part of a mesh; without ``corners`` the positions follow in order."""
-
-    mode: int
-    positions: _Rows
-    corners: _Rows | None
-
-    @property
-    def triangles(self) -> int:
-        """How many there are."""
-        count = (self.corners or self.positions).count
-        return count // 3 if self.mode == _TRIANGLES else max(count - 2, 0)
-
-    def part(self, body: bytes, placing: Floats) -> Part:
-        """Its vertices and faces."""
-        if self.corners is None:
-            corners = np.arange(self.positions.count)
-        else:
-            corners = self.corners.array(body)[:, 0].astype(np.int64)
-        return Part(doubles(self.positions.array(body)), self._faces(corners), placing)
-
-    def _faces(self, corners: Ints) -> Ints:
-        if self.mode == _TRIANGLES:
-            return corners.reshape(-1, 3)
-        step = np.arange(self.triangles)
-        if self.mode == _FAN:
-            return corners[np.stack([0 * step, step + 1, step + 2], axis=1)]
-        odd = step % 2  # every other triangle of a strip is wound the other way
-        return corners[np.stack([step, step + 1 + odd, step + 2 - odd], axis=1)]
-
-
-def _primitive(header: Tree, primitive: Tree, body_bytes: int, limits: Limits) -> _Primitive:
-    """One part of a mesh, checked."""
+    Both are looked at in the binary chunk and not copied.
+    """
     _check_extensions(primitive.get("extensions", {}))
     mode = primitive.get("mode", _TRIANGLES)
     if mode not in (_TRIANGLES, _STRIP, _FAN) or primitive.get("targets"):
         raise UnknownFormat("the GLB has morphs or an unknown primitive: export triangles")
-    positions = _rows(header, primitive["attributes"]["POSITION"], body_bytes, limits)
-    corners = None
+    points = _rows(header, primitive["attributes"]["POSITION"], body, _POINTS, limits)
+    corners: NDArray[Any] | range = range(len(points))
     if "indices" in primitive:
-        corners = _rows(header, primitive["indices"], body_bytes, limits, indices=True)
-    if mode == _TRIANGLES and (corners or positions).count % 3:
+        corners = _rows(header, primitive["indices"], body, _INDICES, limits)[:, 0]
+    if mode == _TRIANGLES and len(corners) % 3:
         raise DamagedMesh("the GLB's number of corners is not a multiple of 3: export it again")
-    return _Primitive(mode, positions, corners)
+    return points, corners
+
+
+def _faces(corners: NDArray[Any] | range, mode: int) -> Ints:
+    """The triangles (m, 3) that corners in order make."""
+    corners = np.asarray(corners, dtype=np.int64)
+    if mode == _TRIANGLES:
+        return corners.reshape(-1, 3)
+    step = np.arange(len(corners) - 2)
+    if mode == _FAN:
+        return corners[np.stack([0 * step, step + 1, step + 2], axis=1)]
+    odd = step % 2  # every other triangle of a strip is wound the other way
+    return corners[np.stack([step, step + 1 + odd, step + 2 - odd], axis=1)]
 
 
 def _rows(
-    header: Tree, number: int, body_bytes: int, limits: Limits, *, indices: bool = False
-) -> _Rows:
-    """Where an accessor's numbers lie, compared with the bytes that there are."""
+    header: Tree, number: int, body: bytes, kind: tuple[str, int, Types], limits: Limits
+) -> NDArray[Any]:
+    """An accessor's numbers (count, width) in the binary chunk, after a check against its bytes."""
+    name, width, types = kind
     accessor = _row(header, "accessors", number)
-    kind, types = ("SCALAR", _INDEX_TYPES) if indices else ("VEC3", _POSITION_TYPES)
     number_type = types.get(accessor["componentType"])
-    readable = accessor["type"] == kind and "sparse" not in accessor and "bufferView" in accessor
+    readable = accessor["type"] == name and "sparse" not in accessor and "bufferView" in accessor
     if number_type is None or not readable:
         raise UnknownFormat(
             "footfit cannot read how the GLB stores its numbers: export the foot as STL"
@@ -276,18 +244,18 @@ def _rows(
     _check_extensions(view.get("extensions", {}))
     if "uri" in _row(header, "buffers", view["buffer"]) or view["buffer"] != 0:
         raise UnknownFormat("the GLB keeps its mesh in another file: export everything in one file")
-    row_bytes = _WIDTHS[kind] * np.dtype(number_type).itemsize
+    row_bytes = width * np.dtype(number_type).itemsize
     count, start = _whole(accessor["count"]), _whole(accessor.get("byteOffset", 0))
     offset, size = _whole(view.get("byteOffset", 0)), _whole(view["byteLength"])
     stride = _whole(view.get("byteStride", row_bytes))
-    check_counts(0 if indices else count, count // 3 if indices else 0, limits)
-    used = start + (count - 1) * stride + row_bytes
-    inside = used <= size and offset + size <= body_bytes
+    check_counts(count if kind == _POINTS else 0, count // 3 if kind == _INDICES else 0, limits)
+    inside = start + (count - 1) * stride + row_bytes <= size and offset + size <= len(body)
     if not (count and row_bytes <= stride <= _MOST_STRIDE and inside):
         raise DamagedMesh(
             "the GLB declares more numbers than it holds: it is cut off, copy or export it again"
         )
-    return _Rows(offset + start, stride, count, _WIDTHS[kind], np.dtype(number_type))
+    strides = (stride, row_bytes // width)
+    return np.ndarray((count, width), number_type, body, offset + start, strides)
 
 
 def _row(header: Tree, table: str, number: Any) -> Tree:
