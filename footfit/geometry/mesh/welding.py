@@ -5,6 +5,8 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -15,6 +17,25 @@ from footfit.geometry.numeric.arrays import Bools, Floats, Ints
 _MIX = np.array([0x9E3779B97F4A7C15, 0xBF58476D1CE4E5B9, 0x94D049BB133111EB], dtype=np.uint64)
 _NO_FACES = np.empty((0, 3), dtype=np.int64)
 _GRIDS = 4  # one more than there are axes
+
+
+@dataclass(frozen=True, slots=True)
+class RoundingSettings:
+    """How far apart rounding may put two points that were the same.
+
+    Attributes
+    ----------
+    extent : float
+        As a share of the diagonal of all points.
+    coordinate : float
+        As a share of the largest coordinate, of which float32 keeps 24 bits.
+    """
+
+    extent: float = 1e-5
+    coordinate: float = 5e-7
+
+
+ROUNDING = RoundingSettings()
 
 
 def welded_vertices(vertices: Floats, faces: Ints) -> tuple[Floats, Ints, Ints]:
@@ -89,23 +110,29 @@ def _distinct(ordered: NDArray[np.uint64]) -> int:
     return 1 + int(np.count_nonzero(ordered[1:] != ordered[:-1]))
 
 
-def nearby_vertices(points: Floats, near: float) -> Ints:
+def rounding_distance(points: Floats, settings: RoundingSettings = ROUNDING) -> float:
+    """How far apart rounding may put two points (k, 3) that were the same."""
+    diagonal = float(np.linalg.norm(np.ptp(points, axis=0)))
+    return max(settings.extent * diagonal, settings.coordinate * float(np.abs(points).max()))
+
+
+def nearby_vertices(points: Floats, cell: float) -> Ints:
     """For each point (k, 3) the lowest index of its cluster, (k,).
 
-    Points closer than ``near`` along every axis are in the same cluster. Four grids are shifted
-    against each other by a quarter of a cell. Each axis can separate such points in one grid only,
-    so they share a cell in at least one grid.
+    Points in the same cell of a grid are in one cluster. There are four grids, shifted against each
+    other by a quarter of a cell. Each axis can separate points closer than that in one grid only,
+    so all points closer than a quarter of a cell along every axis are in one cluster.
 
     Examples
     --------
-    >>> nearby_vertices(np.array([[0.0, 0, 0], [5, 5, 5], [0.9, -0.9, 0.9]]), 1.0).tolist()
+    >>> nearby_vertices(np.array([[0.0, 0, 0], [5, 5, 5], [0.9, -0.9, 0.9]]), 4.0).tolist()
     [0, 1, 0]
     """
     links = []
     for shift in np.arange(_GRIDS) / _GRIDS:
-        cell = welded_vertices(np.floor(points / (_GRIDS * near) + shift), _NO_FACES)[2]
-        first = np.unique(cell, return_index=True)[1]
-        links.append(np.stack([first[cell], np.arange(len(points))], axis=1))
+        place = welded_vertices(np.floor(points / cell + shift), _NO_FACES)[2]
+        first = np.unique(place, return_index=True)[1]
+        links.append(np.stack([first[place], np.arange(len(points))], axis=1))
     return lowest_connected(np.concatenate(links), len(points))
 
 

@@ -7,7 +7,12 @@ from dataclasses import dataclass
 import numpy as np
 
 from footfit.geometry.mesh.topology import boundary_edges, rows_differ
-from footfit.geometry.mesh.welding import has_distinct_corners, welded_vertices
+from footfit.geometry.mesh.welding import (
+    has_distinct_corners,
+    nearby_vertices,
+    rounding_distance,
+    welded_vertices,
+)
 from footfit.geometry.numeric.arrays import Bools, Floats, Ints
 from footfit.meshes.clean.spikes import pressed_spikes
 from footfit.results import Notice
@@ -15,20 +20,16 @@ from footfit.results import Notice
 
 @dataclass(frozen=True, slots=True)
 class WeldSettings:
-    """When nearly equal corners are one.
+    """When nearly equal corners are welded.
 
     Attributes
     ----------
     loose_ratio : float
-        More vertices per face than this after the exact weld (a closed surface has 0.5) and the
-        corners were rounded apart: they are welded once more within the tolerance below.
-    near_extent, near_coordinate : float
-        That tolerance: the larger of this share of the diagonal and of the largest coordinate.
+        A closed surface has 0.5 vertices for each face. With more than this after the exact weld,
+        rounding has moved the corners apart, and nearly equal ones are welded too.
     """
 
     loose_ratio: float = 1.2
-    near_extent: float = 1e-5
-    near_coordinate: float = 5e-7
 
 
 WELD_SETTINGS = WeldSettings()
@@ -89,28 +90,14 @@ def _welded(
     points, joined, source = welded_vertices(vertices, faces)
     if len(points) <= settings.loose_ratio * len(faces):
         return points, joined, source, ()
-    corners = points[np.unique(joined)]
-    diagonal = float(np.linalg.norm(np.ptp(corners, axis=0)))
-    far = float(np.abs(corners).max())
-    tolerance = max(settings.near_extent * diagonal, settings.near_coordinate * far)
+    tolerance = rounding_distance(points[np.unique(joined)])
     if not tolerance > 0.0:
         return points, joined, source, ()
-    near, nearly, merged = _nearly_welded(points, joined, tolerance)
+    near, nearly, merged = welded_vertices(points[nearby_vertices(points, tolerance)], joined)
     if 2 * len(boundary_edges(nearly)) > len(boundary_edges(joined)):
         return points, joined, source, ()
     message = f"corners up to {tolerance:.2g} (the file's unit) apart were taken as one"
     return near, nearly, merged[source], (Notice("near_vertices_welded", message),)
-
-
-def _nearly_welded(vertices: Floats, faces: Ints, tolerance: float) -> tuple[Floats, Ints, Ints]:
-    """Merge vertices that share a cell of a grid, then of the grid moved by half a cell."""
-    source = np.arange(len(vertices))
-    for shift in (0.0, 0.5):
-        cells = np.floor(vertices / tolerance + shift)
-        _, faces, group = welded_vertices(cells, faces)
-        first = np.unique(group, return_index=True)[1]
-        vertices, source = vertices[first], group[source]
-    return vertices, faces, source
 
 
 def _first_of_equals(faces: Ints) -> Bools:

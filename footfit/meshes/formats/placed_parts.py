@@ -14,7 +14,7 @@ import numpy as np
 
 from footfit.errors import DamagedMesh
 from footfit.geometry.mesh.topology import boundary_edges
-from footfit.geometry.mesh.welding import nearby_vertices, welded_vertices
+from footfit.geometry.mesh.welding import nearby_vertices, rounding_distance, welded_vertices
 from footfit.geometry.numeric.arrays import Floats, Ints
 from footfit.geometry.numeric.rotations import moved_points
 from footfit.meshes.formats.raw import RawMesh
@@ -22,21 +22,6 @@ from footfit.meshes.read_limits import Limits
 from footfit.results import Notice
 
 _Key = TypeVar("_Key")
-
-
-@dataclass(frozen=True, slots=True)
-class SeamSettings:
-    """How far apart two rim vertices of different parts may lie and still be the same vertex.
-
-    The distance is the larger of ``extent`` times the diagonal of all parts, and ``coordinate``
-    times their largest coordinate (float32 keeps 24 bits of it).
-    """
-
-    extent: float = 1e-5
-    coordinate: float = 5e-7
-
-
-SEAMS = SeamSettings()
 
 
 @dataclass(frozen=True, slots=True)
@@ -86,9 +71,7 @@ def placed_nodes(
         waiting += [(child, transform) for child in reversed(children)]
 
 
-def joined_parts(
-    parts: Sequence[Part], objects: int, unit: str, settings: SeamSettings = SEAMS
-) -> RawMesh:
+def joined_parts(parts: Sequence[Part], objects: int, unit: str) -> RawMesh:
     """All parts in place, as one mesh whose objects share the vertices of their seams.
 
     Parameters
@@ -99,7 +82,6 @@ def joined_parts(
         How many objects the parts belong to: an object of several materials has several parts.
     unit : str
         The unit that the file declares.
-    settings : SeamSettings
 
     Returns
     -------
@@ -123,7 +105,7 @@ def joined_parts(
     if objects < 2:
         return RawMesh(points, triangles, (), unit)
     notice = Notice("objects_joined", f"the file's {objects} objects are read as one surface")
-    return RawMesh(_with_equal_seams(points, triangles, settings), triangles, (notice,), unit)
+    return RawMesh(_with_equal_seams(points, triangles), triangles, (notice,), unit)
 
 
 def _in_place(part: Part) -> tuple[Floats, Ints]:
@@ -136,7 +118,7 @@ def _in_place(part: Part) -> tuple[Floats, Ints]:
     return placed, part.faces[:, ::-1] if mirrored else part.faces
 
 
-def _with_equal_seams(vertices: Floats, faces: Ints, settings: SeamSettings) -> Floats:
+def _with_equal_seams(vertices: Floats, faces: Ints) -> Floats:
     """The vertices (n, 3), with nearly equal ones on open rims made exactly equal.
 
     Each part is stored in its own frame, so rounding moves the two sides of a seam apart. Vertices
@@ -146,9 +128,8 @@ def _with_equal_seams(vertices: Floats, faces: Ints, settings: SeamSettings) -> 
         return vertices
     points, corners, source = welded_vertices(vertices, faces)
     rim = np.unique(boundary_edges(corners))
-    diagonal = float(np.linalg.norm(np.ptp(points, axis=0)))
-    near = max(settings.extent * diagonal, settings.coordinate * float(np.abs(points).max()))
+    near = rounding_distance(points)
     if not len(rim) or not near > 0.0:
         return vertices
-    points[rim] = points[rim][nearby_vertices(points[rim], near)]
+    points[rim] = points[rim][nearby_vertices(points[rim], 4.0 * near)]
     return points[source]
