@@ -113,7 +113,7 @@ def test_the_page_lists_the_keys_of_every_part() -> None:
     assert set(candidate) == listed["candidate"]
     (room,) = answers.roomy_candidate().to_dict()["surface_clearance"]
     assert set(room) == listed["surface clearance"]
-    assert set(room["zones"]["medial"]) == listed["zone room"]
+    assert set(room["zones"]["medial"]) == listed["zone clearance"]
     assert set(candidate["clearance_mm"]["length"]) == listed["measured value"]
     lasts = Library((answers.record(),), 1, None).to_dict()["lasts"]
     assert set(lasts[0]) == listed["last"]
@@ -141,7 +141,7 @@ def test_the_page_lists_the_keys_of_a_fit() -> None:
 
 def test_the_page_lists_the_keys_of_a_comparison() -> None:
     listed, document = listed_keys(), comparison().to_dict()
-    assert {key for zone in document["zones"].values() for key in zone} == listed["zone room"]
+    assert {key for zone in document["zones"].values() for key in zone} == listed["zone clearance"]
     section = document["sections"][0]
     assert set(section) == listed["section"]
     assert set(section["sizes"]["width"]) == listed["size difference"]
