@@ -24,6 +24,7 @@ from footfit.geometry.fit.placement import placed, placement
 from footfit.geometry.measures.landmarks import Shape
 from footfit.geometry.mesh.nearest import nearest_on_surface, part_middles
 from tests import shapes
+from tests.bounds import ROUNDING
 from tools.lasts import LastSpec, last_mesh
 
 
@@ -58,7 +59,7 @@ def test_a_sphere_in_a_larger_one_has_room_and_the_larger_in_it_has_none(inner, 
 
 def test_a_surface_has_no_room_against_itself():
     vertices, faces = shapes.ellipsoid()
-    assert np.abs(signed_clearance(vertices, vertices, faces)).max() < 1e-9
+    assert np.abs(signed_clearance(vertices, vertices, faces)).max() < ROUNDING
 
 
 @settings(deadline=None, max_examples=60)
@@ -69,14 +70,16 @@ def test_the_distance_to_a_cube_is_the_formula_inside_and_outside(point):
     inside = 50.0 - np.max(np.abs(point))
     outside = np.linalg.norm(np.maximum(np.abs(point) - 50.0, 0.0))
     truth = inside if inside > 0.0 else -outside
-    assert signed_clearance(np.array([point]), vertices, faces)[0] == pytest.approx(truth, abs=1e-9)
+    found = signed_clearance(np.array([point]), vertices, faces)[0]
+    # In the very middle six faces are as near, and another than the nearest may be tried: 2.2e-7.
+    assert found == pytest.approx(truth, abs=3e-7)
 
 
 def test_large_and_small_triangles_give_the_same_distance():
     points = np.random.default_rng(3).uniform(-80.0, 80.0, (400, 3))
     coarse, fine = (shapes.cube(100.0, cells) for cells in (2, 12))
     one, other = (nearest_on_surface(points, *mesh).distance for mesh in (coarse, fine))
-    assert np.abs(one - other).max() < 1e-9
+    assert np.abs(one - other).max() < ROUNDING
 
 
 def test_an_open_rim_has_no_side():
@@ -84,7 +87,7 @@ def test_an_open_rim_has_no_side():
     wall = faces[(faces < len(vertices) - 2).all(axis=1)]
     room = signed_clearance(np.array([[0.0, 0.0, -30.0], [0.0, 0.0, 125.0]]), vertices, wall)
     assert np.isnan(room[0])
-    assert room[1] == pytest.approx(40.0, abs=0.1)
+    assert room[1] == pytest.approx(40.0, abs=0.0091)  # measured 0.0061
 
 
 @pytest.mark.parametrize("split", [1, 2, 5])
@@ -100,10 +103,10 @@ def test_the_parts_of_a_triangle_are_equal_and_fill_it(split):
 
 def test_a_last_lies_in_itself_without_moving():
     way = placement(last(), last())
-    assert np.abs(placed(last().vertices_mm, way) - last().vertices_mm).max() < 1e-9
-    assert way.swing_mm == pytest.approx(0.0, abs=1e-9)
+    assert np.abs(placed(last().vertices_mm, way) - last().vertices_mm).max() < ROUNDING
+    assert way.swing_mm == pytest.approx(0.0, abs=ROUNDING)
     room = foot_clearance(last(), last())
-    assert np.nanmax(np.abs(room)) < 1e-9
+    assert np.nanmax(np.abs(room)) < ROUNDING
 
 
 @pytest.mark.parametrize(
@@ -121,8 +124,10 @@ def test_the_swing_is_how_far_the_axes_part_at_the_ball():
     yaw_deg = 4.0
     moved = Shape(turned(last().vertices_mm, 0.0, yaw_deg, np.zeros(3)), last().faces, "last")
     way = placement(moved, last())
-    assert way.yaw_deg == pytest.approx(-yaw_deg, abs=0.15)
-    assert way.swing_mm == pytest.approx(-np.tan(np.radians(yaw_deg)) * 0.65 * 272.0, abs=0.6)
+    assert way.yaw_deg == pytest.approx(-yaw_deg, abs=1.3e-8)  # measured 8.3e-09
+    assert way.swing_mm == pytest.approx(
+        -np.tan(np.radians(yaw_deg)) * 0.65 * 272.0, abs=0.046
+    )  # measured 0.03
 
 
 def test_a_flat_foot_bends_at_its_tread_into_a_toe_spring():
@@ -131,7 +136,7 @@ def test_a_flat_foot_bends_at_its_tread_into_a_toe_spring():
     flat = Shape(placed(last().vertices_mm, bend), last().faces, "foot")
     way = placement(flat, last())
     assert way.bend_deg == pytest.approx(8.0, abs=0.6)
-    assert abs(way.pitch_deg) < 0.3
+    assert abs(way.pitch_deg) < 0.0013  # measured 0.00084
     back = placed(flat.vertices_mm, way)
     low = last().vertices_mm[:, 2] < 20.0
     assert np.abs(back - last().vertices_mm)[low].max() < 1.0
@@ -157,7 +162,7 @@ def test_a_smaller_copy_has_room_on_every_side_and_a_larger_one_is_tight():
         zones = {zone.zone: zone for zone in zone_clearances(foot, room)}
         for name in ("medial", "lateral", "dorsal", "toe"):
             assert sign * zones[name].mean_mm > 1.0, (factor, name)
-        assert abs(zones["bottom"].mean_mm) < 1.0  # it rests on the last's bottom
+        assert abs(zones["bottom"].mean_mm) < 0.29  # it rests on the last's bottom
 
 
 def test_a_fat_foot_is_tight_and_a_thin_one_loose_over_square_centimetres():
@@ -167,7 +172,7 @@ def test_a_fat_foot_is_tight_and_a_thin_one_loose_over_square_centimetres():
         tight, loose = (
             sum(getattr(z, f"{word}_cm2") for z in zones) for word in ("tight", "loose")
         )
-        assert max(tight, loose) > 50.0
+        assert max(tight, loose) > 110.0  # measured 190
         assert (tight > loose) == (factor > 1.0)
 
 
@@ -178,7 +183,7 @@ def test_width_alone_is_felt_at_the_sides_by_half_of_it():
     ball = (np.abs(last().vertices_mm[:, 0] - 0.66 * 272.0) < 6.0) & (last().vertices_mm[:, 2] < 20)
     lateral = ball & (zone_of(narrow) == ZONES.index("lateral"))
     half_mm = 0.06 * np.abs(last().vertices_mm[lateral, 1]).max()
-    assert np.nanmax(room[lateral]) == pytest.approx(half_mm, abs=0.8)
+    assert np.nanmax(room[lateral]) == pytest.approx(half_mm, abs=0.47)  # measured 0.31
 
 
 def test_a_leg_changes_nothing():
@@ -191,7 +196,7 @@ def test_a_leg_changes_nothing():
     assert np.isnan(foot_clearance(tall, last())[high]).all()
     low = foot.vertices_mm[:, 2] < 0.2 * foot.length_mm
     one, other = foot_clearance(foot, last()), foot_clearance(tall, last())
-    assert np.nanmax(np.abs(one[low] - other[low])) < 1e-9
+    assert np.nanmax(np.abs(one[low] - other[low])) < ROUNDING
 
 
 def test_the_zones_hold_the_whole_foot_and_their_areas_sum():
@@ -219,7 +224,8 @@ def test_a_wider_last_is_wider_in_every_section_by_its_share():
     wide = Shape(last().vertices_mm * [1.0, 1.05, 1.0], last().faces, "last")
     for pair in section_pairs(last(), wide):
         assert pair.last_sizes["width"].value == pytest.approx(
-            1.05 * pair.foot_sizes["width"].value, abs=0.7
+            1.05 * pair.foot_sizes["width"].value,
+            abs=0.1,  # measured 0.066
         )
         assert pair.station in STATIONS
 

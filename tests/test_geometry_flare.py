@@ -22,6 +22,7 @@ from footfit.geometry.flare.levelled_bottom import bottom_shape
 from footfit.geometry.flare.profile_distance import profile_distances
 from footfit.geometry.numeric.smoothing import cubic_splines, local_quadratic
 from tests import distortions, shapes
+from tests.bounds import ROUNDING
 from tests.strategies import seeds
 from tools.lasts import LastSpec, graded, last_mesh, plain, true_flare_deg, true_heading_deg, varied
 
@@ -55,7 +56,9 @@ def same(one, other, tolerance):
 def test_a_smoothly_bent_last_reads_its_planted_turn(flare_deg, toe_shape):
     spec = plain(LastSpec(flare_deg=flare_deg, toe_shape=toe_shape, heel_height_mm=20.0, **SMALL))
     profile = flare_profile(*last_mesh(spec), kind="last")
-    assert profile.angle_deg == pytest.approx(true_flare_deg(spec), abs=0.15)
+    assert profile.angle_deg == pytest.approx(
+        true_flare_deg(spec), abs=0.07
+    )  # 0.038: the toe's shape
     truth = true_heading_deg(spec, profile.stations)
     assert np.abs(profile.heading_deg - truth)[INSIDE].max() < 0.4
 
@@ -92,9 +95,9 @@ def test_the_angles_sd_is_the_scatter_carried_through_the_line(usual, lags):
     weights = np.maximum(0.0, 1.0 - apart / (lags + 1))
     variance = felt @ weights @ felt * len(felt) / (line.freedom - np.trace(smooth))
     said = flare_profile(noisy, faces, definition).angle_sd_deg
-    assert said == pytest.approx(np.sqrt(variance), rel=1e-6)  # the gradient's differences: 1e-8
+    assert said == pytest.approx(np.sqrt(variance), rel=5e-7)  # 2.5e-7: the gradient's differences
     framed = flare_profile(noisy, faces, replace(definition, frame_sd_deg=0.3)).angle_sd_deg
-    assert framed == pytest.approx(np.hypot(said, 0.3), rel=1e-12)
+    assert framed == pytest.approx(np.hypot(said, 0.3), rel=ROUNDING)
 
 
 def angle_gradient(line, definition, step=1e-4):
@@ -119,29 +122,29 @@ def test_decimation_hardly_moves_the_angle():
     _, vertices, faces = last(rings=160, segments=110)
     before = flare_profile(vertices, faces).angle_deg
     after = flare_profile(*distortions.decimated(vertices, faces, 4.0)).angle_deg
-    assert after == pytest.approx(before, abs=0.05)
+    assert after == pytest.approx(before, abs=0.004)  # 0.0021 deg
 
 
 @pytest.mark.parametrize("change_deg", [-8.0, -4.0, 4.0, 8.0])
 def test_a_further_bend_of_a_last_is_read_whole(usual, change_deg):
     _, vertices, faces = last(8.0 + change_deg)
     change = flare_profile(vertices, faces).angle_deg - usual[2].angle_deg
-    assert change == pytest.approx(change_deg, abs=0.3)
+    assert change == pytest.approx(change_deg, abs=0.02)  # 0.011 deg
 
 
 def test_a_graded_last_has_the_identical_profile():
     spec = LastSpec(length_mm=250.0, flare_deg=7.0, **SMALL)
     one = flare_profile(*last_mesh(spec))
     other = flare_profile(*last_mesh(graded(spec, 290.0)))
-    same(one, other, 1e-7)
-    assert profile_distance(one, other)[0] < 1e-5
+    same(one, other, ROUNDING)
+    assert profile_distance(one, other)[0] < ROUNDING
 
 
 @settings(max_examples=8, deadline=None)
 @given(power=st.floats(-1.0, 1.0))
 def test_scale_changes_nothing(usual, power):
     vertices, faces, profile = usual
-    same(profile, flare_profile(vertices * 10.0**power, faces), 1e-7)
+    same(profile, flare_profile(vertices * 10.0**power, faces), ROUNDING)
 
 
 @settings(max_examples=6, deadline=None)
@@ -149,7 +152,7 @@ def test_scale_changes_nothing(usual, power):
 def test_the_order_of_vertices_and_faces_changes_nothing(usual, seed):
     vertices, faces, profile = usual
     shuffled = distortions.shuffled(vertices, faces, np.random.default_rng(seed))
-    same(profile, flare_profile(*shuffled), 1e-7)
+    same(profile, flare_profile(*shuffled), ROUNDING)
 
 
 @settings(max_examples=6, deadline=None)
@@ -158,8 +161,8 @@ def test_subdivision_changes_nothing_but_how_the_surface_is_weighed(usual, seed)
     vertices, faces, profile = usual
     chosen = np.random.default_rng(seed).random(len(faces)) < 0.3
     other = flare_profile(*distortions.subdivided(vertices, faces, chosen))
-    assert other.angle_deg == pytest.approx(profile.angle_deg, abs=1e-6)
-    assert np.allclose(channels(other)[:4], channels(profile)[:4], atol=1e-4)
+    assert other.angle_deg == pytest.approx(profile.angle_deg, abs=ROUNDING)
+    assert np.allclose(channels(other)[:4], channels(profile)[:4], atol=ROUNDING, rtol=0)
     # facets are weighed at their centres: right to the square of their size
     assert np.abs(channels(other)[4] - channels(profile)[4])[INSIDE].max() < 0.01
 
@@ -168,7 +171,7 @@ def test_subdivision_changes_nothing_but_how_the_surface_is_weighed(usual, seed)
 @given(x=st.floats(-40.0, 40.0), y=st.floats(-40.0, 40.0))
 def test_where_the_shape_lies_on_the_floor_changes_nothing(usual, x, y):
     vertices, faces, profile = usual
-    same(profile, flare_profile(vertices + np.array([x, y, 0.0]), faces), 1e-6)
+    same(profile, flare_profile(vertices + np.array([x, y, 0.0]), faces), ROUNDING)
 
 
 @settings(max_examples=8, deadline=None)
@@ -177,7 +180,8 @@ def test_a_slightly_wrong_frame_hardly_moves_the_angle(usual, roll, pitch, yaw):
     vertices, faces, profile = usual
     for axis, angle in (("x", roll), ("y", pitch), ("z", yaw)):
         vertices = vertices @ distortions.axis_rotation(axis, angle)[:3, :3].T
-    assert flare_profile(vertices, faces).angle_deg == pytest.approx(profile.angle_deg, abs=0.12)
+    angle_deg = flare_profile(vertices, faces).angle_deg
+    assert angle_deg == pytest.approx(profile.angle_deg, abs=0.025)  # 0.013 in the corners
 
 
 @settings(max_examples=8, deadline=None)
@@ -185,7 +189,7 @@ def test_a_slightly_wrong_frame_hardly_moves_the_angle(usual, roll, pitch, yaw):
 def test_a_roll_of_the_frame_changes_nothing(usual, roll):
     vertices, faces, profile = usual
     rolled = vertices @ distortions.axis_rotation("x", roll)[:3, :3].T
-    same(profile, flare_profile(rolled, faces), 0.02)
+    same(profile, flare_profile(rolled, faces), 4e-5)  # 2.0e-5 at 3 degrees
 
 
 def bowl(along_mm, across_mm):
@@ -213,13 +217,15 @@ def bowl(along_mm, across_mm):
 
 def test_a_bowl_has_the_curvature_of_its_radii():
     profile = flare_profile(*bowl(400.0, 300.0))
-    assert profile.angle_deg == pytest.approx(0.0, abs=1e-9)
+    assert profile.angle_deg == pytest.approx(0.0, abs=ROUNDING)
     middle = slice(20, 27)
     mean = 0.5 * (1 / 400 + 1 / 300) * 250
-    assert profile.curvature["bottom_surface"][middle] == pytest.approx(mean, rel=0.01)
+    assert profile.curvature["bottom_surface"][middle] == pytest.approx(
+        mean, rel=0.005
+    )  # 0.0025: the bandwidth
     for name in ("bottom_20", "bottom_50", "bottom_80"):
         assert profile.curvature[name][middle] == pytest.approx(250 / 400, rel=0.02)
-    assert profile.curvature["plan"] == pytest.approx(0.0, abs=1e-9)
+    assert profile.curvature["plan"] == pytest.approx(0.0, abs=ROUNDING)
 
 
 def test_a_hollow_bottom_is_negative():
@@ -246,7 +252,7 @@ def test_a_shape_without_a_sole_has_no_bottom_channels(usual):
     bare = flare_profile(vertices, faces[~(down & (centres[:, 2] < 30.0))])
     assert all(bare.curvature[name] is None for name in CHANNELS[1:])
     assert bare.curvature["plan"] is not None
-    assert bare.angle_deg == pytest.approx(profile.angle_deg, abs=1.0)
+    assert bare.angle_deg == pytest.approx(profile.angle_deg, abs=0.07)  # 0.037 deg
 
 
 def test_half_a_last_is_refused(usual):
@@ -259,7 +265,7 @@ def test_half_a_last_is_refused(usual):
 def test_holes_in_the_wall_do_not_upset_the_angle(usual):
     vertices, faces, profile = usual
     holed = distortions.with_holes(vertices, faces, np.random.default_rng(7), 3, 10.0)
-    assert flare_profile(*holed).angle_deg == pytest.approx(profile.angle_deg, abs=0.5)
+    assert flare_profile(*holed).angle_deg == pytest.approx(profile.angle_deg, abs=0.04)  # 0.023
 
 
 def test_the_class_follows_the_kinds_thresholds():
@@ -307,7 +313,7 @@ def test_what_is_left_out_before_changes_nothing(usual, monkeypatch):
     vertices, faces, profile = usual
     monkeypatch.setattr(levelled_bottom, "_NEIGHBOURHOOD", 0.2)
     monkeypatch.setattr(levelled_bottom, "_LIFT", 0.1)
-    same(profile, flare_profile(vertices, faces), 1e-9)
+    same(profile, flare_profile(vertices, faces), ROUNDING)
 
 
 @pytest.mark.parametrize(
@@ -326,8 +332,8 @@ def test_what_is_left_out_before_changes_nothing(usual, monkeypatch):
 def test_how_finely_it_is_solved_hardly_matters(usual, finer):
     vertices, faces, profile = usual
     other = flare_profile(vertices, faces, FlareDefinition(**finer))
-    assert other.angle_deg == pytest.approx(profile.angle_deg, abs=1e-3)
-    assert np.abs(channels(other) - channels(profile))[:, INSIDE].max() < 0.02
+    assert other.angle_deg == pytest.approx(profile.angle_deg, abs=2e-4)  # 1.2e-4 deg
+    assert np.abs(channels(other) - channels(profile))[:, INSIDE].max() < 2e-4  # 1.0e-4
 
 
 def test_a_profiles_arrays_stand_at_the_fixed_stations(usual):
@@ -381,7 +387,7 @@ def test_a_rescan_is_nearer_than_any_other_last(usual, library):
     noisy = distortions.white_noise(vertices, np.random.default_rng(3), 0.3)
     found = profile_distances(flare_profile(noisy, faces), [profile, library[0], library[2]])
     assert found.total.argmin() == 0
-    assert found.total[0] < 2.0
+    assert found.total[0] < 1.9  # 0.98: the sd of a channel is its repeatability
     assert found.total[1:].min() > 3.0 * found.total[0]
 
 
@@ -406,4 +412,4 @@ def test_profiles_of_other_stations_are_not_compared(usual):
 def test_a_round_thing_has_no_flare():
     vertices, faces = shapes.sphere(60.0, 3)
     profile = flare_profile(vertices + np.array([0.0, 0.0, 60.0]), faces)
-    assert profile.angle_deg == pytest.approx(0.0, abs=1.0)
+    assert profile.angle_deg == pytest.approx(0.0, abs=ROUNDING)

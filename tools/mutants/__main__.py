@@ -6,14 +6,15 @@
 from __future__ import annotations
 
 import argparse
+import signal
+import sys
 import tempfile
 from collections.abc import Sequence
-from concurrent.futures import ThreadPoolExecutor
 from functools import partial
 from pathlib import Path
 from queue import SimpleQueue
 
-from tools.mutants import scratch, summary
+from tools.mutants import processes, scratch, summary
 from tools.mutants.draw import Mutant, drawn
 from tools.mutants.reach import Reach, reach
 from tools.mutants.trial import Outcome, tried
@@ -31,6 +32,7 @@ def main() -> None:
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--count", type=int, default=200, help="how many mutants to try")
     parser.add_argument("--workers", type=int, default=2, help="how many at the same time")
+    parser.add_argument("--tests", nargs="*", default=[], help="only these files of tests")
     parser.add_argument("--only-list", action="store_true", help="print the mutants, run nothing")
     options = parser.parse_args()
     modules = _modules(ROOT, options.paths)
@@ -38,9 +40,11 @@ def main() -> None:
     if options.only_list:
         print("\n".join(mutant.name for mutant in mutants))
         return
+    signal.signal(signal.SIGTERM, lambda *_: sys.exit("ended by a signal"))
     with tempfile.TemporaryDirectory(prefix="footfit-mutants-") as name:
         tree = scratch.template(ROOT, Path(name) / "template")
-        outcomes = _tried(mutants, reach(tree, KEPT / "reach", options.workers), tree, options)
+        known = reach(tree, KEPT / "reach", options.workers, options.tests)
+        outcomes = _tried(mutants, known, tree, options)
         title = f"Seed {options.seed}, {' '.join(options.paths)}"
         summary.write(KEPT / f"seed-{options.seed}", ROOT, title, outcomes)
     for outcome in outcomes:
@@ -78,7 +82,7 @@ def _tried(
     folders: SimpleQueue[Path] = SimpleQueue()
     for worker in range(options.workers):
         folders.put(tree.parent.parent / f"worker-{worker}")
-    with ThreadPoolExecutor(options.workers) as pool:
+    with processes.workers(options.workers) as pool:
         outcomes = []
         for outcome in pool.map(partial(_try_one, known, tree, folders), mutants):
             outcomes.append(outcome)

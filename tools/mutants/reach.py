@@ -6,16 +6,14 @@ import ast
 import hashlib
 import json
 import os
-import subprocess
 import sys
 import tempfile
 from collections import defaultdict
-from collections.abc import Iterable
-from concurrent.futures import ThreadPoolExecutor
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 
-from tools.mutants import watch
+from tools.mutants import processes, watch
 from tools.mutants.draw import Mutant
 from tools.mutants.scratch import environment
 
@@ -73,14 +71,15 @@ class Reach:
         return known or {name for names in here.values() for name in names}
 
 
-def reach(root: Path, cache: Path, workers: int) -> Reach:
-    """The map of a tree, with what ``cache`` has of it and is still true."""
-    files = sorted(str(path.relative_to(root)) for path in root.glob("tests/test_*.py"))
+def reach(root: Path, cache: Path, workers: int, tests: Sequence[str] = ()) -> Reach:
+    """The map of a tree, with what ``cache`` has of it and is still true; of some tests, or all."""
+    every = sorted(str(path.relative_to(root)) for path in root.glob("tests/test_*.py"))
+    files = [name for name in [*every, DOCTESTS] if not tests or name in tests]
     code = _digest(path for pattern in EVERYWHERE for path in root.glob(pattern))
     cache.mkdir(parents=True, exist_ok=True)
     found = Reach(uses=_uses(root))
-    with ThreadPoolExecutor(workers) as pool:
-        parts = pool.map(lambda name: _measured(root, cache, name, code), [*files, DOCTESTS])
+    with processes.workers(workers) as pool:
+        parts = pool.map(lambda name: _measured(root, cache, name, code), files)
         for part in parts:
             found.seconds |= part["seconds"]
             found.fixtures |= part["fixtures"]
@@ -112,19 +111,22 @@ def _measure(root: Path, name: str) -> dict[str, object]:
 
     with tempfile.TemporaryDirectory(prefix="footfit-reach-") as folder:
         settings, times = Path(folder) / "coverage.ini", Path(folder) / "times.json"
-        words = {"root": root, "folder": folder, "context": watch.CONTEXT}
-        settings.write_text(SETTINGS.format(**words), encoding="utf-8")
+        places = {"root": root, "folder": folder, "context": watch.CONTEXT}
+        settings.write_text(SETTINGS.format(**places), encoding="utf-8")
         command = [sys.executable, "-m", "coverage", "run", f"--rcfile={settings}", "-m", "pytest"]
         command += ["-q", "-p", "tools.mutants.watch", "-p", "no:cacheprovider", name]
         known = environment(root) | {
             watch.TIMES: str(times),
             "COVERAGE_PROCESS_START": str(settings),
         }
-        done = subprocess.run(command, cwd=root, env=known, capture_output=True, text=True)
+        said = Path(folder) / "said.txt"
+        with said.open("wb") as output:
+            code = processes.run(command, root, known, output=output)
+        words = said.read_text(encoding="utf-8", errors="replace").strip()
         if not times.is_file():
-            raise SystemExit(f"{name} could not be measured:\n{done.stdout}{done.stderr}")
-        if done.returncode:
-            print(f"{name}, measured: {done.stdout.strip().splitlines()[-1]}", flush=True)
+            raise SystemExit(f"{name} could not be measured:\n{words}")
+        if code:
+            print(f"{name}, measured: {words.splitlines()[-1]}", flush=True)
         lines: dict[str, dict[str, list[int]]] = defaultdict(lambda: defaultdict(list))
         for part in sorted(Path(folder).glob("coverage.*")):
             if part == settings:

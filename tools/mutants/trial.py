@@ -3,24 +3,16 @@
 from __future__ import annotations
 
 import json
-import os
-import resource
-import signal
-import subprocess
 import sys
 import time
-from contextlib import suppress
 from dataclasses import dataclass
 from pathlib import Path
 
-from tools.mutants import scratch, watch
+from tools.mutants import processes, scratch, watch
 from tools.mutants.draw import Mutant
 
 TEST_SECONDS, TEST_TIMES = 20.0, 10.0
 """A test may take this long, and this many times as long as it took: then the mutant hangs."""
-
-MEMORY_BYTES = 12 * 1024**3
-"""What a process may ask of the memory: a mutant can ask for all."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -66,7 +58,8 @@ def _first_failure(
     command = [sys.executable, "-m", "pytest", "-x", "-q", "-p", "tools.mutants.watch"]
     command += ["-p", "no:cacheprovider", *files]
     known = scratch.environment(copy) | {watch.PLAN: str(listed), watch.LOG: str(log)}
-    code = _run(command, copy, known, seconds=max(limits.values()) + 3.0 * sum(plan.values()) + 60)
+    longest = max(limits.values()) + 3.0 * sum(plan.values()) + 60
+    code = processes.run(command, copy, known, longest)
     if code == 0:
         return None, "survived"
     events = [json.loads(line) for line in log.read_text(encoding="utf-8").splitlines()]
@@ -80,28 +73,3 @@ def _change(path: Path, mutant: Mutant) -> None:
     path.write_text(mutant.mutation.applied(path.read_text(encoding="utf-8")), encoding="utf-8")
     for compiled in (path.parent / "__pycache__").glob(f"{path.stem}.*.pyc"):
         compiled.unlink()
-
-
-def _run(command: list[str], tree: Path, known: dict[str, str], seconds: float) -> int:
-    """The exit code of a command, with everything it began ended after it."""
-    process = subprocess.Popen(
-        command,
-        cwd=tree,
-        env=known,
-        stdout=subprocess.DEVNULL,
-        stderr=subprocess.DEVNULL,
-        start_new_session=True,
-        preexec_fn=_limit_memory,
-    )
-    try:
-        return process.wait(timeout=seconds)
-    except subprocess.TimeoutExpired:
-        return -1
-    finally:
-        with suppress(ProcessLookupError):
-            os.killpg(process.pid, signal.SIGKILL)
-        process.wait()
-
-
-def _limit_memory() -> None:
-    resource.setrlimit(resource.RLIMIT_DATA, (MEMORY_BYTES, MEMORY_BYTES))
