@@ -9,7 +9,7 @@ from footfit.geometry.mesh.samples import quadrature
 from footfit.geometry.mesh.topology import boundary_loops
 from footfit.geometry.pose.facing import facing
 from footfit.geometry.pose.missing_parts import doubtful_end, missing_part
-from footfit.geometry.pose.pieces import comparable, gap, part_of, pieces, stand_apart
+from footfit.geometry.pose.pieces import comparable, gap, pieces, stand_apart
 from tests import distortions, shapes
 from tests.bounds import ROUNDING
 from tools.lasts import LastSpec, last_mesh
@@ -22,9 +22,9 @@ def last():
 
 def test_two_lasts_are_two_comparable_pieces_that_stand_apart(last):
     vertices, faces = shapes.two_feet(*last)
-    found = comparable(vertices, faces, pieces(vertices, faces))
-    first, second = (part_of(vertices, faces, piece)[0] for piece in found)
-    assert len(found) == 2
+    parts = comparable(pieces(vertices, faces))
+    assert len(parts) == 2
+    first, second = (part.vertices for part in parts)
     assert stand_apart(first, second)
     # on a sample of vertices: never less than the true gap, and not much more
     assert 40.0 <= gap(first, second) < 70.0

@@ -8,7 +8,7 @@ from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
 from footfit.geometry.mesh.caps import extent_of
-from footfit.geometry.mesh.holes import HOLES, filled
+from footfit.geometry.mesh.holes import HOLES, closed_mesh
 from footfit.geometry.mesh.surface import area_vectors
 from footfit.geometry.mesh.topology import boundary_loops, is_closed
 from tests import distortions, shapes
@@ -39,7 +39,7 @@ def test_a_spheres_cap_is_the_spheres_to_a_seventh_of_what_a_flat_one_misses(
     radius_mm, subdivisions
 ):
     vertices, faces = holed_sphere(radius_mm, subdivisions=subdivisions)
-    whole = filled(vertices, faces, LENGTH_MM)
+    whole = closed_mesh(vertices, faces, LENGTH_MM)
     assert is_closed(whole.faces)
     assert is_consistently_wound(whole.faces)
     assert len(whole.extents) == 1
@@ -54,7 +54,7 @@ def test_a_spheres_cap_is_the_spheres_to_a_seventh_of_what_a_flat_one_misses(
 def test_noise_on_the_rim_does_not_make_a_cap_wild():
     vertices, faces = holed_sphere(15.0)
     noisy = distortions.white_noise(vertices, np.random.default_rng(2), 0.3)
-    whole = filled(noisy, faces, LENGTH_MM)
+    whole = closed_mesh(noisy, faces, LENGTH_MM)
     away = np.linalg.norm(caps_of(whole, vertices), axis=1) - 50.0
     assert np.abs(away).max() < 0.75
 
@@ -63,7 +63,7 @@ def test_a_cap_of_a_plane_lies_in_it():
     vertices, faces = shapes.flat_sheet(cells=60)
     middles = vertices[faces].mean(axis=1)
     keep = np.hypot(middles[:, 0] - 130.0, (middles[:, 1] - 50.0) / 0.6) > 22.0
-    whole = filled(vertices, faces[keep], LENGTH_MM)
+    whole = closed_mesh(vertices, faces[keep], LENGTH_MM)
     cap = caps_of(whole, vertices)
     assert len(whole.extents) == 1
     assert np.abs(cap[:, 2]).max() < 1e-9
@@ -72,7 +72,7 @@ def test_a_cap_of_a_plane_lies_in_it():
 
 
 def test_a_closed_mesh_comes_back_as_it_is(last):
-    whole = filled(*last, LENGTH_MM)
+    whole = closed_mesh(*last, LENGTH_MM)
     assert whole.vertices is last[0]
     assert whole.faces is last[1]
     assert whole.extents == ()
@@ -90,11 +90,11 @@ def test_a_cut_leg_a_missing_sole_and_a_half_are_no_holes(last):
         distortions.plane_cut(vertices, faces, np.zeros(3), np.array([0.0, 1.0, 0.0])),
     ):
         assert boundary_loops(mesh[1])
-        assert filled(*mesh, LENGTH_MM).extents == ()
+        assert closed_mesh(*mesh, LENGTH_MM).extents == ()
 
 
 def test_a_patch_that_lies_on_its_own_is_not_turned_into_a_body():
-    whole = filled(*shapes.open_cap(40.0, 30.0), LENGTH_MM)
+    whole = closed_mesh(*shapes.open_cap(40.0, 30.0), LENGTH_MM)
     assert whole.extents == ()
 
 
@@ -103,14 +103,14 @@ def test_a_mesh_whose_winding_breaks_at_the_rim_is_left_there():
     rim = np.isin(faces, boundary_loops(faces)[0]).any(axis=1)
     turned = faces.copy()
     turned[np.flatnonzero(rim)[::3]] = turned[np.flatnonzero(rim)[::3]][:, ::-1]
-    whole = filled(vertices, turned, LENGTH_MM)
+    whole = closed_mesh(vertices, turned, LENGTH_MM)
     assert np.isfinite(whole.vertices).all()
 
 
 def test_of_thousands_of_holes_the_largest_are_closed():
     vertices, faces = shapes.sphere(60.0, 5)
     vertices, faces = distortions.with_holes(vertices, faces, np.random.default_rng(4), 90, 4.0)
-    whole = filled(vertices, faces, LENGTH_MM)
+    whole = closed_mesh(vertices, faces, LENGTH_MM)
     known = sorted((extent_of(vertices[rim]) for rim in whole.rims), reverse=True)
     assert len(whole.extents) == HOLES.most < len(known)
     assert whole.extents == pytest.approx(known[: HOLES.most])
@@ -127,11 +127,11 @@ def test_of_thousands_of_holes_the_largest_are_closed():
 )
 def test_caps_move_with_the_mesh_whatever_its_order(last, rotation, shift, scale, seed, mirror):
     vertices, faces = distortions.with_holes(*last, np.random.default_rng(seed), 3, 10.0)
-    home = filled(vertices, faces, LENGTH_MM)
+    home = closed_mesh(vertices, faces, LENGTH_MM)
     flip = np.array([1.0, -1.0, 1.0]) if mirror else np.ones(3)
     order = faces[:, ::-1] if mirror else faces
     there = (vertices * flip @ rotation.T + shift) * scale
-    there = filled(
+    there = closed_mesh(
         *distortions.shuffled(there, order, np.random.default_rng(seed)), LENGTH_MM * scale
     )
     assert there.extents == pytest.approx([scale * extent for extent in home.extents])

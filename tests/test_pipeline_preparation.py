@@ -7,7 +7,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from footfit.geometry.mesh.holes import filled
+from footfit.geometry.mesh.holes import closed_mesh
 from footfit.geometry.mesh.topology import boundary_loops, is_closed
 from footfit.meshes.write import encoded_mesh
 from footfit.pipeline.batch.sources import ReadingOptions, Source
@@ -56,9 +56,9 @@ def closings(monkeypatch):
 
     def counting(vertices, faces, length):
         counts.append(len(vertices))
-        return filled(vertices, faces, length)
+        return closed_mesh(vertices, faces, length)
 
-    monkeypatch.setattr(preparation, "filled", counting)
+    monkeypatch.setattr(preparation, "closed_mesh", counting)
     preparation.stored_shape.cache_clear()
     return counts
 
@@ -124,7 +124,7 @@ def test_mirroring_before_or_after_filling_gives_the_same_numbers(foot_with_hole
     found = aligned(read_scan(foot_with_holes), side="left")
     vertices, faces = mirrored(found.vertices_mm, found.faces)
     assert not is_closed(faces)
-    first = filled(vertices, faces, found.alignment.extent_mm)
+    first = closed_mesh(vertices, faces, found.alignment.extent_mm)
     before = measured(first.vertices, first.faces, "foot")
     after = measured(*right_shape(found), "foot")
     for one, other in zip(before, after, strict=True):

@@ -9,7 +9,7 @@ from footfit.results.documents import Json, fields, part
 
 if TYPE_CHECKING:
     from footfit.geometry.numeric.arrays import Floats, Ints
-    from footfit.geometry.pose.pose_search import Orientation
+    from footfit.geometry.pose.pose_search import RoughPose
     from footfit.results.values import Notice
 
 
@@ -53,7 +53,7 @@ class Scan:
     faces: Ints
     warnings: tuple[Notice, ...]
     source_to_vertex: Ints | None = None
-    pose: Orientation | None = None
+    pose: RoughPose | None = None
 
 
 @dataclass(frozen=True, slots=True)

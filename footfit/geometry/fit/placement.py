@@ -158,9 +158,9 @@ def _heel_back(shape: Shape, length_mm: float) -> float:
     """Where a heel's back is along X: the quantile that puts the origin of a shape's frame."""
     middles = shape.vertices_mm[shape.faces].mean(axis=1)
     ground = float(middles[:, 2].min())
-    low = middles[:, 2] - ground < FRAME.docking_height * length_mm
+    low = middles[:, 2] - ground < FRAME.origin_height * length_mm
     areas = face_areas(shape.vertices_mm, shape.faces[low])
-    return area_quantile(middles[low, 0], areas, FRAME.docking_share)
+    return area_quantile(middles[low, 0], areas, FRAME.origin_share)
 
 
 def _rest(

@@ -1,4 +1,4 @@
-"""A smooth cap for one hole: it meets the rim and goes on as the surface comes in.
+"""A smooth cap for one hole: it meets the rim and continues the surface around it.
 
 Over the unit disk, a map whose Laplacian is harmonic is fixed by its values p and its outward
 derivative q on the circle, wave by wave: (a r^n + b r^(n + 2)) e^(i n t) with a + b = p and
@@ -24,16 +24,16 @@ class CapSettings:
     """Everything numeric of a cap.
 
     rim_samples, slope_samples, harmonics
-        How finely a rim and the surface's slope there are read, and how many waves a cap follows.
+        At how many places a rim and the surface's slope are read; how many waves a cap follows.
     band, faces_most
-        How far around a rim the surface says how it goes on, over the rim's extent; and how many
-        faces are asked at most.
+        How far around a rim the surface's slope is read, over the rim's extent; from how many
+        faces at most.
     stretch_most
-        A slope's length over what it has in the plane of the flat cap.
+        The most that a slope is longer than in the plane of the flat cap.
     patch_cosine
-        A rim whose surface lies more inward than this is the edge of a patch and no hole.
+        A rim with its surface further inward than this is the edge of a patch and not a hole.
     rings_most, ring_steps
-        Rings of triangles at most; each ring has so many more sides than the one within.
+        The most rings of triangles; each ring has so many more sides than the next inner one.
     """
 
     rim_samples: int = 256
@@ -48,6 +48,8 @@ class CapSettings:
 
 
 CAPS = CapSettings()
+_WAVE_NUMBERS = np.arange(-CAPS.harmonics, CAPS.harmonics + 1.0)
+_ORDERS = np.abs(_WAVE_NUMBERS)
 
 
 @dataclass(frozen=True, slots=True)
@@ -65,9 +67,9 @@ class Facets:
     def near(self, centre: Floats, reach: float, most: int) -> Facets:
         """Those within ``reach`` of a point, thinned to about ``most``."""
         away = self.middles - centre
-        found = np.flatnonzero(np.einsum("ij,ij->i", away, away) < reach**2)
-        found = found[:: max(1, len(found) // most)]
-        return Facets(self.middles[found], self.vectors[found])
+        near = np.flatnonzero(np.einsum("ij,ij->i", away, away) < reach**2)
+        near = near[:: max(1, len(near) // most)]
+        return Facets(self.middles[near], self.vectors[near])
 
 
 @dataclass(frozen=True, slots=True)
@@ -94,7 +96,7 @@ def farthest_of(rim: Floats) -> int:
     return int(_lengths(rim - rim.mean(axis=0)).argmax())
 
 
-def cap(rim: Floats, facets: Facets, ring: float, settings: CapSettings = CAPS) -> Cap | None:
+def cap(rim: Floats, facets: Facets, ring: float) -> Cap | None:
     """A cap for a rim.
 
     Parameters
@@ -110,81 +112,72 @@ def cap(rim: Floats, facets: Facets, ring: float, settings: CapSettings = CAPS) 
     Returns
     -------
     Cap or None
-        None where the rim is the outer edge of a patch.
+        None if the rim is the outer edge of a patch.
     """
     extent = extent_of(rim)
-    turn, waves = _rim_waves(rim, settings)
-    near = facets.near(rim.mean(axis=0), (0.5 + 3.0 * settings.band) * extent, settings.faces_most)
-    slope = _slope_waves(waves, near, settings.band * extent, settings)
+    turn, waves = _rim_waves(rim)
+    near = facets.near(rim.mean(axis=0), (0.5 + 3.0 * CAPS.band) * extent, CAPS.faces_most)
+    slope = _slope_waves(waves, near, CAPS.band * extent)
     if slope is None:
         return None
-    order = _orders(settings)
-    b = 0.5 * (slope - order[:, None] * waves)
-    rings = int(np.clip(round(0.5 * extent / ring), 1, settings.rings_most))
-    counts = [settings.ring_steps * k for k in range(rings - 1, 0, -1)]
+    b = 0.5 * (slope - _ORDERS[:, None] * waves)
+    rings = int(np.clip(round(0.5 * extent / ring), 1, CAPS.rings_most))
+    counts = [CAPS.ring_steps * k for k in range(rings - 1, 0, -1)]
     share = np.repeat(np.append(np.arange(rings - 1, 0, -1), 0) / rings, [*counts, 1])
     angles = np.concatenate([*(_even(count) for count in counts), np.zeros(1)])
-    radial = (waves - b) * share[:, None, None] ** order[:, None]
-    radial = radial + b * share[:, None, None] ** (order[:, None] + 2.0)
-    spin = np.exp(1j * np.outer(angles, _numbers(settings)))
+    radial = (waves - b) * share[:, None, None] ** _ORDERS[:, None]
+    radial = radial + b * share[:, None, None] ** (_ORDERS[:, None] + 2.0)
+    spin = np.exp(1j * np.outer(angles, _WAVE_NUMBERS))
     points = np.einsum("kn,knc->kc", spin, radial).real
     return Cap(points, _triangles(turn, counts))
 
 
 def _even(count: int) -> Floats:
+    """Angles (count,) spread evenly over a turn, from 0 on."""
     return np.asarray(_TURN * np.arange(count) / count)
 
 
-def _numbers(settings: CapSettings) -> Floats:
-    """The waves' numbers, (2 harmonics + 1,)."""
-    return np.arange(-settings.harmonics, settings.harmonics + 1.0)
-
-
-def _orders(settings: CapSettings) -> Floats:
-    return np.abs(_numbers(settings))
-
-
-def _rim_waves(rim: Floats, settings: CapSettings) -> tuple[Floats, Waves]:
+def _rim_waves(rim: Floats) -> tuple[Floats, Waves]:
     """Each rim vertex's share of a turn by the rim's length, (k,), and the rim's waves (w, 3)."""
     sides = np.linalg.norm(np.roll(rim, -1, axis=0) - rim, axis=1)
     run = _TURN * np.append(0.0, np.cumsum(sides)) / sides.sum()
     closed = np.vstack([rim, rim[:1]])
-    angles = _even(settings.rim_samples)
+    angles = _even(CAPS.rim_samples)
     samples = np.column_stack([np.interp(angles, run, column) for column in closed.T])
-    return run[:-1], _waves(samples, settings)
+    return run[:-1], _waves(samples)
 
 
-def _waves(samples: Floats, settings: CapSettings) -> Waves:
+def _waves(samples: Floats) -> Waves:
     """The first waves (w, 3) of evenly spaced samples (s, 3) around a turn."""
-    back = np.exp(-1j * np.outer(_numbers(settings), _even(len(samples))))
+    back = np.exp(-1j * np.outer(_WAVE_NUMBERS, _even(len(samples))))
     return np.asarray(back @ samples / len(samples))
 
 
-def _slope_waves(waves: Waves, near: Facets, reach: float, settings: CapSettings) -> Waves | None:
+def _slope_waves(waves: Waves, near: Facets, reach: float) -> Waves | None:
     """The waves (w, 3) of the outward derivative at the rim, along the surface around it.
 
     A flat cap's derivative is laid into the tangent plane that the facets within ``reach`` have.
     """
-    spin = np.exp(1j * np.outer(_even(settings.slope_samples), _numbers(settings)))
+    spin = np.exp(1j * np.outer(_even(CAPS.slope_samples), _WAVE_NUMBERS))
     place = (spin @ waves).real
-    flat = (spin @ (_orders(settings)[:, None] * waves)).real
+    flat = (spin @ (_ORDERS[:, None] * waves)).real
     squares = ((place[:, None, :] - near.middles) ** 2).sum(axis=2)
     weight = np.exp(-squares / (0.5 * reach**2))
     area = weight * np.sqrt(np.einsum("ij,ij->i", near.vectors, near.vectors))
     outside = area @ near.middles - area.sum(axis=1)[:, None] * place
-    outward = place - waves[settings.harmonics].real
-    if _mean_cosine(outside, outward) < settings.patch_cosine:
+    outward = place - waves[CAPS.harmonics].real
+    if _mean_cosine(outside, outward) < CAPS.patch_cosine:
         return None
     normal = unit(weight @ near.vectors)
     along = flat - normal * np.einsum("ij,ij->i", normal, flat)[:, None]
     longer = _lengths(flat) / np.maximum(_lengths(along), np.finfo(np.float64).tiny)
-    return _waves(along * np.minimum(longer, settings.stretch_most)[:, None], settings)
+    return _waves(along * np.minimum(longer, CAPS.stretch_most)[:, None])
 
 
-def _mean_cosine(one: Floats, other: Floats) -> float:
-    """The cosine between rows of (k, 3), averaged by the length of ``one``."""
-    total = float((_lengths(one) * _lengths(other)).sum())
-    return float(np.einsum("ij,ij->", one, other)) / total if total > 0.0 else -1.0
+def _mean_cosine(rows: Floats, others: Floats) -> float:
+    """The cosine between rows of (k, 3), averaged by the product of their lengths."""
+    total = float((_lengths(rows) * _lengths(others)).sum())
+    return float(np.einsum("ij,ij->", rows, others)) / total if total > 0.0 else -1.0
 
 
 def _lengths(rows: Floats) -> Floats:
@@ -198,10 +191,8 @@ def _triangles(turn: Floats, counts: list[int]) -> Ints:
     """Triangles from the rim, at shares ``turn`` of a turn, over rings to the middle, (t, 3)."""
     starts = len(turn) + np.append(0, np.cumsum(counts)).astype(np.int64)
     angles = [turn, *(_even(count) for count in counts)]
-    rings = [
-        np.arange(len(turn)),
-        *(s + np.arange(c) for s, c in zip(starts, counts, strict=False)),
-    ]
+    rings = [np.arange(len(turn))]
+    rings += [start + np.arange(count) for start, count in zip(starts, counts, strict=False)]
     bands = [_band(rings[k], angles[k], rings[k + 1], angles[k + 1]) for k in range(len(counts))]
     last = rings[-1]
     fan = np.stack([last, np.roll(last, -1), np.full(len(last), starts[-1])], axis=1)
@@ -213,6 +204,6 @@ def _band(outer: Ints, at: Floats, inner: Ints, within: Floats) -> Ints:
     at, within = (0.5 * (a + np.append(a[1:], _TURN)) for a in (at, within))
     beside = np.searchsorted(within, at, side="left") % len(inner)
     opposite = np.searchsorted(at, within, side="right") % len(outer)
-    one = np.stack([outer, np.roll(outer, -1), inner[beside]], axis=1)
-    other = np.stack([outer[opposite], np.roll(inner, -1), inner], axis=1)
-    return np.concatenate([one, other])
+    inward = np.stack([outer, np.roll(outer, -1), inner[beside]], axis=1)
+    outward = np.stack([outer[opposite], np.roll(inner, -1), inner], axis=1)
+    return np.concatenate([inward, outward])

@@ -1,6 +1,6 @@
-"""Small holes in a surface, closed by smooth caps, so that a frame and a flare do not see them.
+"""Small holes in a surface, closed by smooth caps, so that they move neither frame nor flare.
 
-A scanner leaves holes where it did not look. A leg's cut, a missing sole or a missing half is no
+A scanner leaves holes where it did not look. A leg's cut, a missing sole or a missing half is not a
 hole: only loops that are small against the length are closed.
 """
 
@@ -10,7 +10,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from footfit.geometry.mesh.caps import Cap, Facets, cap, extent_of, farthest_of
+from footfit.geometry.mesh.caps import Facets, cap, extent_of, farthest_of
 from footfit.geometry.mesh.topology import boundary_edges, boundary_loops
 from footfit.geometry.numeric.arrays import Floats, Ints
 
@@ -20,11 +20,11 @@ class HoleSettings:
     """Everything numeric of what a hole is; lengths over L.
 
     largest, smallest
-        A loop's extent: what is larger is an opening, what is smaller changes nothing.
+        A loop's extent: a larger loop is an opening, a smaller one changes nothing.
     most
-        Loops that are closed, the largest first: a cracked scan has thousands.
+        How many loops are closed, the largest first: a cracked scan has thousands.
     fewest_vertices
-        Of a loop: one missing triangle is left.
+        Of a loop: one missing triangle stays open.
     ring
         The distance between the rings of a cap.
     """
@@ -40,8 +40,8 @@ HOLES = HoleSettings()
 
 
 @dataclass(frozen=True, slots=True)
-class Filled:
-    """A mesh whose small holes are closed: the given vertices and faces come first, unchanged.
+class ClosedMesh:
+    """A mesh with its small holes closed: the given vertices and faces come first, unchanged.
 
     ``rims`` are all its boundary loops before, ``extents`` those of the closed ones, the largest
     first, in the vertices' unit.
@@ -53,8 +53,8 @@ class Filled:
     extents: tuple[float, ...]
 
 
-def filled(vertices: Floats, faces: Ints, length: float, settings: HoleSettings = HOLES) -> Filled:
-    """The mesh with each small hole closed by a cap that goes on as the surface comes in.
+def closed_mesh(vertices: Floats, faces: Ints, length: float) -> ClosedMesh:
+    """The mesh with each small hole closed by a cap that continues the surface around it.
 
     Parameters
     ----------
@@ -66,55 +66,55 @@ def filled(vertices: Floats, faces: Ints, length: float, settings: HoleSettings 
 
     Returns
     -------
-    Filled
-        With the same arrays where there is nothing to close.
+    ClosedMesh
+        With the same arrays if there is nothing to close.
     """
     rims = tuple(boundary_loops(faces))
     extents = np.array([extent_of(vertices[rim]) for rim in rims])
-    small = (extents > settings.smallest * length) & (extents < settings.largest * length)
-    small &= np.array([len(rim) >= settings.fewest_vertices for rim in rims], dtype=bool)
+    small = (extents > HOLES.smallest * length) & (extents < HOLES.largest * length)
+    small &= np.array([len(rim) >= HOLES.fewest_vertices for rim in rims], dtype=bool)
     order = [int(place) for place in np.argsort(-extents, kind="stable") if small[place]]
     if not order:
-        return Filled(vertices, faces, rims, ())
-    edges, facets, closed = boundary_edges(faces), Facets.of(vertices, faces), []
+        return ClosedMesh(vertices, faces, rims, ())
+    boundary, facets, closed = _Boundary.of(faces), Facets.of(vertices, faces), []
     points, triangles, count = [vertices], [faces], len(vertices)
-    joined, shared = _joined(edges), _met_more_than_once(edges)
-    for rim in (rims[place][::-1] for place in order[: settings.most]):
+    for rim in (rims[place][::-1] for place in order[: HOLES.most]):
         rim = np.roll(rim, -farthest_of(vertices[rim]))
-        is_hole = _closes(rim, *joined) and np.isin(rim, shared).sum() < 2
-        found = cap(vertices[rim], facets, settings.ring * length) if is_hole else None
-        if found is None:
+        is_hole = boundary.is_hole(rim)
+        patch = cap(vertices[rim], facets, HOLES.ring * length) if is_hole else None
+        if patch is None:
             continue
-        points.append(found.points)
-        triangles.append(_numbered(found, rim, count))
+        numbers = np.append(rim, np.arange(len(patch.points)) + count)
+        points.append(patch.points)
+        triangles.append(numbers[patch.triangles])
         closed.append(extent_of(vertices[rim]))
-        count += len(found.points)
-    return Filled(np.concatenate(points), np.concatenate(triangles), rims, tuple(closed))
+        count += len(patch.points)
+    return ClosedMesh(np.concatenate(points), np.concatenate(triangles), rims, tuple(closed))
 
 
-def _joined(edges: Ints) -> tuple[int, Ints]:
-    """The boundary's edges as numbers, sorted, against the surface's way; and their base."""
-    span = int(edges.max()) + 1
-    return span, np.sort(edges[:, 1] * span + edges[:, 0])
+@dataclass(frozen=True, slots=True)
+class _Boundary:
+    """A mesh's boundary edges as sorted numbers, and the vertices in which its loops touch."""
 
+    span: int
+    edges: Ints
+    shared: Ints
 
-def _closes(rim: Ints, span: int, known: Ints) -> bool:
-    """Whether each vertex of a rim is joined to the next: where winding breaks, one may not be."""
-    wanted = rim * span + np.roll(rim, -1)
-    return bool(np.isin(wanted, known, assume_unique=True).all())
+    @classmethod
+    def of(cls, faces: Ints) -> _Boundary:
+        """The boundary of a mesh that has one."""
+        edges = boundary_edges(faces)
+        span = int(edges.max()) + 1
+        starts, count = np.unique(edges[:, 0], return_counts=True)
+        return cls(span, np.sort(edges[:, 1] * span + edges[:, 0]), starts[count > 1])
 
+    def is_hole(self, rim: Ints) -> bool:
+        """Whether a rim, run against the surface's way, is joined all around and stands alone.
 
-def _met_more_than_once(edges: Ints) -> Ints:
-    """The vertices in which loops touch.
-
-    Two loops that touch in one are told apart. In two, which arc belongs to which would hang on
-    the order of the faces, and so neither is closed.
-    """
-    starts, count = np.unique(edges[:, 0], return_counts=True)
-    return np.asarray(starts[count > 1])
-
-
-def _numbered(found: Cap, rim: Ints, count: int) -> Ints:
-    """A cap's triangles with the mesh's own indices; its inner vertices count from ``count``."""
-    inner = np.arange(len(found.points)) + count
-    return np.append(rim, inner)[found.triangles]
+        Two neighbours on it may not be joined if the winding breaks there. Two loops that touch in
+        one vertex are told apart. If they touch in two, the order of the faces would decide which
+        arc belongs to which, so neither is closed.
+        """
+        keys = rim * self.span + np.roll(rim, -1)
+        joined = np.isin(keys, self.edges, assume_unique=True).all()
+        return bool(joined and np.isin(rim, self.shared).sum() < 2)

@@ -9,7 +9,7 @@ import numpy as np
 from footfit.geometry.mesh.surface import area_vectors, unit
 from footfit.geometry.mesh.topology import consistent_faces, rows_differ
 from footfit.geometry.numeric.arrays import Floats, Ints
-from footfit.geometry.pose.pieces import PIECES, PieceSettings
+from footfit.geometry.pose.pieces import PIECES
 
 
 @dataclass(frozen=True, slots=True)
@@ -42,21 +42,17 @@ def facing(vertices: Floats, faces: Ints) -> Facing:
     )
 
 
-def lacks_its_sole(
-    toward: Floats, one_way: float, up: Floats, settings: PieceSettings = PIECES
-) -> bool:
-    """Whether faces that look ``toward`` on the whole are a foot's without the sole.
+def lacks_its_sole(looks: Facing, up: Floats) -> bool:
+    """Whether faces are those of a foot without the sole, by where they look on the whole.
 
     Area vectors of a closed surface add up to nothing: what is missing is what they add up to,
     turned over. A missing sole leaves them looking up (3,); a sole alone looks down.
     """
-    within = settings.shell < one_way < settings.flat_shell
-    return within and float(toward @ up) > settings.upward
+    within = PIECES.shell < looks.one_way < PIECES.flat_shell
+    return within and float(looks.toward @ up) > PIECES.upward
 
 
-def outward_faces(
-    vertices: Floats, faces: Ints, vectors: Floats, labels: Ints, settings: PieceSettings = PIECES
-) -> tuple[Ints, int]:
+def outward_faces(vertices: Floats, faces: Ints, vectors: Floats, labels: Ints) -> tuple[Ints, int]:
     """Faces that agree with their neighbours and look outward, and how many were turned over.
 
     The sum of A (c - g).N over a piece is three times the volume of a closed one whatever g is; of
@@ -69,13 +65,12 @@ def outward_faces(
         The faces' area vectors.
     labels : (m,) int64
         The piece of each face, from ``face_components``.
-    settings : PieceSettings
     """
     turned = rows_differ(consistent_faces(faces), faces)
     signs = np.where(turned, -1.0, 1.0)
     area = np.sqrt(np.einsum("ij,ij->i", vectors, vectors))
     centres = (vertices[faces[:, 0]] + vertices[faces[:, 1]] + vertices[faces[:, 2]]) / 3.0
-    middles = _middles(centres, area, labels, settings)
+    middles = _middles(centres, area, labels)
     outwardness = signs * np.einsum("ij,ij->i", centres - middles[labels], vectors)
     inward = np.bincount(labels, weights=outwardness) < 0.0
     turned ^= inward[labels]
@@ -83,12 +78,12 @@ def outward_faces(
     return outward, int(turned.sum())
 
 
-def _middles(centres: Floats, area: Floats, labels: Ints, settings: PieceSettings) -> Floats:
+def _middles(centres: Floats, area: Floats, labels: Ints) -> Floats:
     """The centroid of each piece, for small pieces that of the whole, (k, 3)."""
     areas = np.bincount(labels, weights=area)
     moments = np.stack(
         [np.bincount(labels, weights=area * centres[:, axis]) for axis in range(3)], axis=1
     )
     middles: Floats = moments / np.where(areas > 0.0, areas, 1.0)[:, None]
-    middles[areas < settings.own_centre * areas.max()] = moments.sum(axis=0) / areas.sum()
+    middles[areas < PIECES.own_centre * areas.max()] = moments.sum(axis=0) / areas.sum()
     return middles

@@ -66,41 +66,39 @@ class PlateSettings:
 PLATE = PlateSettings()
 
 
-def plate_pieces(
-    vertices: Floats, faces: Ints, labels: Ints, areas: Floats, settings: PlateSettings = PLATE
-) -> Bools:
+def plate_pieces(vertices: Floats, faces: Ints, labels: Ints, areas: Floats) -> Bools:
     """Which pieces are a flat plate that the largest thick piece stands on, (k,).
 
     ``labels`` (m,) is the piece of each face, ``areas`` (k,) are the pieces' areas.
     """
     plates = np.zeros(len(areas), dtype=bool)
-    big = np.flatnonzero(areas >= settings.least_share * areas.max())
+    big = np.flatnonzero(areas >= PLATE.least_share * areas.max())
     points = {
-        piece: vertices[np.unique(faces[labels == piece])] for piece in big[: settings.most_pieces]
+        piece: vertices[np.unique(faces[labels == piece])] for piece in big[: PLATE.most_pieces]
     }
     shapes = {piece: principal_extents(found) for piece, found in points.items()}
     thickness = {piece: _thickness(extents) for piece, (extents, _) in shapes.items()}
-    thick = [piece for piece in thickness if thickness[piece] > settings.foot_thickness]
+    thick = [piece for piece in thickness if thickness[piece] > PLATE.foot_thickness]
     if not thick:
         return plates
     foot = points[max(thick, key=lambda piece: float(areas[piece]))]
     for piece, (_, axes) in shapes.items():
-        if thickness[piece] < settings.thickness:
-            plates[piece] = _carries(points[piece], axes, foot, settings)
+        if thickness[piece] < PLATE.thickness:
+            plates[piece] = _carries(points[piece], axes, foot)
     return plates
 
 
-def _carries(plate: Floats, axes: Floats, foot: Floats, settings: PlateSettings) -> bool:
+def _carries(plate: Floats, axes: Floats, foot: Floats) -> bool:
     """Whether the foot stands on one side of the plate and within its reach."""
     centre = plate.mean(axis=0)
     on_plate, above = (plate - centre) @ axes.T, (foot - centre) @ axes.T
-    covered = np.ptp(on_plate[:, :2], axis=0) >= settings.cover * np.ptp(above[:, :2], axis=0)
-    sunk = settings.sinking * np.ptp(on_plate[:, 0])
+    covered = np.ptp(on_plate[:, :2], axis=0) >= PLATE.cover * np.ptp(above[:, :2], axis=0)
+    sunk = PLATE.sinking * np.ptp(on_plate[:, 0])
     side = max(np.mean(above[:, 2] > -sunk), np.mean(above[:, 2] < sunk))
-    return bool(covered.all() and side >= settings.side)
+    return bool(covered.all() and side >= PLATE.side)
 
 
-def without_plate(vertices: Floats, faces: Ints, settings: PlateSettings = PLATE) -> Bools:
+def without_plate(vertices: Floats, faces: Ints) -> Bools:
     """Which faces are left, (m,) bool, when a floor plate is cut away; all where there is none.
 
     A plate is a plane on which most of an open mesh's boundary lies, which holds a good part of
@@ -113,27 +111,27 @@ def without_plate(vertices: Floats, faces: Ints, settings: PlateSettings = PLATE
         return every
     size = float(np.ptp(vertices, axis=0).max())
     points = vertices[rim]
-    plane = robust_plane(points, np.ones(len(rim)), settings.scale * size, settings.rounds)
-    on_plane = np.abs(plane.heights(points)) < settings.near * size
-    if on_plane.mean() < settings.boundary_share:
+    plane = robust_plane(points, np.ones(len(rim)), PLATE.scale * size, PLATE.rounds)
+    on_plane = np.abs(plane.heights(points)) < PLATE.near * size
+    if on_plane.mean() < PLATE.boundary_share:
         return every
     vectors = area_vectors(vertices, faces)
     areas = np.linalg.norm(vectors, axis=1)
     away = np.abs(plane.heights(vertices))[faces].max(axis=1)
-    flat = np.abs(vectors @ plane.normal) > settings.parallel * areas
-    held = areas[flat & (away < settings.near * size)].sum()
-    left = away >= settings.cut * size
-    if held < settings.area_share * areas.sum() or not left.any():
+    flat = np.abs(vectors @ plane.normal) > PLATE.parallel * areas
+    held = areas[flat & (away < PLATE.near * size)].sum()
+    left = away >= PLATE.cut * size
+    if held < PLATE.area_share * areas.sum() or not left.any():
         return every
     beyond = _beyond(vertices[faces].mean(axis=1), left, plane.normal)
-    if areas[beyond].sum() < settings.beyond_share * areas[~left].sum():
+    if areas[beyond].sum() < PLATE.beyond_share * areas[~left].sum():
         return every
     return np.asarray(left)
 
 
-def is_flat(points: Floats, settings: PlateSettings = PLATE) -> bool:
+def is_flat(points: Floats) -> bool:
     """Whether points (n, 3) of one piece are a plate by themselves: thin in one direction."""
-    return _thickness(principal_extents(points)[0]) < settings.flat
+    return _thickness(principal_extents(points)[0]) < PLATE.flat
 
 
 def _thickness(extents: Floats) -> float:

@@ -1,7 +1,7 @@
-"""The canonical frame of a shape whose pose is roughly known: sole plane, plan axis, docking.
+"""The canonical frame of a shape whose pose is roughly known: sole plane, plan axis, origin.
 
-X from heel to toe, Z up, Y to the wearer's left; x = 0 at the heel's docking quantile, y = 0 at
-the heel's middle, z = 0 the contact plane. mm.
+X from heel to toe, Z up, Y to the wearer's left, in mm. x = 0 is where the rearmost 0.3 % of the
+low area end, y = 0 is the heel's middle, z = 0 is the contact plane.
 """
 
 from __future__ import annotations
@@ -15,28 +15,21 @@ from footfit.geometry.numeric.angles import angle_between
 from footfit.geometry.numeric.arrays import Floats
 from footfit.geometry.numeric.planes import LEVEL, Plane
 from footfit.geometry.numeric.quantiles import area_quantile
-from footfit.geometry.pose.sole_plane import (
-    FLOOR,
-    FloorSettings,
-    rim_plane,
-    sole_plane,
-    support,
-)
+from footfit.geometry.pose.sole_plane import FLOOR, rim_plane, sole_plane, support
 
 
 @dataclass(frozen=True, slots=True)
 class FrameSettings:
-    """Everything numeric of the refinement and the docking; lengths over L."""
+    """Everything numeric of the refinement and the origin; lengths over L."""
 
-    floor: FloorSettings = FLOOR
     rounds: int = 2
     axis_height: float = 0.15  # the plan axis is that of what lies below; a leg does not move it
     axis_softness: float = 0.01
     length_height: float = 0.30
     support_minimum: float = 0.05
     tilt_maximum_deg: float = 16.0
-    docking_share: float = 0.003
-    docking_height: float = 0.20
+    origin_share: float = 0.003
+    origin_height: float = 0.20
     heel_strip: tuple[float, float] = (0.02, 0.10)
     heel_strips: int = 8
 
@@ -48,8 +41,8 @@ FRAME = FrameSettings()
 class CanonicalFrame:
     """The frame: canonical = rotation @ p + shift, in the unit of p.
 
-    ``length`` is the extent along X below ``length_height``; ``sole`` is False where the frame
-    rests on the rim instead; ``tilt_deg`` is how far the sole plane turned the given pose.
+    ``length`` is the extent along X below ``length_height``; ``sole`` is False if there is no sole
+    and the frame rests on the rim; ``tilt_deg`` is how far the sole plane turned the given pose.
     """
 
     rotation: Floats
@@ -60,9 +53,7 @@ class CanonicalFrame:
     tilt_deg: float
 
 
-def canonical_frame(
-    sample: SurfaceSample, length: float, settings: FrameSettings = FRAME
-) -> CanonicalFrame:
+def canonical_frame(sample: SurfaceSample, length: float) -> CanonicalFrame:
     """The canonical frame of a sample in an approximate canonical pose.
 
     Parameters
@@ -72,17 +63,17 @@ def canonical_frame(
     length : float
         Its approximate length, in the sample's unit.
     """
-    rotation, plane = _settled(sample, length, settings, rim=False)
-    tilt_deg = float(np.degrees(angle_between(rotation[2], np.array([0.0, 0.0, 1.0]))))
+    rotation, plane = _settled(sample, length, rim=False)
+    tilt_deg = float(np.degrees(angle_between(rotation[2], LEVEL.normal)))
     turned = turned_sample(sample, rotation)
-    length = length_of(turned.points, plane.offset, length, settings)
-    held = support(turned, plane, length, settings.floor)
-    sole = held >= settings.support_minimum and tilt_deg <= settings.tilt_maximum_deg
+    length = length_of(turned.points, plane.offset, length)
+    held = support(turned, plane, length)
+    sole = held >= FRAME.support_minimum and tilt_deg <= FRAME.tilt_maximum_deg
     if not sole:
-        rotation, plane = _settled(sample, length, settings, rim=True)
+        rotation, plane = _settled(sample, length, rim=True)
         turned = turned_sample(sample, rotation)
-        length = length_of(turned.points, plane.offset, length, settings)
-    shift = docking(turned, plane.offset, length, sole, settings)
+        length = length_of(turned.points, plane.offset, length)
+    shift = origin_shift(turned, plane.offset, length, sole)
     return CanonicalFrame(rotation, shift, length, held, sole, tilt_deg)
 
 
@@ -91,29 +82,21 @@ def turned_sample(sample: SurfaceSample, rotation: Floats) -> SurfaceSample:
     return SurfaceSample(sample.points @ rotation.T, sample.normals @ rotation.T, sample.areas)
 
 
-def length_of(
-    points: Floats, ground: float, length: float, settings: FrameSettings = FRAME
-) -> float:
+def length_of(points: Floats, ground: float, length: float) -> float:
     """The extent along x of points (n, 3) lower than ``length_height``: no leg lengthens a foot."""
-    low = points[points[:, 2] - ground < settings.length_height * length, 0]
+    low = points[points[:, 2] - ground < FRAME.length_height * length, 0]
     return float(np.ptp(low)) if len(low) else 0.0
 
 
-def _settled(
-    sample: SurfaceSample, length: float, settings: FrameSettings, *, rim: bool
-) -> tuple[Floats, Plane]:
+def _settled(sample: SurfaceSample, length: float, *, rim: bool) -> tuple[Floats, Plane]:
     """The rotation that puts plane and axis in place, and the plane after it."""
     rotation = np.eye(3)
     turned, plane = sample, LEVEL
-    for _ in range(settings.rounds):
-        found = (
-            rim_plane(turned, length, settings.floor)
-            if rim
-            else sole_plane(turned, length, plane, settings.floor)
-        )
-        level = levelling(found.normal)
-        plane = Plane(LEVEL.normal, found.offset)
-        axis = plan_axis(turned_sample(turned, level), plane.offset, length, settings)
+    for _ in range(FRAME.rounds):
+        tilted = rim_plane(turned, length) if rim else sole_plane(turned, length, plane)
+        level = levelling(tilted.normal)
+        plane = Plane(LEVEL.normal, tilted.offset)
+        axis = plan_axis(turned_sample(turned, level), plane.offset, length)
         rotation = about_z(axis) @ level @ rotation
         turned = turned_sample(sample, rotation)
     return rotation, plane
@@ -132,12 +115,10 @@ def about_z(axis: Floats) -> Floats:
     return np.array([[c, s, 0.0], [-s, c, 0.0], [0.0, 0.0, 1.0]])
 
 
-def plan_axis(
-    sample: SurfaceSample, ground: float, length: float, settings: FrameSettings = FRAME
-) -> Floats:
+def plan_axis(sample: SurfaceSample, ground: float, length: float) -> Floats:
     """The direction (2,) of the low part's longest plan extent, heel to toe: 2-D PCA by area."""
     height = (sample.points[:, 2] - ground) / length
-    steepness = np.clip((height - settings.axis_height) / settings.axis_softness, -50, 50)
+    steepness = np.clip((height - FRAME.axis_height) / FRAME.axis_softness, -50, 50)
     weights = sample.areas / (1 + np.exp(steepness))
     plan = sample.points[:, :2]
     away = plan - weights @ plan / weights.sum()
@@ -145,35 +126,30 @@ def plan_axis(
     return np.asarray(axis * np.where(axis[0] < 0, -1.0, 1.0))
 
 
-def docking(
-    sample: SurfaceSample,
-    ground: float,
-    length: float,
-    sole: bool,
-    settings: FrameSettings = FRAME,
-) -> Floats:
+def origin_shift(sample: SurfaceSample, ground: float, length: float, sole: bool) -> Floats:
     """The shift (3,) that puts the origin at the heel, in a sample that is turned already.
 
-    Quantiles of area, never the rearmost or lowest vertex: that moves by millimetres.
+    Quantiles of area are used, because the rearmost or lowest vertex moves by millimetres.
     """
     points = sample.points
     height = points[:, 2] - ground
-    low = height < settings.docking_height * length
-    x0 = area_quantile(points[low, 0], sample.areas[low], settings.docking_share)
+    low = height < FRAME.origin_height * length
+    x0 = area_quantile(points[low, 0], sample.areas[low], FRAME.origin_share)
     z0 = ground
     if sole:
-        down = (height < settings.floor.support_height * length) & (sample.normals[:, 2] < -0.5)
-        z0 = area_quantile(points[down, 2], sample.areas[down], settings.docking_share)
-    y0 = _heel_middle(points[low], x0, length, settings)
+        down = (height < FLOOR.support_height * length) & (sample.normals[:, 2] < -0.5)
+        z0 = area_quantile(points[down, 2], sample.areas[down], FRAME.origin_share)
+    y0 = _heel_middle(points[low], x0, length)
     return -np.array([x0, y0, z0])
 
 
-def _heel_middle(points: Floats, x0: float, length: float, settings: FrameSettings) -> float:
-    edges = x0 + np.linspace(*settings.heel_strip, settings.heel_strips + 1) * length
+def _heel_middle(points: Floats, x0: float, length: float) -> float:
+    """The mean of the middles in y of strips across the heel."""
+    edges = x0 + np.linspace(*FRAME.heel_strip, FRAME.heel_strips + 1) * length
     strip = np.searchsorted(edges, points[:, 0]) - 1
     middles = [
         0.5 * (points[strip == i, 1].min() + points[strip == i, 1].max())
-        for i in range(settings.heel_strips)
+        for i in range(FRAME.heel_strips)
         if np.any(strip == i)
     ]
     return float(np.mean(middles)) if middles else 0.0

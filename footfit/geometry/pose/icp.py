@@ -1,6 +1,6 @@
-"""Fitting poses to a reference shape: how a pose costs, a coarse search, and batched ICP.
+"""Fitting poses to a template: what a pose costs, where a search starts, and ICP in batches.
 
-A pose takes mesh coordinates p to the reference's: q = scale * rotation p + shift, in units of L.
+A pose takes mesh coordinates p to the template's: q = scale * rotation p + shift, in units of L.
 Arrays are float32: the fit only chooses among poses, the frame is refined in float64 afterwards.
 """
 
@@ -12,7 +12,7 @@ import numpy as np
 
 from footfit.geometry.numeric.arrays import Bools, Floats, Ints
 from footfit.geometry.numeric.rotations import rotations_about
-from footfit.geometry.pose.templates import ReferenceShape, Singles
+from footfit.geometry.pose.templates import Singles, Template
 
 
 @dataclass(frozen=True, slots=True)
@@ -24,8 +24,8 @@ class FitSettings:
     leg_height: float = 0.42  # above it a point costs at most leg_cost: any leg is harmless
     leg_cost: float = 0.35
     leg_share: float = 0.70  # a pose that calls more of the points leg is implausible
-    low_height: float = 0.35  # the part that gives length and shift in the coarse search
-    least_length: float = 0.25  # of the mesh's size: else a pose would call nearly all of it leg
+    low_height: float = 0.35  # the part that gives length and shift where a search starts
+    least_length: float = 0.25  # of the mesh's size: a shorter length would make nearly all leg
     implausible_cost: float = 0.6
     icp_height: float = 0.47
     icp_quantile: float = 0.85
@@ -39,7 +39,7 @@ class FitSettings:
 
 
 FIT = FitSettings()
-_FEW = 50
+_ROWS_AT_ONCE = 50
 LEVI_CIVITA = np.zeros((3, 3, 3))
 LEVI_CIVITA[[0, 1, 2], [1, 2, 0], [2, 0, 1]] = 1.0
 LEVI_CIVITA[[0, 1, 2], [2, 0, 1], [1, 2, 0]] = -1.0
@@ -73,29 +73,27 @@ def moved(poses: Poses, points: Singles) -> Singles:
     return np.asarray(turned * poses.scale[:, None, None] + poses.shift[:, None, :])
 
 
-def point_costs(away: Singles, cosine: Singles, height: Singles, settings: FitSettings) -> Singles:
+def point_costs(away: Singles, cosine: Singles, height: Singles) -> Singles:
     """The cost of each point: distance, capped, plus the normals' disagreement; capped on a leg."""
     distance = np.sqrt(np.einsum("...i,...i->...", away, away))
-    cost = np.minimum(distance, settings.far) * np.float32(1 / settings.far)
-    cost += np.float32(settings.normal_weight) * (1 - cosine)
-    leg = height > settings.leg_height
-    return np.asarray(np.where(leg, np.minimum(cost, np.float32(settings.leg_cost)), cost))
+    cost = np.minimum(distance, FIT.far) * np.float32(1 / FIT.far)
+    cost += np.float32(FIT.normal_weight) * (1 - cosine)
+    leg = height > FIT.leg_height
+    return np.asarray(np.where(leg, np.minimum(cost, np.float32(FIT.leg_cost)), cost))
 
 
-def forward_costs(
-    poses: Poses, points: Singles, normals: Singles, shape: ReferenceShape, settings: FitSettings
-) -> Singles:
-    """The mean cost from the mesh's points (n, 3) to the reference, per pose, (k,).
+def forward_costs(poses: Poses, points: Singles, normals: Singles, template: Template) -> Singles:
+    """The mean cost from the mesh's points (n, 3) to the template, per pose, (k,).
 
     A pose that would make nearly all of the mesh leg pays ``implausible_cost`` as well.
     """
     q = moved(poses, points)
     turned = normals @ poses.rotation.transpose(0, 2, 1)
-    index = shape.nearest(q)
-    cosine = np.einsum("kni,kni->kn", turned, shape.normals[index])
-    costs = point_costs(q - shape.points[index], cosine, q[..., 2], settings)
-    mostly_leg = (q[..., 2] > settings.leg_height).mean(axis=1) > settings.leg_share
-    return np.asarray(costs.mean(axis=1) + np.float32(settings.implausible_cost) * mostly_leg)
+    index = template.nearest(q)
+    cosine = np.einsum("kni,kni->kn", turned, template.normals[index])
+    costs = point_costs(q - template.points[index], cosine, q[..., 2])
+    mostly_leg = (q[..., 2] > FIT.leg_height).mean(axis=1) > FIT.leg_share
+    return np.asarray(costs.mean(axis=1) + np.float32(FIT.implausible_cost) * mostly_leg)
 
 
 def size_of(points: Singles) -> float:
@@ -104,16 +102,16 @@ def size_of(points: Singles) -> float:
     return 2 * float(np.sqrt(np.einsum("ij,ij->i", away, away).max()))
 
 
-def levelled(rotations: Singles, points: Singles, middle_y: float, settings: FitSettings) -> Poses:
+def levelled(rotations: Singles, points: Singles, middle_y: float) -> Poses:
     """Poses with given rotations; length and shift come from the mesh's low part, in two rounds."""
     x, y, z = np.moveaxis(points @ rotations.transpose(0, 2, 1), 2, 0)
     ground = z.min(axis=1)
     height = z - ground[:, None]
     back, front = x.min(axis=1), x.max(axis=1)
     low = np.ones(x.shape, dtype=bool)
-    least = np.float32(settings.least_length * size_of(points))
+    least = np.float32(FIT.least_length * size_of(points))
     for _ in range(2):
-        low = height < settings.low_height * np.maximum(front - back, least)[:, None]
+        low = height < FIT.low_height * np.maximum(front - back, least)[:, None]
         back = np.where(low, x, np.inf).min(axis=1)
         front = np.where(low, x, -np.inf).max(axis=1)
     left = np.where(low, y, -np.inf).max(axis=1)
@@ -125,45 +123,34 @@ def levelled(rotations: Singles, points: Singles, middle_y: float, settings: Fit
 
 
 def icp_steps(
-    poses: Poses,
-    points: Singles,
-    normals: Singles,
-    shape: ReferenceShape,
-    steps: int,
-    settings: FitSettings = FIT,
+    poses: Poses, points: Singles, normals: Singles, template: Template, steps: int
 ) -> Poses:
     """The poses after some Gauss-Newton steps in rotation, shift and scale.
 
     The residual is point to plane plus a little point to point. The scale stays within
-    ``scale_range`` of the one it came with.
+    ``scale_range`` of the one that a pose came with.
     """
-    lowest = poses.scale * np.float32(settings.scale_range[0])
-    highest = poses.scale * np.float32(settings.scale_range[1])
+    lowest, highest = (poses.scale * np.float32(factor) for factor in FIT.scale_range)
     for _ in range(steps):
-        step = _gauss_newton(poses, points, normals, shape, settings)
-        poses = _stepped(poses, step, settings)
+        poses = _stepped(poses, _gauss_newton(poses, points, normals, template))
         poses = Poses(poses.rotation, poses.shift, np.clip(poses.scale, lowest, highest))
     return poses
 
 
-def _gauss_newton(
-    poses: Poses, points: Singles, normals: Singles, shape: ReferenceShape, settings: FitSettings
-) -> Floats:
-    """The step (k, 7) in turn, shift and logarithm of the scale, about the reference's origin."""
+def _gauss_newton(poses: Poses, points: Singles, normals: Singles, template: Template) -> Floats:
+    """The step (k, 7) in turn, shift and logarithm of the scale, about the template's origin."""
     q = moved(poses, points)
     turned = normals @ poses.rotation.transpose(0, 2, 1)
-    index = shape.nearest(q)
-    away = q - shape.points[index]
-    plane = shape.normals[index]
+    index = template.nearest(q)
+    away = q - template.points[index]
+    plane = template.normals[index]
     cosine = np.einsum("kni,kni->kn", turned, plane)
-    costs = point_costs(away, cosine, q[..., 2], settings)
-    bound = np.quantile(costs, settings.icp_quantile, axis=1, method="lower")[:, None]
-    weight = np.clip(cosine, settings.normal_floor, 1.0)
-    weight *= (costs <= bound) & (q[..., 2] <= settings.icp_height)
-    normal = _plane_part(q, away, plane, weight) + settings.point_weight * _point_part(
-        q, away, weight
-    )
-    matrix = normal[:, :7, :7] + settings.damping * weight.shape[1] * np.eye(7)
+    costs = point_costs(away, cosine, q[..., 2])
+    bound = np.quantile(costs, FIT.icp_quantile, axis=1, method="lower")[:, None]
+    weight = np.clip(cosine, FIT.normal_floor, 1.0)
+    weight *= (costs <= bound) & (q[..., 2] <= FIT.icp_height)
+    normal = _plane_part(q, away, plane, weight) + FIT.point_weight * _point_part(q, away, weight)
+    matrix = normal[:, :7, :7] + FIT.damping * weight.shape[1] * np.eye(7)
     return np.asarray(-np.linalg.solve(matrix, normal[:, :7, 7:])[..., 0])
 
 
@@ -202,13 +189,13 @@ def _point_part(q: Singles, away: Singles, weight: Singles) -> Floats:
     return normal
 
 
-def _stepped(poses: Poses, step: Floats, settings: FitSettings) -> Poses:
-    """The poses after one step, shortened as a whole where a part of it is too long."""
+def _stepped(poses: Poses, step: Floats) -> Poses:
+    """The poses after one step, shortened as a whole if a part of it is too long."""
     size = np.stack(
         [
-            np.linalg.norm(step[:, :3], axis=1) / settings.max_turn,
-            np.linalg.norm(step[:, 3:6], axis=1) / settings.max_shift,
-            np.abs(step[:, 6]) / settings.max_scale_step,
+            np.linalg.norm(step[:, :3], axis=1) / FIT.max_turn,
+            np.linalg.norm(step[:, 3:6], axis=1) / FIT.max_shift,
+            np.abs(step[:, 6]) / FIT.max_scale_step,
         ]
     ).max(axis=0)
     step = step / np.maximum(size, 1.0)[:, None]
@@ -224,29 +211,28 @@ def reverse_cost(
     normals: Singles,
     sparse: tuple[Singles, Singles],
     share: float,
-    settings: FitSettings = FIT,
 ) -> float:
-    """The mean of the lowest ``share`` of costs from the reference's points to the mesh, one pose.
+    """The mean of the lowest ``share`` of costs from the template's points to the mesh, one pose.
 
-    ``sparse`` are points and normals of the reference; the nearest are found by brute force.
+    ``sparse`` are points and normals of the template; the nearest are found by comparing all.
     """
     q = moved(pose, points)[0]
     turned = normals @ pose.rotation[0].T
-    seen, seen_normals = sparse
-    index = _nearest_rows(seen, q)
-    cosine = np.einsum("ij,ij->i", seen_normals, turned[index])
-    costs = np.sort(point_costs(seen - q[index], cosine, seen[:, 2], settings))
+    sought, sought_normals = sparse
+    index = _nearest_rows(sought, q)
+    cosine = np.einsum("ij,ij->i", sought_normals, turned[index])
+    costs = np.sort(point_costs(sought - q[index], cosine, sought[:, 2]))
     return float(costs[: max(1, int(share * len(costs)))].mean())
 
 
 def _nearest_rows(points: Singles, among: Singles) -> Ints:
     """The index (k,) of the point among (n, 3) that is nearest to each of (k, 3), exactly.
 
-    Few at a time: one product of all is so large that BLAS shares it out to threads, which on a
-    busy machine takes a hundred times as long as the product.
+    Few rows at a time: BLAS shares a product of all rows out to threads, which takes a hundred
+    times as long as the product on a busy machine.
     """
     squares = np.einsum("ij,ij->i", among, among)
     columns = np.ascontiguousarray(np.column_stack([among, squares]).T)
     rows = np.column_stack([-2 * points, np.ones(len(points), dtype=np.float32)])
-    parts = range(0, len(rows), _FEW)
-    return np.concatenate([(rows[i : i + _FEW] @ columns).argmin(axis=1) for i in parts])
+    starts = range(0, len(rows), _ROWS_AT_ONCE)
+    return np.concatenate([(rows[i : i + _ROWS_AT_ONCE] @ columns).argmin(axis=1) for i in starts])

@@ -10,7 +10,7 @@ import numpy as np
 from footfit.errors import DamagedMesh
 from footfit.geometry.numeric.arrays import Bools, Floats, Ints
 from footfit.geometry.pose.floor_plate import plate_pieces
-from footfit.geometry.pose.pieces import PIECES, PieceSettings
+from footfit.geometry.pose.pieces import PIECES
 
 _FARTHEST = 2**19  # cells from the largest piece: what lies farther is far
 _PACKING = np.array([1, 2**21, 2**42])
@@ -32,13 +32,7 @@ class KeptPieces:
     loose: int = 0
 
 
-def kept_pieces(
-    vertices: Floats,
-    faces: Ints,
-    labels: Ints,
-    face_areas: Floats,
-    settings: PieceSettings = PIECES,
-) -> KeptPieces:
+def kept_pieces(vertices: Floats, faces: Ints, labels: Ints, face_areas: Floats) -> KeptPieces:
     """The pieces that are the shape's: no specks, and no floor plate that is a piece of its own.
 
     Two pieces of comparable size both stay. Whether they are two feet is asked later.
@@ -51,7 +45,6 @@ def kept_pieces(
     labels : (m,) int64
         The piece of each face, from ``face_components``.
     face_areas : (m,) float64
-    settings : PieceSettings
 
     Raises
     ------
@@ -63,15 +56,15 @@ def kept_pieces(
         return KeptPieces(np.ones(len(faces), dtype=bool))
     plates = plate_pieces(vertices, faces, labels, areas)
     rest = np.where(plates, 0.0, areas)
-    matter = _mattering(vertices, faces, labels, rest, settings)
+    matter = _mattering(vertices, faces, labels, rest)
     specks = ~matter & ~plates
     loose = 0
-    if rest[specks].sum() > settings.specks * rest.sum():
-        if len(areas) > settings.most_specks:
+    if rest[specks].sum() > PIECES.specks * rest.sum():
+        if len(areas) > PIECES.most_specks:
             raise DamagedMesh(_in_pieces(len(areas)))
-        specks &= ~_reached(vertices, faces, labels, matter, settings)
+        specks &= ~_reached(vertices, faces, labels, matter)
         loose = int((~specks & ~plates).sum())
-    if (~specks).sum() > settings.most_pieces:
+    if (~specks).sum() > PIECES.most_pieces:
         raise DamagedMesh(_in_pieces(int((~specks).sum())))
     share = float(rest[specks].sum() / rest.sum())
     kept = ~(specks | plates)[labels]
@@ -85,22 +78,18 @@ def _in_pieces(count: int) -> str:
     )
 
 
-def _mattering(
-    vertices: Floats, faces: Ints, labels: Ints, areas: Floats, settings: PieceSettings
-) -> Bools:
+def _mattering(vertices: Floats, faces: Ints, labels: Ints, areas: Floats) -> Bools:
     """Which pieces are big enough, or big enough and near enough to the largest, (k,)."""
     largest = int(np.argmax(areas))
     low, high = _boxes(vertices, faces, labels)
-    gap = settings.patch_gap * float(np.linalg.norm(high[largest] - low[largest]))
+    gap = PIECES.patch_gap * float(np.linalg.norm(high[largest] - low[largest]))
     near = ((low <= high[largest] + gap) & (high >= low[largest] - gap)).all(axis=1)
     share = areas / areas[largest] if areas[largest] > 0.0 else np.ones(len(areas))
-    big, patch = share >= settings.large, share >= settings.patch
+    big, patch = share >= PIECES.large, share >= PIECES.patch
     return np.asarray(big | (near & patch))
 
 
-def _reached(
-    vertices: Floats, faces: Ints, labels: Ints, matter: Bools, settings: PieceSettings
-) -> Bools:
+def _reached(vertices: Floats, faces: Ints, labels: Ints, matter: Bools) -> Bools:
     """Which pieces lie near one that matters, or near one that is reached already, (k,).
 
     Near is by cells of space: a piece is reached where it has a point in the cell, or beside the
@@ -108,7 +97,7 @@ def _reached(
     """
     low, high = _boxes(vertices, faces, labels)
     largest = int(np.argmax(np.bincount(labels, minlength=len(matter)) * matter))
-    cell = settings.patch_gap * float(np.linalg.norm(high[largest] - low[largest]))
+    cell = PIECES.patch_gap * float(np.linalg.norm(high[largest] - low[largest]))
     corners = vertices[faces]
     places = np.concatenate([corners, 0.5 * (corners + corners[:, [1, 2, 0]])], axis=1)
     cells = np.floor((places - low[largest]) / cell)

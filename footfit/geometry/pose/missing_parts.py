@@ -1,4 +1,4 @@
-"""Whether a part of a shape is missing: a heel, toes, one side, all but the sole."""
+"""Whether a part of a shape is missing: the heel, the toes, one side, all but the sole."""
 
 from __future__ import annotations
 
@@ -26,20 +26,18 @@ class EndSettings:
     open_area: float = 0.015  # seen along X: toes cut off at .92 L have .016-.025
     doubtful_area: float = 0.004  # toes cut off at .98 L have .004-.009, a hole of 24 mm .005
     slant_area: float = 0.010  # the same of one loop that only reaches the end
-    side_low: float = 0.06  # a rim that comes down so far
-    side_high: float = 0.18  # and goes up so far
+    side_low: float = 0.06  # half a foot's rim reaches lower than this
+    side_high: float = 0.18  # and higher than this
     side_area: float = 0.06  # seen along Y: half a foot has .15 or more
     side_facing: float = 0.985
     side_reach: float = 0.02
-    least_height: float = 0.145  # of what is more than a sole: a leg cut at 50 mm of 340
+    least_height: float = 0.145  # a lower shape is only a sole: a leg cut at 50 mm, L 340 mm
 
 
 ENDS = EndSettings()
 
 
-def missing_part(
-    sample: SurfaceSample, rims: list[Floats], length: float, settings: EndSettings = ENDS
-) -> Missing | None:
+def missing_part(sample: SurfaceSample, rims: list[Floats], length: float) -> Missing | None:
     """What was cut off a canonical shape: closed by a flat face, or left open.
 
     Parameters
@@ -50,53 +48,54 @@ def missing_part(
         The mesh's boundary loops, canonical; none for a closed mesh.
     length : float
     """
-    end = _missing_end(sample, rims, length, settings)
+    end = _missing_end(sample, rims, length)
     if end is not None:
         return end
-    if float(sample.points[:, 2].max()) < settings.least_height * length:
+    if float(sample.points[:, 2].max()) < ENDS.least_height * length:
         return "upper part"
-    half = any(_is_half(rim, length, settings) for rim in rims)
-    if half or _flat_side(sample, length, settings) > settings.side_area * length**2:
+    half = any(_is_half(rim, length) for rim in rims)
+    if half or _flat_side(sample, length) > ENDS.side_area * length**2:
         return "side"
     return None
 
 
 def _missing_end(
-    sample: SurfaceSample, rims: list[Floats], length: float, settings: EndSettings
+    sample: SurfaceSample, rims: list[Floats], length: float
 ) -> Literal["heel", "toes"] | None:
-    below = settings.height * length  # a leg's own cut is no end of the foot
+    """The end that was cut off; a leg's own cut is higher up."""
+    below = ENDS.height * length
     flat = sample.points[:, 2] < below
-    flat &= np.abs(sample.normals[:, 0]) > settings.facing
-    reach = settings.reach * length
+    flat &= np.abs(sample.normals[:, 0]) > ENDS.facing
+    reach = ENDS.reach * length
     for name, end in _ends(sample, below):
         at_end = flat & (np.abs(sample.points[:, 0] - end) < reach)
-        if sample.areas[at_end].sum() > settings.flat_area * length**2:
+        if sample.areas[at_end].sum() > ENDS.flat_area * length**2:
             return name
         near = [rim[(np.abs(rim[:, 0] - end) < reach) & (rim[:, 2] < below)] for rim in rims]
-        if any(_is_open(part, length, settings) for part in near):
+        if any(_is_open(part, length) for part in near):
             return name
-        if _open_area(rims, end, length, settings) > settings.open_area * length**2:
+        if _open_area(rims, end, length) > ENDS.open_area * length**2:
             return name
     return None
 
 
 def doubtful_end(
-    sample: SurfaceSample, rims: list[Floats], length: float, settings: EndSettings = ENDS
+    sample: SurfaceSample, rims: list[Floats], length: float
 ) -> Literal["heel", "toes"] | None:
     """The end of a canonical shape that is open over so much that its length may be short."""
-    for name, end in _ends(sample, settings.height * length):
-        if _open_area(rims, end, length, settings) > settings.doubtful_area * length**2:
+    for name, end in _ends(sample, ENDS.height * length):
+        if _open_area(rims, end, length) > ENDS.doubtful_area * length**2:
             return name
-        if any(_is_oblique(rim, end, length, settings) for rim in rims):
+        if any(_is_oblique(rim, end, length) for rim in rims):
             return name
     return None
 
 
-def _is_oblique(rim: Floats, end: float, length: float, settings: EndSettings) -> bool:
-    """Whether a loop, an opening slantwise through an end, comes down to the floor there."""
-    there = np.abs(rim[:, 0] - end) < settings.reach * length
-    there &= rim[:, 2] < settings.side_low * length
-    return bool(there.any() and abs(_vector_area(rim)[0]) > settings.slant_area * length**2)
+def _is_oblique(rim: Floats, end: float, length: float) -> bool:
+    """Whether a loop that cuts slantwise through an end comes down to the floor there."""
+    there = np.abs(rim[:, 0] - end) < ENDS.reach * length
+    there &= rim[:, 2] < ENDS.side_low * length
+    return bool(there.any() and abs(_vector_area(rim)[0]) > ENDS.slant_area * length**2)
 
 
 def _ends(
@@ -107,32 +106,32 @@ def _ends(
     return ("heel", float(x.min())), ("toes", float(x.max()))
 
 
-def _open_area(rims: list[Floats], end: float, length: float, settings: EndSettings) -> float:
-    """The area, seen along X, of the loops that lie near an end: five toes leave five."""
+def _open_area(rims: list[Floats], end: float, length: float) -> float:
+    """The area, seen along X, of the loops near an end: five cut toes leave five loops."""
     near = [
         rim
         for rim in rims
-        if abs(float(rim[:, 0].mean()) - end) < settings.reach * length
-        and rim[:, 2].max() < settings.height * length
+        if abs(float(rim[:, 0].mean()) - end) < ENDS.reach * length
+        and rim[:, 2].max() < ENDS.height * length
     ]
     return float(sum(abs(_vector_area(rim)[0]) for rim in near))
 
 
-def _is_half(rim: Floats, length: float, settings: EndSettings) -> bool:
-    """Whether a loop runs along the foot both low and high: a side is open, no leg, no sole."""
+def _is_half(rim: Floats, length: float) -> bool:
+    """Whether a loop runs along the foot both low and high: a side is open, not a leg or sole."""
     low, high = rim[:, 2].min(), rim[:, 2].max()
-    if low > settings.side_low * length or high < settings.side_high * length:
+    if low > ENDS.side_low * length or high < ENDS.side_high * length:
         return False
-    return bool(abs(_vector_area(rim)[1]) > settings.side_area * length**2)
+    return bool(abs(_vector_area(rim)[1]) > ENDS.side_area * length**2)
 
 
-def _flat_side(sample: SurfaceSample, length: float, settings: EndSettings) -> float:
+def _flat_side(sample: SurfaceSample, length: float) -> float:
     """The larger area of the flat face, if any, that ends the shape medially or laterally."""
-    low = sample.points[:, 2] < settings.height * length
+    low = sample.points[:, 2] < ENDS.height * length
     y, across = sample.points[low, 1], sample.normals[low, 1]
-    reach = settings.side_reach * length
+    reach = ENDS.side_reach * length
     areas = [
-        sample.areas[low][(sign * across > settings.side_facing) & (np.abs(y - end) < reach)].sum()
+        sample.areas[low][(sign * across > ENDS.side_facing) & (np.abs(y - end) < reach)].sum()
         for sign, end in ((1.0, y.max()), (-1.0, y.min()))
     ]
     return float(max(areas))
@@ -144,9 +143,9 @@ def _vector_area(loop: Floats) -> Floats:
     return np.asarray(0.5 * np.cross(away, np.roll(away, -1, axis=0)).sum(axis=0))
 
 
-def _is_open(rim: Floats, length: float, settings: EndSettings) -> bool:
+def _is_open(rim: Floats, length: float) -> bool:
     """Whether a loop's part near an end is as large as the end: a hole in the heel is not."""
     if len(rim) == 0:
         return False
     _, width, height = np.ptp(rim, axis=0)
-    return bool(width > settings.rim_width * length and height > settings.rim_height * length)
+    return bool(width > ENDS.rim_width * length and height > ENDS.rim_height * length)

@@ -83,42 +83,56 @@ class PieceSettings:
 PIECES = PieceSettings()
 
 
-def pieces(vertices: Floats, faces: Ints, settings: PieceSettings = PIECES) -> list[Ints]:
-    """The faces of each connected piece that is no speck, largest area first."""
+@dataclass(frozen=True, slots=True)
+class Piece:
+    """A connected part of a mesh, as a mesh of its own; ``rows`` (m,) are its faces in the whole.
+
+    ``area`` is in the vertices' unit squared.
+    """
+
+    rows: Ints
+    vertices: Floats
+    faces: Ints
+    area: float
+
+
+def pieces(vertices: Floats, faces: Ints) -> list[Piece]:
+    """The connected pieces that are no specks, largest area first."""
     label = face_components(faces, len(vertices))
     area = np.bincount(label, weights=face_areas(vertices, faces))
     order = np.argsort(-area, kind="stable")
-    large = [piece for piece in order if area[piece] >= settings.speck * area[order[0]]]
-    return [np.flatnonzero(label == piece) for piece in large]
-
-
-def comparable(
-    vertices: Floats, faces: Ints, found: list[Ints], settings: PieceSettings = PIECES
-) -> list[Ints]:
-    """Of the pieces (largest first), those of an area comparable with the largest."""
-    if len(found) == 1:
-        return found
-    areas = [float(face_areas(vertices, faces[piece]).sum()) for piece in found]
+    large = [number for number in order if area[number] >= PIECES.speck * area[order[0]]]
+    rows = [np.flatnonzero(label == number) for number in large]
     return [
-        piece
-        for piece, area in zip(found, areas, strict=True)
-        if area >= settings.comparable * areas[0]
+        Piece(row, *part_of(vertices, faces, row), float(area[number]))
+        for row, number in zip(rows, large, strict=True)
     ]
 
 
-def stand_apart(first: Floats, second: Floats, settings: PieceSettings = PIECES) -> bool:
+def comparable(parts: list[Piece]) -> list[Piece]:
+    """Of the pieces (largest first), those of an area comparable with the largest."""
+    return [part for part in parts if part.area >= PIECES.comparable * parts[0].area]
+
+
+def stand_apart(first: Floats, second: Floats) -> bool:
     """Whether pieces of points (n, 3), (k, 3) are beside each other, not one inside the other."""
     boxes = [(points.min(axis=0), points.max(axis=0)) for points in (first, second)]
     middles = [(low + high) / 2 for low, high in boxes]
     size = max(float((high - low).max()) for low, high in boxes)
-    return float(np.linalg.norm(middles[0] - middles[1])) > settings.apart * size
+    return float(np.linalg.norm(middles[0] - middles[1])) > PIECES.apart * size
 
 
-def gap(first: Floats, second: Floats, settings: PieceSettings = PIECES) -> float:
+def near_pieces(parts: list[Piece], points: Floats) -> list[Piece]:
+    """The pieces that come close to points (n, 3) of a shape, itself among them."""
+    size = float(np.ptp(points, axis=0).max())
+    return [part for part in parts if gap(points, part.vertices) < PIECES.gap * size]
+
+
+def gap(first: Floats, second: Floats) -> float:
     """The distance between two pieces' points (n, 3) and (k, 3), about: by a sample of each."""
     few, many = (
         points[:: max(1, len(points) // count)]
-        for points, count in ((second, settings.gap_few), (first, settings.gap_many))
+        for points, count in ((second, PIECES.gap_few), (first, PIECES.gap_many))
     )
     squares = ((few[:, None, :] - many[None, :, :]) ** 2).sum(axis=2)
     return float(np.sqrt(squares.min()))

@@ -1,7 +1,7 @@
-"""Which way up and which way forward: the pose of a foot or last among all poses, by shape.
+"""The pose of a foot or last among all poses, by its shape: which way is up, which way is forward.
 
-A coarse search over all rotations, ICP from the best, and a choice that also says by how much the
-next best pose is worse. Left or right is decided afterwards (``side.py``).
+A coarse search over all rotations, ICP from the best of them, and a choice that also says by how
+much the next best pose is worse. Left or right is decided afterwards (``side.py``).
 """
 
 from __future__ import annotations
@@ -11,11 +11,10 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from footfit.geometry.mesh.samples import even_sample, farthest_points
-from footfit.geometry.numeric.arrays import Bools, Floats, Ints
+from footfit.geometry.numeric.arrays import Floats, Ints
 from footfit.geometry.numeric.rotations import nearest_rotation, rotations_about, super_fibonacci
 from footfit.geometry.pose.icp import (
     FIT,
-    FitSettings,
     Poses,
     forward_costs,
     icp_steps,
@@ -24,16 +23,16 @@ from footfit.geometry.pose.icp import (
     reverse_cost,
     size_of,
 )
-from footfit.geometry.pose.templates import ReferenceShape, ReferenceShapes, Singles
+from footfit.geometry.pose.templates import Singles, Template
 
+Windows = tuple[tuple[float, float], ...]
 MIRROR = np.diag([1.0, -1.0, 1.0])
 
 
 @dataclass(frozen=True, slots=True)
-class OrientationSettings:
+class PoseSearchSettings:
     """Everything numeric of the search."""
 
-    fit: FitSettings = FIT
     rotations: int = 576
     more_rotations: int = 1728
     sample_points: int = 1500
@@ -59,22 +58,22 @@ class OrientationSettings:
     margin_minimum: float = 0.04
     doubtful_cost: float = 0.42
     margin_per_cost: float = 1.5
-    margin_without_rival: float = 1.0  # only where even the turned poses fall back to the winner
+    margin_without_rival: float = 1.0  # only if even the turned poses fall back to the winner
     long_leg: float = 0.70  # over L: a scan that reaches higher is searched again
     crop: float = 0.60  # without what lies higher than this
 
 
-ORIENTATION = OrientationSettings()
-SOLELESS = OrientationSettings(reverse_normal=-0.5, cost_maximum=0.50)
-"""For a scan whose sole is missing: the reference's sole is not looked for in it."""
+POSE_SEARCH = PoseSearchSettings()
+SOLELESS = PoseSearchSettings(reverse_normal=-0.5, cost_maximum=0.50)
+"""For a scan whose sole is missing: the template's sole is not looked for in it."""
 
 
 @dataclass(frozen=True, slots=True)
-class Orientation:
+class RoughPose:
     """The pose that fits best: canonical is about rotation @ p + shift, in the mesh's unit.
 
     ``length`` is approximate; ``cost`` and ``margin`` are those of :class:`PoseQuality`; ``kind``
-    is the reference shape that fits best; ``accepted`` says whether it is a foot or last at all.
+    is that of the template that fits best; ``accepted`` says whether it is a foot or last at all.
     """
 
     rotation: Floats
@@ -86,153 +85,223 @@ class Orientation:
     accepted: bool
 
 
-@dataclass(frozen=True, slots=True)
-class _Cloud:
-    """The mesh as the fit sees it: few points, then more; float32, perhaps mirrored."""
-
-    few: Singles
-    few_normals: Singles
-    many: Singles
-    many_normals: Singles
-
-
-@dataclass(frozen=True, slots=True)
-class _Candidate:
-    pose: Poses
-    shape: ReferenceShape
-    mirrored: bool
-    cost: float
-
-
-def orientation(
+def rough_pose(
     vertices: Floats,
     faces: Ints,
-    references: ReferenceShapes,
-    windows: tuple[tuple[float, float], ...] = (),
-    settings: OrientationSettings = ORIENTATION,
-) -> Orientation:
-    """The pose of a mesh, by the fit to the reference shapes.
+    templates: tuple[Template, ...],
+    windows: Windows = (),
+    settings: PoseSearchSettings = POSE_SEARCH,
+) -> RoughPose:
+    """The pose of a mesh, by the fit to the templates.
 
-    Where the pose found has a long leg, the search is made again without it: a leg takes points
-    from the foot and adds cost.
+    If the pose found has a long leg, the search is made again without it: a leg takes points from
+    the foot and adds cost.
 
     Parameters
     ----------
     vertices, faces : (n, 3) float64, (m, 3) int64
         Outward winding.
-    references : ReferenceShapes
+    templates : tuple of Template
+        In the order in which ties are settled.
     windows : pairs of float
         Lengths, in the mesh's unit, that are plausible; poses with another length are taken last.
         Empty: any length.
+    settings : PoseSearchSettings
     """
-    found = _found(vertices, faces, references, windows, settings)
-    height = (vertices @ found.rotation[2] + found.shift[2]) / found.length
+    pose = _pose_as_it_is(vertices, faces, templates, windows, settings)
+    height = (vertices @ pose.rotation[2] + pose.shift[2]) / pose.length
     if height.max() < settings.long_leg:
-        return found
+        return pose
     low = height[faces].max(axis=1) < settings.crop
     if not low.any():
-        return found
-    again = _found(vertices, faces[low], references, windows, settings)
-    return min(found, again, key=lambda one: (not one.accepted, one.cost))
+        return pose
+    without_leg = _pose_as_it_is(vertices, faces[low], templates, windows, settings)
+    return min(pose, without_leg, key=lambda each: (not each.accepted, each.cost))
 
 
-def _found(
+def _pose_as_it_is(
     vertices: Floats,
     faces: Ints,
-    references: ReferenceShapes,
-    windows: tuple[tuple[float, float], ...],
-    settings: OrientationSettings,
-) -> Orientation:
-    """The pose of a mesh as it is, searched more finely where the first search leaves a doubt."""
-    centre = _centre(vertices[faces].reshape(-1, 3))
-    clouds = _clouds(vertices - centre, faces, settings)
-    candidates = _candidates(clouds, references, windows, settings.rotations, settings)
-    found = _chosen(candidates, settings)
-    if found.cost > settings.retry_cost or found.margin < settings.retry_margin:
-        candidates += _candidates(clouds, references, windows, settings.more_rotations, settings)
-        candidates += _rivals(candidates, clouds, windows, settings)
-        found = _chosen(candidates, settings)
-    elif found.margin == settings.margin_without_rival:
-        candidates += _rivals(candidates, clouds, windows, settings)
-        found = _chosen(candidates, settings)
-    return replace(found, shift=found.shift - found.rotation @ centre)
+    templates: tuple[Template, ...],
+    windows: Windows,
+    settings: PoseSearchSettings,
+) -> RoughPose:
+    """The pose of a mesh with its leg, searched more finely if the first search leaves a doubt."""
+    corners = vertices[faces].reshape(-1, 3)
+    # About the middle of the box float32 loses nothing, wherever the origin is.
+    centre = 0.5 * (corners.min(axis=0) + corners.max(axis=0))
+    search = _Search.of(vertices - centre, faces, templates, windows, settings)
+    candidates = search.candidates(settings.rotations)
+    pose = _cheapest(candidates, settings)
+    if pose.cost > settings.retry_cost or pose.margin < settings.retry_margin:
+        candidates += search.candidates(settings.more_rotations)
+        candidates += search.rivals(candidates)
+    elif pose.margin == settings.margin_without_rival:
+        candidates += search.rivals(candidates)
+    pose = _cheapest(candidates, settings)
+    return replace(pose, shift=pose.shift - pose.rotation @ centre)
 
 
-def _centre(vertices: Floats) -> Floats:
-    """The middle of the box (3,): about it float32 loses nothing, wherever the origin is."""
-    return np.asarray(0.5 * (vertices.min(axis=0) + vertices.max(axis=0)))
+@dataclass(frozen=True, slots=True)
+class _Cloud:
+    """The mesh as the fit sees it: few points, then more; float32."""
+
+    few: Singles
+    few_normals: Singles
+    many: Singles
+    many_normals: Singles
+    mirrored: bool
 
 
-def _clouds(vertices: Floats, faces: Ints, settings: OrientationSettings) -> tuple[_Cloud, _Cloud]:
-    """The mesh, about its middle, as it is and mirrored."""
-    sample = even_sample(vertices, faces, settings.sample_points)
-    few = farthest_points(sample.points, settings.few_points)
-    points = sample.points.astype(np.float32)
-    normals = sample.normals.astype(np.float32)
-    flip = MIRROR.astype(np.float32)
-    return (
-        _Cloud(points[few], normals[few], points, normals),
-        _Cloud((points @ flip)[few], (normals @ flip)[few], points @ flip, normals @ flip),
-    )
+@dataclass(frozen=True, slots=True)
+class _Candidate:
+    """One pose (a batch of one) of a cloud on a template, and its cost."""
+
+    pose: Poses
+    template: Template
+    cloud: _Cloud
+    cost: float
+
+    @property
+    def rotation(self) -> Floats:
+        """The rotation for the mesh as it is: mirrored before and after, if at all."""
+        rotation = self.pose.rotation[0].astype(np.float64)
+        return np.asarray(MIRROR @ rotation @ MIRROR) if self.cloud.mirrored else rotation
 
 
-def _candidates(
-    clouds: tuple[_Cloud, _Cloud],
-    references: ReferenceShapes,
-    windows: tuple[tuple[float, float], ...],
-    count: int,
-    settings: OrientationSettings,
-) -> list[_Candidate]:
-    """The best few poses per reference over both mirrors, fitted with all points."""
-    rotations = super_fibonacci(count).astype(np.float32)
-    result = []
-    for shape in references.shapes:
-        start = _coarse(clouds[0], shape, rotations, windows, settings)
-        starts = start, mirror_image(start, shape.middle_y)
-        found = [
-            _searched(cloud, shape, poses, windows, settings)
-            for cloud, poses in zip(clouds, starts, strict=True)
-        ]
-        costs = np.concatenate([cost for _, cost in found])
-        poses = joined(*(pose for pose, _ in found))
-        mirrored = np.repeat([False, True], [len(cost) for _, cost in found])
-        for place in np.argsort(costs, kind="stable")[: settings.kept_poses]:
-            cloud = clouds[int(mirrored[place])]
-            pose = poses.at(np.array([place]))
-            result.append(_finished(pose, cloud, shape, bool(mirrored[place]), settings))
-    return result
+@dataclass(frozen=True, slots=True)
+class _Search:
+    """What a search looks at: a mesh as it is and mirrored, the templates, plausible lengths."""
 
+    clouds: tuple[_Cloud, _Cloud]
+    templates: tuple[Template, ...]
+    windows: Windows
+    settings: PoseSearchSettings
 
-def _rivals(
-    candidates: list[_Candidate],
-    clouds: tuple[_Cloud, _Cloud],
-    windows: tuple[tuple[float, float], ...],
-    settings: OrientationSettings,
-) -> list[_Candidate]:
-    """The best of each reference turned upside down, on its sides and end for end, and fitted.
+    @classmethod
+    def of(
+        cls,
+        vertices: Floats,
+        faces: Ints,
+        templates: tuple[Template, ...],
+        windows: Windows,
+        settings: PoseSearchSettings,
+    ) -> _Search:
+        """The search for the pose of a mesh about its middle.
 
-    Which poses the search keeps depends on the pose the mesh came in; where all of them lie in
-    one valley the margin would measure nothing. The turned ones are there whatever was kept.
-    """
-    result = []
-    for kind in dict.fromkeys(candidate.shape.kind for candidate in candidates):
-        best = min((c for c in candidates if c.shape.kind == kind), key=lambda one: one.cost)
-        cloud = clouds[int(best.mirrored)]
-        poses = turned_about(best.pose, _turns(), best.shape.middle_y, settings.middle)
-        poses = icp_steps(
-            poses, cloud.few, cloud.few_normals, best.shape, settings.rival_steps, settings.fit
+        Lengths that would make nearly all of the mesh leg are not plausible.
+        """
+        sample = even_sample(vertices, faces, settings.sample_points)
+        few = farthest_points(sample.points, settings.few_points)
+        points, normals = sample.points.astype(np.float32), sample.normals.astype(np.float32)
+        flip = MIRROR.astype(np.float32)
+        clouds = (
+            _Cloud(points[few], normals[few], points, normals, mirrored=False),
+            _Cloud(
+                (points @ flip)[few], (normals @ flip)[few], points @ flip, normals @ flip, True
+            ),
         )
-        costs = forward_costs(poses, cloud.few, cloud.few_normals, best.shape, settings.fit)
-        limits = _limits(cloud.few, windows, settings.fit)
-        costs += np.where(plausible(1 / poses.scale, limits), 0.0, settings.fit.implausible_cost)
-        for place in np.argsort(costs, kind="stable")[: settings.rivals_finished]:
-            pose = poses.at(np.array([place]))
-            result.append(_finished(pose, cloud, best.shape, best.mirrored, settings))
-    return result
+        least = 1.001 * FIT.least_length * size_of(clouds[0].few)
+        limits = tuple((max(low, least), high) for low, high in windows or ((0.0, np.inf),))
+        return cls(clouds, templates, limits, settings)
+
+    def candidates(self, count: int) -> list[_Candidate]:
+        """The best few poses per template over both mirrors, fitted with all points."""
+        rotations = super_fibonacci(count).astype(np.float32)
+        result = []
+        for template in self.templates:
+            start = self._coarse(template, rotations)
+            starts = start, mirror_image(start, template.middle_y)
+            batches = [
+                self._fitted(cloud, template, poses)
+                for cloud, poses in zip(self.clouds, starts, strict=True)
+            ]
+            poses = joined(*(poses for poses, _ in batches))
+            costs = np.concatenate([costs for _, costs in batches])
+            cloud_of = np.repeat([0, 1], [len(costs) for _, costs in batches])
+            for place in np.argsort(costs, kind="stable")[: self.settings.kept_poses]:
+                cloud = self.clouds[cloud_of[place]]
+                result.append(self._finished(poses.at(np.array([place])), cloud, template))
+        return result
+
+    def rivals(self, candidates: list[_Candidate]) -> list[_Candidate]:
+        """The best of each template turned upside down, on its sides and end for end, and fitted.
+
+        Which poses the search keeps depends on the pose that the mesh came in. If all of them lie
+        in one valley, the margin would measure nothing; the turned poses are always there.
+        """
+        settings, result = self.settings, []
+        for template in self.templates:
+            best = min(
+                (each for each in candidates if each.template is template),
+                key=lambda each: each.cost,
+            )
+            cloud = best.cloud
+            poses = turned_about(best.pose, _turns(), template.middle_y, settings.middle)
+            poses = icp_steps(poses, cloud.few, cloud.few_normals, template, settings.rival_steps)
+            costs = self._costs(poses, cloud.few, cloud.few_normals, template)
+            cheapest = np.argsort(costs, kind="stable")[: settings.rivals_finished]
+            result += [self._finished(poses.at(np.array([i])), cloud, template) for i in cheapest]
+        return result
+
+    def _costs(
+        self, poses: Poses, points: Singles, normals: Singles, template: Template
+    ) -> Singles:
+        """The cost of each pose, (k,); a pose with an implausible length pays for it."""
+        costs = forward_costs(poses, points, normals, template)
+        lengths = 1 / poses.scale
+        plausible = np.any([(low < lengths) & (lengths < high) for low, high in self.windows], 0)
+        costs += np.where(plausible, 0.0, FIT.implausible_cost)
+        return costs
+
+    def _coarse(self, template: Template, rotations: Singles) -> Poses:
+        """The cheapest of all rotations, length and shift taken from the mesh's low part.
+
+        Of the mesh as it is only: a left foot lies on a right template well enough to start from.
+        """
+        cloud, few = self.clouds[0], self.settings.coarse_points
+        poses = levelled(rotations, cloud.few, template.middle_y)
+        costs = self._costs(poses, cloud.few[:few], cloud.few_normals[:few], template)
+        return poses.at(np.argsort(costs, kind="stable")[: self.settings.kept_coarse])
+
+    def _fitted(self, cloud: _Cloud, template: Template, poses: Poses) -> tuple[Poses, Singles]:
+        """Poses of one cloud on one template after ICP, in two halves, and their costs."""
+        points, normals = cloud.few, cloud.few_normals
+        costs = np.zeros(len(poses.scale), dtype=np.float32)
+        for steps, kept in self.settings.icp_rounds:
+            poses = icp_steps(poses, points, normals, template, steps)
+            costs = self._costs(poses, points, normals, template)
+            best = np.argsort(costs, kind="stable")[:kept]
+            poses, costs = poses.at(best), costs[best]
+        apart = self._apart(poses, costs)
+        return poses.at(apart), costs[apart]
+
+    def _apart(self, poses: Poses, costs: Singles) -> Ints:
+        """Indices of the cheapest poses that differ by over ``apart_deg`` from a cheaper one."""
+        traces = np.einsum("aij,bij->ab", poses.rotation, poses.rotation)
+        near = traces > 1 + 2 * np.cos(np.radians(self.settings.apart_deg))
+        kept: list[int] = []
+        for place in np.argsort(costs, kind="stable"):
+            if len(kept) < self.settings.kept_poses and not near[place, kept].any():
+                kept.append(int(place))
+        return np.array(kept, dtype=np.int64)
+
+    def _finished(self, pose: Poses, cloud: _Cloud, template: Template) -> _Candidate:
+        """One pose fitted with all points, and its cost both ways."""
+        settings, points, normals = self.settings, cloud.many, cloud.many_normals
+        some = slice(None, None, settings.final_stride)
+        pose = icp_steps(pose, points[some], normals[some], template, settings.final_steps)
+        forward = float(forward_costs(pose, points, normals, template)[0])
+        sought = template.normals[:, 2] >= settings.reverse_normal
+        low = np.flatnonzero(sought & (template.points[:, 2] < settings.reverse_height))
+        low = low[np.linspace(0, len(low) - 1, settings.reverse_points).astype(int)]
+        sparse = template.points[low], template.normals[low]
+        back = reverse_cost(pose, points, normals, sparse, settings.reverse_share)
+        return _Candidate(pose, template, cloud, forward + back)
 
 
 def _turns() -> Singles:
-    """The seven turns (7, 3, 3), but for the identity, that leave the line of X in place."""
+    """The seven turns (7, 3, 3), without the identity, that leave the line of X in place."""
     half = np.diag([-1.0, -1.0, 1.0])
     rolls = [
         rotations_about(np.array([[angle, 0.0, 0.0]]))[0] for angle in np.pi / 2 * np.arange(4)
@@ -251,25 +320,6 @@ def turned_about(
     return Poses(rotation, np.asarray(shift), np.repeat(pose.scale, len(turns)))
 
 
-def _coarse(
-    cloud: _Cloud,
-    shape: ReferenceShape,
-    rotations: Singles,
-    windows: tuple[tuple[float, float], ...],
-    settings: OrientationSettings,
-) -> Poses:
-    """The cheapest of all rotations, length and shift taken from the mesh's low part.
-
-    Of the mesh as it is only: a left foot lies on a right reference well enough to start from.
-    """
-    fit, few = settings.fit, settings.coarse_points
-    poses = levelled(rotations, cloud.few, shape.middle_y, fit)
-    costs = forward_costs(poses, cloud.few[:few], cloud.few_normals[:few], shape, fit)
-    limits = _limits(cloud.few, windows, fit)
-    costs = costs + fit.implausible_cost * ~plausible(1 / poses.scale, limits)
-    return poses.at(np.argsort(costs, kind="stable")[: settings.kept_coarse])
-
-
 def mirror_image(poses: Poses, middle_y: float) -> Poses:
     """The poses (of the mirrored mesh) that leave it where the mesh is, but mirrored in place."""
     flip = MIRROR.astype(np.float32)
@@ -278,110 +328,34 @@ def mirror_image(poses: Poses, middle_y: float) -> Poses:
     return Poses(np.asarray(flip @ poses.rotation @ flip), shift, poses.scale)
 
 
-def _searched(
-    cloud: _Cloud,
-    shape: ReferenceShape,
-    poses: Poses,
-    windows: tuple[tuple[float, float], ...],
-    settings: OrientationSettings,
-) -> tuple[Poses, Singles]:
-    """Poses of one cloud on one reference after ICP, in two halves, and their costs."""
-    points, normals, fit = cloud.few, cloud.few_normals, settings.fit
-    limits = _limits(points, windows, fit)
-    costs = np.zeros(len(poses.scale), dtype=np.float32)
-    for steps, kept in settings.icp_rounds:
-        poses = icp_steps(poses, points, normals, shape, steps, fit)
-        costs = forward_costs(poses, points, normals, shape, fit)
-        costs += np.where(plausible(1 / poses.scale, limits), 0.0, fit.implausible_cost)
-        best = np.argsort(costs, kind="stable")[:kept]
-        poses, costs = poses.at(best), costs[best]
-    apart = _apart(poses, costs, settings)
-    return poses.at(apart), costs[apart]
-
-
-def _limits(
-    points: Singles, windows: tuple[tuple[float, float], ...], fit: FitSettings
-) -> tuple[tuple[float, float], ...]:
-    """The windows, without the lengths for which nearly all of the mesh would be leg."""
-    least = 1.001 * fit.least_length * size_of(points)
-    whole = windows or ((0.0, np.inf),)
-    return tuple((max(low, least), high) for low, high in whole)
-
-
-def plausible(lengths: Floats | Singles, windows: tuple[tuple[float, float], ...]) -> Bools:
-    """Whether each length lies in one of the windows; all do where there are none."""
-    if not windows:
-        return np.ones(np.shape(lengths), dtype=bool)
-    inside = [(low < lengths) & (lengths < high) for low, high in windows]
-    return np.asarray(np.any(inside, axis=0))
-
-
-def _apart(poses: Poses, costs: Singles, settings: OrientationSettings) -> Ints:
-    """Indices of the cheapest poses that differ by more than ``apart_deg`` from a cheaper one."""
-    rotations = poses.rotation
-    traces = np.einsum("aij,bij->ab", rotations, rotations)
-    near = traces > 1 + 2 * np.cos(np.radians(settings.apart_deg))
-    kept: list[int] = []
-    for place in np.argsort(costs, kind="stable"):
-        if len(kept) < settings.kept_poses and not near[place, kept].any():
-            kept.append(int(place))
-    return np.array(kept, dtype=np.int64)
-
-
-def _finished(
-    pose: Poses,
-    cloud: _Cloud,
-    shape: ReferenceShape,
-    mirrored: bool,
-    settings: OrientationSettings,
-) -> _Candidate:
-    points, normals, fit = cloud.many, cloud.many_normals, settings.fit
-    every = slice(None, None, settings.final_stride)
-    pose = icp_steps(pose, points[every], normals[every], shape, settings.final_steps, fit)
-    forward = float(forward_costs(pose, points, normals, shape, fit)[0])
-    sought = shape.normals[:, 2] >= settings.reverse_normal
-    low = np.flatnonzero(sought & (shape.points[:, 2] < settings.reverse_height))
-    low = low[np.linspace(0, len(low) - 1, settings.reverse_points).astype(int)]
-    sparse = shape.points[low], shape.normals[low]
-    back = reverse_cost(pose, points, normals, sparse, settings.reverse_share, fit)
-    return _Candidate(pose, shape, mirrored, forward + back)
-
-
-def _chosen(candidates: list[_Candidate], settings: OrientationSettings) -> Orientation:
+def _cheapest(candidates: list[_Candidate], settings: PoseSearchSettings) -> RoughPose:
     """The cheapest candidate, and its margin to the cheapest that points elsewhere."""
     order = sorted(candidates, key=lambda candidate: candidate.cost)
-    winner = order[0]
-    rotation = _unmirrored(winner)
+    winner, rotation = order[0], order[0].rotation
     limit = np.cos(np.radians(settings.rival_deg))
     rivals = [
         other.cost
         for other in order
-        if any(_unmirrored(other)[axis] @ rotation[axis] < limit for axis in (0, 2))
+        if any(other.rotation[axis] @ rotation[axis] < limit for axis in (0, 2))
     ]
     margin = rivals[0] - winner.cost if rivals else settings.margin_without_rival
     length = 1 / float(winner.pose.scale[0])
     shift = winner.pose.shift[0].astype(np.float64) * length
-    return Orientation(
+    return RoughPose(
         rotation=nearest_rotation(rotation),
-        shift=MIRROR @ shift if winner.mirrored else shift,
+        shift=MIRROR @ shift if winner.cloud.mirrored else shift,
         length=length,
         cost=winner.cost,
         margin=margin,
-        kind=winner.shape.kind,
+        kind=winner.template.kind,
         accepted=is_accepted(winner.cost, margin, settings),
     )
 
 
-def is_accepted(cost: float, margin: float, settings: OrientationSettings = ORIENTATION) -> bool:
+def is_accepted(cost: float, margin: float, settings: PoseSearchSettings = POSE_SEARCH) -> bool:
     """Whether a pose is that of a foot or last: the worse it fits, the clearer it must be.
 
-    Cost alone does not tell: a cylinder has .55, an ellipsoid .55; their margins are below .03.
+    Cost alone does not tell: a cylinder has 0.55, an ellipsoid 0.55; their margins are below 0.03.
     """
     extra = settings.margin_per_cost * max(0.0, cost - settings.doubtful_cost)
     return cost <= settings.cost_maximum and margin >= settings.margin_minimum + extra
-
-
-def _unmirrored(candidate: _Candidate) -> Floats:
-    """The candidate's rotation for the mesh as it is: mirrored before and after, if at all."""
-    rotation = candidate.pose.rotation[0].astype(np.float64)
-    return np.asarray(MIRROR @ rotation @ MIRROR) if candidate.mirrored else rotation

@@ -1,7 +1,7 @@
 """Left or right, from what differs between a shape and its mirror image.
 
-Never from the fit of a mirrored reference: that was right for 94 of 250 real lasts. Points are in
-the canonical frame of a shape taken as a right one; mm or any unit.
+Not from the fit of a mirrored template: that was right for only 94 of 250 real lasts. Points are in
+the canonical frame of a shape that is taken as a right one, in mm or any unit.
 """
 
 from __future__ import annotations
@@ -11,7 +11,7 @@ from typing import Literal
 
 import numpy as np
 
-from footfit.geometry.numeric.arrays import Bools, Floats
+from footfit.geometry.numeric.arrays import Floats
 
 
 @dataclass(frozen=True, slots=True)
@@ -32,7 +32,6 @@ class SideSettings:
     bottom_share: float = 0.03
     fewest_points: int = 8
     undecided: float = 0.5
-    low: float = 1.5
     sure: float = 2.5
 
 
@@ -41,7 +40,7 @@ SIDE = SideSettings()
 
 @dataclass(frozen=True, slots=True)
 class SideScore:
-    """The mirror-odd features and their sum ``score``, + for a right shape."""
+    """The features that change sign in a mirror, and their sum ``score``: + for a right shape."""
 
     bend: float
     instep: float
@@ -49,67 +48,58 @@ class SideScore:
     score: float
 
 
-def side_score(points: Floats, length: float, settings: SideSettings = SIDE) -> SideScore:
+def side_score(points: Floats, length: float) -> SideScore:
     """The score of points (n, 3) of a surface, evenly spread, in the canonical frame.
 
     ``bend`` is the quadratic coefficient of the low part's centre line (inflare: towards +y),
     ``instep`` by how much the +y half is higher on top, ``arch`` the same underneath.
     """
-    low = points[points[:, 2] < settings.height * length] / length
+    low = points[points[:, 2] < SIDE.height * length] / length
     start = low[:, 0].min()
-    station = ((low[:, 0] - start) * settings.stations).astype(int)
+    station = ((low[:, 0] - start) * SIDE.stations).astype(int)
     rows = [
-        _station_row(low[station == place], settings)
-        for place in range(settings.stations)
-        if np.count_nonzero(station == place) >= settings.fewest_points
+        _station_row(low[station == place])
+        for place in range(SIDE.stations)
+        if np.count_nonzero(station == place) >= SIDE.fewest_points
     ]
-    if len(rows) < settings.stations // 2:
+    if len(rows) < SIDE.stations // 2:
         return SideScore(0.0, 0.0, 0.0, 0.0)
-    s, middle, top, bottom = np.array(rows).T
-    s = s - start
+    s, middle, top, bottom = (np.array(rows) - [start, 0.0, 0.0, 0.0]).T
     bend = float(np.polynomial.polynomial.polyfit(s, middle, 2)[2])
-    instep = _median(top[_within(s, settings.instep)])
-    arch = _median(bottom[_within(s, settings.arch)])
-    score = (
-        _clipped(bend / settings.bend_unit, settings.bend_limit)
-        + _clipped(instep / settings.instep_unit, settings.height_limit)
-        + _clipped(arch / settings.arch_unit, settings.height_limit)
+    instep, arch = _median(top, s, SIDE.instep), _median(bottom, s, SIDE.arch)
+    parts = (
+        (bend / SIDE.bend_unit, SIDE.bend_limit),
+        (instep / SIDE.instep_unit, SIDE.height_limit),
+        (arch / SIDE.arch_unit, SIDE.height_limit),
     )
-    return SideScore(bend, instep, arch, score)
+    return SideScore(bend, instep, arch, sum(min(max(v, -most), most) for v, most in parts))
 
 
-def confidence(score: float, settings: SideSettings = SIDE) -> Literal["sure", "low", "undecided"]:
-    """How surely a score tells the side: "sure", "low" or "undecided"."""
-    if abs(score) >= settings.sure:
+def confidence(score: float) -> Literal["sure", "low", "undecided"]:
+    """How sure the side is by a score: "sure", "low" or "undecided"."""
+    if abs(score) >= SIDE.sure:
         return "sure"
-    return "low" if abs(score) >= settings.undecided else "undecided"
+    return "low" if abs(score) >= SIDE.undecided else "undecided"
 
 
-def _station_row(points: Floats, settings: SideSettings) -> tuple[float, float, float, float]:
+def _station_row(points: Floats) -> tuple[float, float, float, float]:
     """Where the station is, its middle, and how much higher +y is on top and underneath."""
     y, z = points[:, 1], points[:, 2]
     middle = 0.5 * (y.min() + y.max())
     across = (y - middle) / max(0.5 * float(np.ptp(y)), 1e-9)
-    near, far = settings.band
+    near, far = SIDE.band
     medial = z[(across > near) & (across < far)]
     lateral = z[(across < -near) & (across > -far)]
-    if len(medial) == 0 or len(lateral) == 0:
-        return float(points[:, 0].mean()), middle, np.nan, np.nan
     top, bottom = (
         float(np.quantile(medial, share) - np.quantile(lateral, share))
-        for share in (settings.top_share, settings.bottom_share)
+        if len(medial) and len(lateral)
+        else np.nan
+        for share in (SIDE.top_share, SIDE.bottom_share)
     )
     return float(points[:, 0].mean()), middle, top, bottom
 
 
-def _within(s: Floats, window: tuple[float, float]) -> Bools:
-    return np.asarray((s >= window[0]) & (s <= window[1]))
-
-
-def _median(values: Floats) -> float:
-    known = values[np.isfinite(values)]
+def _median(values: Floats, s: Floats, window: tuple[float, float]) -> float:
+    """The median of the known values at stations s within a window; 0 if there are none."""
+    known = values[np.isfinite(values) & (s >= window[0]) & (s <= window[1])]
     return float(np.median(known)) if len(known) else 0.0
-
-
-def _clipped(value: float, limit: float) -> float:
-    return min(max(value, -limit), limit)

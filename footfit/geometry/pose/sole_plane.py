@@ -34,21 +34,19 @@ class FloorSettings:
 FLOOR = FloorSettings()
 
 
-def sole_plane(
-    sample: SurfaceSample, length: float, start: Plane = LEVEL, settings: FloorSettings = FLOOR
-) -> Plane:
+def sole_plane(sample: SurfaceSample, length: float, start: Plane = LEVEL) -> Plane:
     """The plane of the sole by iterated reweighting from ``start``, the weight's width narrowing.
 
     A point weighs its area, times how near the plane it is, times how squarely it faces down.
-    Where nothing faces the plane, ``start`` is returned.
+    If nothing faces the plane, it is ``start``.
     """
     heights = start.heights(sample.points)
-    near = (np.abs(heights) < settings.reach * length) & (sample.normals @ start.normal < 0)
+    near = (np.abs(heights) < FLOOR.reach * length) & (sample.normals @ start.normal < 0)
     columns = np.asfortranarray  # one coordinate after the other: the steps read them so
     points, normals = columns(sample.points[near]), columns(sample.normals[near])
     areas = sample.areas[near]
-    narrowing = np.geomspace(settings.tau_first, settings.tau_last, settings.narrowing_steps)
-    widths = np.append(narrowing, np.full(settings.final_steps, settings.tau_last)) * length
+    narrowing = np.geomspace(FLOOR.tau_first, FLOOR.tau_last, FLOOR.narrowing_steps)
+    widths = np.append(narrowing, np.full(FLOOR.final_steps, FLOOR.tau_last)) * length
     plane = start
     for width in widths:
         weights = areas * np.exp(-((plane.heights(points) / width) ** 2))
@@ -56,7 +54,7 @@ def sole_plane(
         if np.count_nonzero(weights) < 3:
             return start
         before, plane = plane, fitted_plane(points, weights, plane.normal)
-        if width == widths[-1] and _unmoved(before, plane, settings.still, length):
+        if width == widths[-1] and _unmoved(before, plane, FLOOR.still, length):
             break
     return plane
 
@@ -73,16 +71,14 @@ def _unmoved(before: Plane, after: Plane, still: float, length: float) -> bool:
     return tilt < still and abs(before.offset - after.offset) < still * length
 
 
-def support(
-    sample: SurfaceSample, plane: Plane, length: float, settings: FloorSettings = FLOOR
-) -> float:
+def support(sample: SurfaceSample, plane: Plane, length: float) -> float:
     """The area facing down at the plane, over L squared: .11-.24 with a sole, <= .07 without."""
     down = squareness(sample.normals, plane.normal)
-    near = np.abs(plane.heights(sample.points)) < settings.support_height * length
+    near = np.abs(plane.heights(sample.points)) < FLOOR.support_height * length
     return float((sample.areas * down)[near].sum() / length**2)
 
 
-def rim_plane(sample: SurfaceSample, length: float, settings: FloorSettings = FLOOR) -> Plane:
+def rim_plane(sample: SurfaceSample, length: float) -> Plane:
     """The plane of the lowest rim, for a shape without a sole.
 
     The lowest points in stations along x, on either side, are averaged; the plane through them
@@ -90,17 +86,17 @@ def rim_plane(sample: SurfaceSample, length: float, settings: FloorSettings = FL
     """
     x, y = sample.points[:, 0], sample.points[:, 1]
     station = np.clip(
-        ((x - x.min()) / length * settings.rim_stations).astype(int), 0, settings.rim_stations - 1
+        ((x - x.min()) / length * FLOOR.rim_stations).astype(int), 0, FLOOR.rim_stations - 1
     )
     side = y > np.median(y)
     rim = [
-        _lowest_mean(sample, (station == s) & (side == half), settings.rim_share)
-        for s in range(settings.rim_stations)
+        _lowest_mean(sample, (station == s) & (side == half), FLOOR.rim_share)
+        for s in range(FLOOR.rim_stations)
         for half in (False, True)
         if np.any((station == s) & (side == half))
     ]
-    scale = settings.rim_scale * length
-    return robust_plane(np.array(rim), np.ones(len(rim)), scale, settings.rim_rounds)
+    scale = FLOOR.rim_scale * length
+    return robust_plane(np.array(rim), np.ones(len(rim)), scale, FLOOR.rim_rounds)
 
 
 def _lowest_mean(sample: SurfaceSample, chosen: Bools, share: float) -> Floats:

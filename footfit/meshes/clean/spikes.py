@@ -26,12 +26,10 @@ class SpikeSettings:
     slenderness: float = 3.0
 
 
-SPIKE_SETTINGS = SpikeSettings()
+SPIKES = SpikeSettings()
 
 
-def pressed_spikes(
-    vertices: Floats, faces: Ints, settings: SpikeSettings = SPIKE_SETTINGS
-) -> tuple[Floats, int]:
+def pressed_spikes(vertices: Floats, faces: Ints) -> tuple[Floats, int]:
     """The vertices with each spike's tip moved to the middle of its neighbours, and how many.
 
     Connectivity stays, so that a closed surface stays closed. Tips that are neighbours of each
@@ -44,7 +42,6 @@ def pressed_spikes(
         In any unit.
     faces : (m, 3) int64
         Welded.
-    settings : SpikeSettings
 
     Examples
     --------
@@ -63,7 +60,7 @@ def pressed_spikes(
         return vertices, 0
     columns = [np.ascontiguousarray(column)[faces.T] for column in vertices.T]
     reach = [float(np.ptp(column)) for column in columns]
-    least = settings.height * float(np.linalg.norm(reach))
+    least = SPIKES.height * float(np.linalg.norm(reach))
     tips = _with_long_edges_only(columns, faces, len(vertices), least)
     if not tips.any():
         return vertices, 0
@@ -76,7 +73,7 @@ def pressed_spikes(
     spread = np.zeros(len(vertices))
     np.maximum.at(spread, tip, away)
     height = np.linalg.norm(vertices - middles, axis=1)
-    spike = tips & inner & (height > least) & (height > settings.slenderness * spread)
+    spike = tips & inner & (height > least) & (height > SPIKES.slenderness * spread)
     return np.where(spike[:, None], middles, vertices), int(spike.sum())
 
 

@@ -32,7 +32,7 @@ class WeldSettings:
     loose_ratio: float = 1.2
 
 
-WELD_SETTINGS = WeldSettings()
+WELDING = WeldSettings()
 
 
 @dataclass(frozen=True, slots=True)
@@ -50,9 +50,7 @@ class WeldedMesh:
     notices: tuple[Notice, ...]
 
 
-def welded_mesh(
-    vertices: Floats, faces: Ints, settings: WeldSettings = WELD_SETTINGS
-) -> WeldedMesh:
+def welded_mesh(vertices: Floats, faces: Ints) -> WeldedMesh:
     """Weld, drop what is no triangle or stands twice, press spikes back.
 
     Parameters
@@ -60,14 +58,13 @@ def welded_mesh(
     vertices : (n, 3) float64
         Finite, in any unit.
     faces : (m, 3) int64
-    settings : WeldSettings
 
     Returns
     -------
     WeldedMesh
         With notices ``near_vertices_welded``, ``duplicates_removed``, ``spikes_pressed``.
     """
-    vertices, faces, source, notices = _welded(vertices, faces, settings)
+    vertices, faces, source, notices = _welded(vertices, faces)
     distinct = has_distinct_corners(faces)
     faces = faces[distinct]
     once = _first_of_equals(faces)
@@ -83,12 +80,10 @@ def counted(code: str, count: int, words: str) -> tuple[Notice, ...]:
     return (Notice(code, f"{count:,} {words}"),) if count else ()
 
 
-def _welded(
-    vertices: Floats, faces: Ints, settings: WeldSettings
-) -> tuple[Floats, Ints, Ints, tuple[Notice, ...]]:
+def _welded(vertices: Floats, faces: Ints) -> tuple[Floats, Ints, Ints, tuple[Notice, ...]]:
     """The exact weld, and where it leaves the faces apart the weld of nearly equal corners."""
     points, joined, source = welded_vertices(vertices, faces)
-    if len(points) <= settings.loose_ratio * len(faces):
+    if len(points) <= WELDING.loose_ratio * len(faces):
         return points, joined, source, ()
     tolerance = rounding_distance(points[np.unique(joined)])
     if not tolerance > 0.0:

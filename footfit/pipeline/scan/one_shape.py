@@ -13,15 +13,21 @@ from footfit.geometry.mesh.topology import boundary_loops, is_closed
 from footfit.geometry.numeric.arrays import Floats, Ints
 from footfit.geometry.pose.facing import Facing, facing, lacks_its_sole
 from footfit.geometry.pose.floor_plate import is_flat, without_plate
-from footfit.geometry.pose.pieces import PIECES, comparable, gap, part_of, pieces, stand_apart
-from footfit.geometry.pose.pose_search import SOLELESS, Orientation, orientation
+from footfit.geometry.pose.pieces import (
+    PIECES,
+    Piece,
+    comparable,
+    near_pieces,
+    part_of,
+    pieces,
+    stand_apart,
+)
+from footfit.geometry.pose.pose_search import SOLELESS, RoughPose, Windows, rough_pose
 from footfit.pipeline.scan.cleaning import PLATE_REMOVED, turned_notices
-from footfit.pipeline.scan.shipped_templates import shipped_references
+from footfit.pipeline.scan.shipped_templates import shipped_templates
 from footfit.results import Notice, Scan
 
 _PIECES_REMOVED = Notice("pieces_removed", "pieces beside the foot were left out")
-
-Windows = tuple[tuple[float, float], ...]
 
 
 @dataclass(frozen=True, slots=True)
@@ -33,7 +39,7 @@ class PosedShape:
 
     vertices: Floats
     faces: Ints
-    orientation: Orientation
+    pose: RoughPose
     sheet: bool
     notices: tuple[Notice, ...]
 
@@ -58,26 +64,55 @@ def shape_in(scan: Scan, windows: Windows) -> PosedShape:
     """
     if scan.pose is not None:
         return PosedShape(scan.vertices_mm, scan.faces, scan.pose, False, ())
-    body = _without_floor(scan)
-    found = comparable(body.vertices, body.faces, body.pieces)
-    if len(found) == 1:
-        alone = _largest_with_near(body)
-        shape = _oriented(alone.vertices, alone.faces, windows, alone.notices)
+    body = _without_plate(scan)
+    alike = comparable(body.parts)
+    if len(alike) == 1:
+        shape = _gathered(body, near_pieces(body.parts, alike[0].vertices), windows)
     else:
-        shape = _the_one_foot(body, found, windows)
-    if shape.orientation.accepted and shape.sheet:
-        raise HalfScan("this is a sheet, like a scan of the sole alone; scan the whole foot")
-    if not shape.orientation.accepted:
+        shape = _the_one_foot(body, alike, windows)
+    if not shape.pose.accepted:
         raise NotAFoot(
             "neither a foot nor a last, as far as the shape tells"
-            f" (cost {shape.orientation.cost:.2f}, margin {shape.orientation.margin:.2f}"
+            f" (cost {shape.pose.cost:.2f}, margin {shape.pose.margin:.2f}"
             f"{_opening_words(shape)}); check that the file holds one whole foot or last"
         )
+    if shape.sheet:
+        raise HalfScan("this is a sheet, like a scan of the sole alone; scan the whole foot")
     return shape
 
 
+def scans_in(scan: Scan, windows: Windows) -> list[Scan]:
+    """Each foot or last that stands beside another in a scan as a scan of its own, largest first.
+
+    The unit and the notices are the file's; the pose is known. Empty if there are not at least
+    two: the scan is then one shape, or none.
+    """
+    body = _without_plate(scan)
+    alike = comparable(body.parts)
+    if not 1 < len(alike) <= PIECES.most_comparable:
+        return []
+    shapes = _shapes_among(alike, windows, body.notices)
+    if not _beside(shapes):
+        return []
+    notices = scan.warnings + ((_PIECES_REMOVED,) if len(body.parts) > len(shapes) else ())
+    return [_alone(scan, shape, i, notices) for i, shape in enumerate(shapes, start=1)]
+
+
+def _alone(scan: Scan, shape: PosedShape, number: int, notices: tuple[Notice, ...]) -> Scan:
+    """One shape of a scan as a scan. A sheet has no pose yet: it is refused as every sheet is."""
+    info = replace(
+        scan.info,
+        path=f"{scan.info.path or '-'}#{number}",
+        vertices=len(shape.vertices),
+        faces=len(shape.faces),
+        watertight=is_closed(shape.faces),
+    )
+    pose = None if shape.sheet else shape.pose
+    return Scan(info, shape.vertices, shape.faces, notices + shape.notices, pose=pose)
+
+
 def _opening_words(shape: PosedShape) -> str:
-    """How wide the surface is open, where that is wide enough to be a part of something."""
+    """How wide the surface is open, if that is wide enough to be a part of something."""
     rims = [shape.vertices[rim] for rim in boundary_loops(shape.faces)]
     widest = max((extent_of(rim) for rim in rims), default=0.0)
     share = widest / float(np.ptp(shape.vertices, axis=0).max())
@@ -86,155 +121,94 @@ def _opening_words(shape: PosedShape) -> str:
 
 @dataclass(frozen=True, slots=True)
 class _Body:
-    """A mesh without its floor plate, its pieces' faces (largest first), and what was done."""
+    """A mesh without its floor plate, its pieces (largest first), and what was done."""
 
     vertices: Floats
     faces: Ints
-    pieces: list[Ints]
-    notices: tuple[Notice, ...]
+    parts: list[Piece]
+    notices: tuple[Notice, ...] = ()
 
 
-def _without_floor(scan: Scan) -> _Body:
+def _without_plate(scan: Scan) -> _Body:
     """The scan without its plate, which may be a piece by itself or grown to the foot."""
     vertices, faces = scan.vertices_mm, scan.faces
-    found = pieces(vertices, faces)
-    if len(found) == 1 and without_plate(vertices, faces).all():
-        return _Body(vertices, faces, found, ())
-    flat = [is_flat(part_of(vertices, faces, piece)[0]) for piece in found]
-    removed = any(flat) and not all(flat)
-    if removed:
-        found = [piece for piece, thin in zip(found, flat, strict=True) if not thin]
-    kept = [part_of(vertices, faces, piece) for piece in found]
-    masks = [without_plate(*mesh) for mesh in kept]
-    removed = removed or not all(mask.all() for mask in masks)
-    if not removed:
-        return _Body(vertices, faces, found, ())
-    # Cutting a plate away may leave crumbs and, where two feet stood on it, two pieces.
-    chosen = np.sort(np.concatenate([p[mask] for p, mask in zip(found, masks, strict=True)]))
-    vertices, faces = part_of(vertices, faces, chosen)
+    parts = pieces(vertices, faces)
+    thick = [part for part in parts if not is_flat(part.vertices)] or parts
+    masks = [without_plate(part.vertices, part.faces) for part in thick]
+    if len(thick) == len(parts) and all(mask.all() for mask in masks):
+        return _Body(vertices, faces, parts)
+    # Cutting a plate away may leave crumbs and, if two feet stood on it, two pieces.
+    rows = [part.rows[mask] for part, mask in zip(thick, masks, strict=True)]
+    vertices, faces = part_of(vertices, faces, np.sort(np.concatenate(rows)))
     return _Body(vertices, faces, pieces(vertices, faces), (PLATE_REMOVED,))
 
 
-def _largest_with_near(body: _Body) -> _Body:
-    """The largest piece with what lies close to it; lesser things beside it are left out."""
-    if len(body.pieces) == 1:
-        return body
-    near = _near(body, part_of(body.vertices, body.faces, body.pieces[0])[0])
-    if len(near) == len(body.pieces):
-        return body
-    vertices, faces = part_of(body.vertices, body.faces, np.sort(np.concatenate(near)))
-    return _Body(vertices, faces, near, (*body.notices, _PIECES_REMOVED))
+def _gathered(body: _Body, parts: list[Piece], windows: Windows) -> PosedShape:
+    """Some pieces of a body as one shape with its pose; what is left out is said."""
+    if len(parts) == len(body.parts):
+        return _posed(body.vertices, body.faces, windows, body.notices)
+    rows = np.sort(np.concatenate([part.rows for part in parts]))
+    notices = (*body.notices, _PIECES_REMOVED)
+    return _posed(*part_of(body.vertices, body.faces, rows), windows, notices)
 
 
-def _near(body: _Body, points: Floats) -> list[Ints]:
-    """The pieces that come close to points (n, 3) of the shape, itself among them."""
-    size = float(np.ptp(points, axis=0).max())
-    return [
-        piece
-        for piece in body.pieces
-        if gap(points, part_of(body.vertices, body.faces, piece)[0]) < PIECES.gap * size
-    ]
-
-
-def scans_in(scan: Scan, windows: Windows) -> list[Scan]:
-    """Each foot or last that stands beside another in a scan as a scan of its own, largest first.
-
-    The unit and the notices are the file's; the pose is known. Empty where there are not at least
-    two: the scan is then one shape, or none.
-    """
-    body = _without_floor(scan)
-    found = comparable(body.vertices, body.faces, body.pieces)
-    if not 1 < len(found) <= PIECES.most_comparable:
-        return []
-    shapes = _feet(body, found, windows)
-    if not _beside(shapes):
-        return []
-    beside = (_PIECES_REMOVED,) if len(body.pieces) > len(shapes) else ()
-    return [_alone(scan, shape, i, beside) for i, shape in enumerate(shapes, start=1)]
-
-
-def _alone(scan: Scan, shape: PosedShape, number: int, notices: tuple[Notice, ...]) -> Scan:
-    """One shape of a scan as a scan. A sheet's pose is left out: it is refused as every sheet."""
-    info = replace(
-        scan.info,
-        path=f"{scan.info.path or '-'}#{number}",
-        vertices=len(shape.vertices),
-        faces=len(shape.faces),
-        watertight=is_closed(shape.faces),
-    )
-    return Scan(
-        info=info,
-        vertices_mm=shape.vertices,
-        faces=shape.faces,
-        warnings=(*scan.warnings, *shape.notices, *notices),
-        pose=None if shape.sheet else shape.orientation,
-    )
-
-
-def _feet(body: _Body, found: list[Ints], windows: Windows) -> list[PosedShape]:
-    """The pieces that each look like a foot or last, the largest first."""
-    parts = (part_of(body.vertices, body.faces, piece) for piece in found)
-    shapes = [_oriented(*part, windows, body.notices) for part in parts]
-    return [shape for shape in shapes if shape.orientation.accepted]
-
-
-def _beside(feet: list[PosedShape]) -> bool:
-    """Does one of them stand beside another?"""
-    pairs = combinations(feet, 2)
-    return any(stand_apart(one.vertices, other.vertices) for one, other in pairs)
-
-
-def _the_one_foot(body: _Body, found: list[Ints], windows: Windows) -> PosedShape:
-    """The foot among comparable pieces, or the pieces together where they are one cracked scan."""
-    if len(found) > PIECES.most_comparable:  # no shelf of feet: looking at each would take minutes
-        return _oriented(body.vertices, body.faces, windows, body.notices)
-    feet = _feet(body, found, windows)
+def _the_one_foot(body: _Body, alike: list[Piece], windows: Windows) -> PosedShape:
+    """The foot among comparable pieces, or the pieces together if they are one cracked scan."""
+    whole_body = body.vertices, body.faces, windows, body.notices
+    if len(alike) > PIECES.most_comparable:  # no shelf of feet: looking at each would take minutes
+        return _posed(*whole_body)
+    feet = _shapes_among(alike, windows, body.notices)
     if _beside(feet):
         raise SeveralFeet(f"{len(feet)} feet or lasts in one file; add --split to take them apart")
     if not feet:
-        return _oriented(body.vertices, body.faces, windows, body.notices)
+        return _posed(*whole_body)
     best = feet[0]  # the largest: of two shells of one surface always the same
-    together = _near(body, best.vertices)
-    if len(together) == 1:
-        return replace(best, notices=(*best.notices, _PIECES_REMOVED))
-    notices = (
-        body.notices if len(together) == len(body.pieces) else (*body.notices, _PIECES_REMOVED)
-    )
-    chosen = np.sort(np.concatenate(together))
-    whole = _oriented(*part_of(body.vertices, body.faces, chosen), windows, notices)
-    if whole.orientation.accepted and whole.orientation.cost <= best.orientation.cost:
-        return whole
+    together = near_pieces(body.parts, best.vertices)
+    if len(together) > 1:
+        whole = _gathered(body, together, windows)
+        if whole.pose.accepted and whole.pose.cost <= best.pose.cost:
+            return whole
     return replace(best, notices=(*best.notices, _PIECES_REMOVED))
 
 
-def _oriented(
+def _shapes_among(
+    parts: list[Piece], windows: Windows, notices: tuple[Notice, ...]
+) -> list[PosedShape]:
+    """The pieces that each look like a foot or last, the largest first."""
+    shapes = [_posed(part.vertices, part.faces, windows, notices) for part in parts]
+    return [shape for shape in shapes if shape.pose.accepted]
+
+
+def _beside(shapes: list[PosedShape]) -> bool:
+    """Whether one of them stands beside another."""
+    pairs = combinations(shapes, 2)
+    return any(stand_apart(first.vertices, second.vertices) for first, second in pairs)
+
+
+def _posed(
     vertices: Floats, faces: Ints, windows: Windows, notices: tuple[Notice, ...]
 ) -> PosedShape:
-    """One mesh with its pose; its faces turned over where they look inward."""
+    """One mesh with its pose; its faces turned over if they look inward, or seem to."""
     looks = facing(vertices, faces)
-    turned = (*notices, *turned_notices(len(faces)))
-    ways = []
+    shapes = []
     if looks.outward > -PIECES.inside_out:
-        ways.append((faces, 1.0, notices))
+        shapes.append(_wound(vertices, faces, windows, looks, notices))
     if looks.outward < PIECES.inside_out:
-        ways.append((faces[:, [0, 2, 1]], -1.0, turned))
-    shapes = [
-        _wound(vertices, wound, windows, replace(looks, toward=sign * looks.toward), said)
-        for wound, sign, said in ways
-    ]
-    return min(shapes, key=lambda shape: shape.orientation.cost)
+        notices = (*notices, *turned_notices(len(faces)))
+        turned = replace(looks, toward=-looks.toward)
+        shapes.append(_wound(vertices, faces[:, [0, 2, 1]], windows, turned, notices))
+    return min(shapes, key=lambda shape: shape.pose.cost)
 
 
 def _wound(
     vertices: Floats, faces: Ints, windows: Windows, looks: Facing, notices: tuple[Notice, ...]
 ) -> PosedShape:
-    """One mesh, wound as it is; where it fits badly, tried again as one without its sole."""
-    references = shipped_references()
-    found = orientation(vertices, faces, references, windows)
-    if not found.accepted and looks.one_way > PIECES.shell:
-        again = orientation(vertices, faces, references, windows, SOLELESS)
-        if again.accepted and lacks_its_sole(looks.toward, looks.one_way, again.rotation[2]):
-            found = again
-    open_below = lacks_its_sole(looks.toward, looks.one_way, found.rotation[2])
-    sheet = looks.one_way > PIECES.sheet and not open_below
-    return PosedShape(vertices, faces, found, sheet, notices)
+    """One mesh, wound as it is; if it fits badly, tried again as one without its sole."""
+    templates = shipped_templates()
+    pose = rough_pose(vertices, faces, templates, windows)
+    if not pose.accepted and looks.one_way > PIECES.shell:
+        soleless = rough_pose(vertices, faces, templates, windows, SOLELESS)
+        if soleless.accepted and lacks_its_sole(looks, soleless.rotation[2]):
+            pose = soleless
+    sheet = looks.one_way > PIECES.sheet and not lacks_its_sole(looks, pose.rotation[2])
+    return PosedShape(vertices, faces, pose, sheet, notices)

@@ -13,7 +13,7 @@ from footfit.errors import HalfScan
 from footfit.geometry.flare.levelled_bottom import low_length
 from footfit.geometry.measures.landmarks import Shape
 from footfit.geometry.measures.measure_table import measure_named
-from footfit.geometry.mesh.holes import Filled, filled
+from footfit.geometry.mesh.holes import ClosedMesh, closed_mesh
 from footfit.geometry.mesh.samples import SurfaceSample, gathered_sample, quadrature
 from footfit.geometry.numeric.arrays import Floats, Ints
 from footfit.geometry.numeric.rotations import moved_points, nearest_rotation, transform
@@ -87,7 +87,7 @@ def prepared_scan(
         If no unit, or not the declared one, gives it a plausible length.
     """
     shape = shape_in(scan, length_windows(scan.info, known_length_mm))
-    closed = filled(shape.vertices, shape.faces, shape.orientation.length)
+    closed = closed_mesh(shape.vertices, shape.faces, shape.pose.length)
     frame = _Framed.of(shape, closed)
     _refuse_half(closed, frame)
     verdict = _verdict(frame, side)
@@ -150,7 +150,7 @@ def stored_shape(data: bytes, side: SideName | None) -> tuple[Floats, Ints]:
 
 def closed_shape(vertices_mm: Floats, faces: Ints) -> tuple[Floats, Ints]:
     """A canonical shape with its small holes closed; the vertices of the caps come last."""
-    closed = filled(vertices_mm, faces, low_length(vertices_mm, FRAME.length_height)[1])
+    closed = closed_mesh(vertices_mm, faces, low_length(vertices_mm, FRAME.length_height)[1])
     return closed.vertices, closed.faces
 
 
@@ -174,9 +174,9 @@ class _Framed:
     quality: PoseQuality
 
     @classmethod
-    def of(cls, shape: PosedShape, closed: Filled) -> _Framed:
+    def of(cls, shape: PosedShape, closed: ClosedMesh) -> _Framed:
         """Refine the rough pose of a shape, by its surface with its holes closed."""
-        rough = shape.orientation
+        rough = shape.pose
         about = moved_points(transform(rough.rotation, rough.shift), closed.vertices)
         # The edge in steps of a tenth: two poses of one shape get the same points.
         step = np.round(np.log(rough.length) / np.log(1.1))
@@ -202,7 +202,7 @@ class _Framed:
         return cls(points, surface, rotation, shift, extent, length, quality)
 
 
-def _refuse_half(closed: Filled, frame: _Framed) -> None:
+def _refuse_half(closed: ClosedMesh, frame: _Framed) -> None:
     """Raise HalfScan where a part was cut off, since length and flare would be another's."""
     rims = [frame.points[rim] for rim in closed.rims]
     missing = missing_part(frame.surface, rims, frame.extent)
@@ -210,7 +210,7 @@ def _refuse_half(closed: Filled, frame: _Framed) -> None:
         raise HalfScan(_MISSING[missing])
 
 
-def _end_notices(closed: Filled, frame: _Framed) -> list[Notice]:
+def _end_notices(closed: ClosedMesh, frame: _Framed) -> list[Notice]:
     """The end, if any, that may be longer than it was scanned."""
     end = doubtful_end(frame.surface, [frame.points[rim] for rim in closed.rims], frame.extent)
     if end is None:
@@ -237,7 +237,7 @@ def _verdict(frame: _Framed, side: str) -> SideVerdict:
     return SideVerdict(given, "low" if contradicted else "sure", score, "given")
 
 
-def _hole_notices(closed: Filled, factor: float) -> list[Notice]:
+def _hole_notices(closed: ClosedMesh, factor: float) -> list[Notice]:
     """What was closed, if anything."""
     if not closed.extents:
         return []

@@ -5,8 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 
 from footfit.errors import ImplausibleSize, UnknownUnits
+from footfit.geometry.pose.pose_search import Windows
 from footfit.meshes.units import UNIT_NAMES, UNIT_SCALES
-from footfit.pipeline.scan.one_shape import Windows
 from footfit.results import MeshInfo, Notice, Scan
 
 

@@ -1,4 +1,4 @@
-"""The shapes that a pose is fitted to, shipped beside this file (tools/make_references.py)."""
+"""The templates that poses are fitted to, shipped beside this file (tools/make_references.py)."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from pathlib import Path
 
 import numpy as np
 
-from footfit.geometry.pose.templates import ReferenceShape, ReferenceShapes
+from footfit.geometry.pose.templates import Template
 
 FILE = Path(__file__).with_name("templates.npz")
 # Stored as integers, since a tenth of a millimetre is far below what the fit can tell.
@@ -16,21 +16,18 @@ NORMAL_STEP = 1 / 127
 
 
 @lru_cache(maxsize=1)
-def shipped_references() -> ReferenceShapes:
-    """The references, read once per process."""
+def shipped_templates() -> tuple[Template, ...]:
+    """The templates in the order in which ties are settled, read once per process."""
     with np.load(FILE, allow_pickle=False) as arrays:
-        kinds = [str(kind) for kind in arrays["kinds"]]
-        return ReferenceShapes(
-            tuple(
-                ReferenceShape(
-                    kind=kind,
-                    points=arrays[f"{kind}_points"].astype(np.float32) * np.float32(POINT_STEP),
-                    normals=arrays[f"{kind}_normals"].astype(np.float32) * np.float32(NORMAL_STEP),
-                    origin=arrays[f"{kind}_origin"],
-                    pitch=float(arrays["pitch"]),
-                    table=arrays[f"{kind}_table"],
-                    middle_y=float(arrays[f"{kind}_middle_y"]),
-                )
-                for kind in kinds
+        return tuple(
+            Template(
+                kind=str(kind),
+                points=arrays[f"{kind}_points"].astype(np.float32) * np.float32(POINT_STEP),
+                normals=arrays[f"{kind}_normals"].astype(np.float32) * np.float32(NORMAL_STEP),
+                origin=arrays[f"{kind}_origin"],
+                pitch=float(arrays["pitch"]),
+                table=arrays[f"{kind}_table"],
+                middle_y=float(arrays[f"{kind}_middle_y"]),
             )
+            for kind in arrays["kinds"]
         )

@@ -11,16 +11,16 @@ from hypothesis import strategies as st
 
 from footfit.geometry.mesh.samples import even_sample
 from footfit.geometry.numeric.rotations import rotations_about
-from footfit.geometry.pose.icp import FIT, Poses, _plane_part, _point_part, icp_steps, levelled
+from footfit.geometry.pose.icp import Poses, _plane_part, _point_part, icp_steps, levelled
 from footfit.geometry.pose.icp import moved as pose_fit_moved
 from footfit.geometry.pose.pose_search import (
-    ORIENTATION,
+    POSE_SEARCH,
     is_accepted,
     mirror_image,
-    orientation,
+    rough_pose,
     turned_about,
 )
-from footfit.pipeline.scan.shipped_templates import shipped_references
+from footfit.pipeline.scan.shipped_templates import shipped_templates
 from tests import distortions, shapes
 from tools.lasts import LastSpec, last_mesh
 
@@ -51,7 +51,7 @@ def test_the_normal_equations_are_those_of_the_rows_written_out():
 
 def test_icp_finds_back_a_small_known_motion():
     """A reference's own points, moved a little and scaled, are put back."""
-    shape = shipped_references().shapes[0]
+    shape = shipped_templates()[0]
     body = shape.points[:, 2] < 0.4
     points, normals = shape.points[body][::8], shape.normals[body][::8]
     turn = rotations_about(np.array([[0.10, -0.08, 0.12]]))[0]
@@ -59,7 +59,7 @@ def test_icp_finds_back_a_small_known_motion():
     start = Poses(
         np.eye(3, dtype=np.float32)[None], np.zeros((1, 3), np.float32), np.ones(1, np.float32)
     )
-    found = icp_steps(start, moved, (normals @ turn.T).astype(np.float32), shape, 25, FIT)
+    found = icp_steps(start, moved, (normals @ turn.T).astype(np.float32), shape, 25)
     back = moved @ found.rotation[0].T * found.scale[0] + found.shift[0]
     assert np.linalg.norm(back - points, axis=1).max() < 0.02
 
@@ -67,7 +67,7 @@ def test_icp_finds_back_a_small_known_motion():
 def test_levelling_takes_length_and_shift_from_the_low_part():
     vertices, _ = shapes.cube(1.0, 4)
     box = (vertices + np.array([0.5, 0.0, 0.5])) * [200.0, 80.0, 60.0] + [30.0, 7.0, -5.0]
-    poses = levelled(np.eye(3, dtype=np.float32)[None], box.astype(np.float32), 0.1, FIT)
+    poses = levelled(np.eye(3, dtype=np.float32)[None], box.astype(np.float32), 0.1)
     assert 1 / poses.scale[0] == pytest.approx(200.0, rel=1e-5)
     corner = box.min(axis=0) * poses.scale[0] + poses.shift[0]
     assert corner == pytest.approx([0.0, 0.1 - 0.2, 0.0], abs=1e-5)
@@ -105,16 +105,16 @@ def test_a_pose_is_turned_about_the_middle_of_the_shape():
 
 def test_a_search_that_kept_only_wrong_poses_is_still_put_right(last):
     """Twelve rotations miss the right valley in half of all poses: the turned rivals find it."""
-    blind = replace(ORIENTATION, rotations=12, more_rotations=12, kept_coarse=2)
+    blind = replace(POSE_SEARCH, rotations=12, more_rotations=12, kept_coarse=2)
     lame = replace(blind, rivals_finished=0)
-    references, rng = shipped_references(), np.random.default_rng(5)
+    references, rng = shipped_templates(), np.random.default_rng(5)
     right, without = 0, 0
     for _ in range(10):
         turn = distortions.random_rotation(rng)
         vertices, faces = last[0] @ turn.T, last[1]
-        found = orientation(vertices, faces, references, WINDOW, blind)
+        found = rough_pose(vertices, faces, references, WINDOW, blind)
         right += bool(found.accepted and _upright(found.rotation @ turn))
-        less = orientation(vertices, faces, references, WINDOW, lame)
+        less = rough_pose(vertices, faces, references, WINDOW, lame)
         without += bool(less.accepted and _upright(less.rotation @ turn))
     assert right == 10
     assert without < 8  # else this test would test nothing
@@ -129,7 +129,7 @@ def _upright(turn):
 def test_a_last_in_any_pose_is_set_upright(last, seed, left):
     vertices, faces = distortions.mirrored(*last) if left else last
     pose = distortions.random_pose(np.random.default_rng(seed))
-    found = orientation(distortions.moved(vertices, pose), faces, shipped_references(), WINDOW)
+    found = rough_pose(distortions.moved(vertices, pose), faces, shipped_templates(), WINDOW)
     turn = found.rotation @ pose[:3, :3]
     assert found.accepted
     assert found.kind == "last"
@@ -156,7 +156,7 @@ def test_what_is_no_foot_is_not_accepted(make, known_size):
         pose = distortions.random_pose(np.random.default_rng(seed))
         windows = WINDOW if known_size else ()
         moved = distortions.moved(vertices, pose)
-        assert not orientation(moved, faces, shipped_references(), windows).accepted
+        assert not rough_pose(moved, faces, shipped_templates(), windows).accepted
 
 
 def test_a_doubtful_fit_needs_a_clearer_margin():
