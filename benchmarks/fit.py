@@ -26,7 +26,8 @@ from footfit.pipeline.fit.match import Question, matched
 from footfit.pipeline.fit.scoring import scales
 from footfit.pipeline.fit.zones import last_shape, pitch_gain_mm
 from footfit.pipeline.library.ingest import last_record
-from footfit.pipeline.scan.flare import measured, profiled
+from footfit.pipeline.scan.flare import profiled_scan
+from footfit.pipeline.scan.measure import shape_measures
 from footfit.results import LastLabels, LastRecord, Library, Profiled
 from tests.distortions import decimated, moved, random_pose, white_noise
 from tests.reading import read_scan
@@ -62,13 +63,13 @@ def scanned(mesh: Mesh, side: str, rng: np.random.Generator, decimation: float =
         vertices, faces = decimated(vertices, faces, decimation)
     vertices = white_noise(vertices, rng, NOISE_MM)
     posed = moved(vertices, random_pose(rng))
-    return profiled(aligned(scan_of(posed, faces), side=side))
+    return profiled_scan(aligned(scan_of(posed, faces), side=side))
 
 
 def stored(mesh: Mesh, name: str, rng: np.random.Generator) -> LastRecord:
     """A last as ingest would store it, scanned clean in a random pose."""
     vertices, faces = mesh
-    shape = profiled(aligned(scan_of(moved(vertices, random_pose(rng)), faces), side="right"))
+    shape = profiled_scan(aligned(scan_of(moved(vertices, random_pose(rng)), faces), side="right"))
     return last_record(shape, LastLabels(name))
 
 
@@ -99,7 +100,7 @@ def grid_specs() -> dict[str, LastSpec]:
 
 def girth_mm(mesh: Mesh, kind: str) -> float:
     """The ball girth of a canonical right mesh."""
-    rows = {row.name: row.measured.value for row in measured(*mesh, kind)}
+    rows = {row.name: row.measured.value for row in shape_measures(*mesh, kind)}
     return float(rows["ball_girth"] or np.nan)
 
 

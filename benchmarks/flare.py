@@ -28,7 +28,7 @@ from footfit.geometry.flare.definition import CHANNELS, FlareDefinition, FlarePr
 from footfit.geometry.flare.flare_profile import flare_profile  # noqa: E402
 from footfit.geometry.flare.levelled_bottom import low_length  # noqa: E402
 from footfit.geometry.flare.profile_distance import DISTANCE  # noqa: E402
-from footfit.pipeline.scan.flare import profiled  # noqa: E402
+from footfit.pipeline.scan.flare import profiled_scan  # noqa: E402
 from footfit.pipeline.scan.preparation import closed_shape  # noqa: E402
 from footfit.results import Profiled  # noqa: E402
 from tests import distortions  # noqa: E402
@@ -118,7 +118,7 @@ def through_the_pipeline(shape: Shape, change: Change, rng: np.random.Generator)
     """Changed, put in a random pose, aligned and profiled like any scan."""
     vertices, faces = change(shape.vertices, shape.faces, rng)
     posed = distortions.moved(vertices, distortions.random_pose(rng))
-    return profiled(aligned(scan_of(posed, faces), side="right"))
+    return profiled_scan(aligned(scan_of(posed, faces), side="right"))
 
 
 def rms(values: list[float]) -> float:

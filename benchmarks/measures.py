@@ -24,7 +24,7 @@ from benchmarks.alignment import random_specs, scan_of
 from benchmarks.tables import markdown, put
 from footfit.errors import FootfitError
 from footfit.geometry.measures.measure_table import MEASURES
-from footfit.pipeline.scan.flare import measured
+from footfit.pipeline.scan.measure import shape_measures
 from tests import distortions
 from tests.reading import read_scan
 from tests.scans import aligned, right_shape
@@ -89,7 +89,7 @@ def changed(case, change, rng):
 def values(vertices, faces, side):
     """The measures of one mesh by name, through the whole way from a scan."""
     scan = aligned(scan_of(vertices, faces), side=side)
-    rows = measured(*right_shape(scan), scan.alignment.pose.kind)
+    rows = shape_measures(*right_shape(scan), scan.alignment.pose.kind)
     return {row.name: row.measured.value for row in rows}
 
 
@@ -164,7 +164,7 @@ def seconds(kind: str, faces: int = 30_000) -> float:
     best = np.inf
     for _ in range(5):
         start = time.process_time()
-        measured(vertices, triangles, kind)
+        shape_measures(vertices, triangles, kind)
         best = min(best, time.process_time() - start)
     return float(best)
 

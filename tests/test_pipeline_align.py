@@ -26,7 +26,7 @@ from footfit.geometry.numeric.rotations import angle_deg, moved_points
 from footfit.geometry.pose import paper_frame
 from footfit.meshes.units import UNIT_NAMES, UNIT_SCALES
 from footfit.pipeline.scan import preparation
-from footfit.pipeline.scan.flare import profiled
+from footfit.pipeline.scan.flare import profiled_scan
 from footfit.pipeline.scan.measure import measured_scan
 from footfit.pipeline.scan.settled_unit import unit_notes
 from footfit.results import MeshInfo, Notice, Reference, Scan
@@ -315,8 +315,8 @@ def test_holes_in_sole_wall_and_heel_are_bridged_and_said(last, home, box):
     assert np.linalg.norm(found.alignment.transform[:3, 3] - home.transform[:3, 3]) < 0.3
     assert found.alignment.extent_mm == pytest.approx(home.extent_mm, abs=0.3)
     assert [code for code in codes(found.alignment) if "hole" in code] == ["holes_filled"]
-    flat = profiled(aligned(scan_of(vertices, faces))).flare.angle_deg
-    assert profiled(found).flare.angle_deg == pytest.approx(flat, abs=0.3)
+    flat = profiled_scan(aligned(scan_of(vertices, faces))).flare.angle_deg
+    assert profiled_scan(found).flare.angle_deg == pytest.approx(flat, abs=0.3)
     assert len(found.faces) == keep.sum()  # what was scanned stays what it is
 
 
@@ -497,7 +497,7 @@ def test_a_mirrored_copy_has_the_mirrored_frame_to_rounding() -> None:
     assert (left.alignment.side.side, right.alignment.side.side) == ("left", "right")
     assert left.alignment.length_mm == pytest.approx(right.alignment.length_mm, abs=1e-6)
     assert np.allclose(left.vertices_mm * [1, -1, 1], right.vertices_mm, atol=1e-6)
-    ours, theirs = profiled(left).flare, profiled(right).flare
+    ours, theirs = profiled_scan(left).flare, profiled_scan(right).flare
     assert ours.angle_deg == pytest.approx(theirs.angle_deg, abs=1e-6)
 
 

@@ -12,7 +12,7 @@ from footfit.errors import SideUndecided
 from footfit.geometry.flare.definition import CHANNELS, FlareDefinition
 from footfit.geometry.flare.flare_profile import flare_profile
 from footfit.geometry.flare.levelled_bottom import low_length
-from footfit.pipeline.scan.flare import profiled
+from footfit.pipeline.scan.flare import profiled_scan
 from tests import distortions
 from tests.conftest import SAMPLES
 from tests.reading import read_scan
@@ -35,7 +35,7 @@ def as_left(one):
 
 
 def test_a_left_foots_profile_is_its_mirror_images(right):
-    one, other = profiled(right), profiled(as_left(right))
+    one, other = profiled_scan(right), profiled_scan(as_left(right))
     assert other.flare.angle_deg == pytest.approx(one.flare.angle_deg, abs=1e-9)
     assert other.flare.angle_sd_deg == pytest.approx(one.flare.angle_sd_deg, abs=1e-9)
     for name in CHANNELS:
@@ -58,11 +58,11 @@ def test_an_undecided_side_is_refused_with_what_to_type(right):
     side = replace(right.alignment.side, side=None)
     undecided = replace(right, alignment=replace(right.alignment, side=side))
     with pytest.raises(SideUndecided, match="--side left or --side right"):
-        profiled(undecided)
+        profiled_scan(undecided)
 
 
 def test_measures_carry_their_sd_and_definition(right):
-    found = profiled(right)
+    found = profiled_scan(right)
     by_name = {measure.name: measure for measure in found.measures}
     assert by_name["length"].measured.value == pytest.approx(right.alignment.length_mm, abs=1e-9)
     # steadied against noise: a few tenths inside the plain extent (docs/measures.md)
@@ -79,7 +79,7 @@ def test_what_is_not_there_has_a_reason_and_no_sd(right):
     start = right.vertices_mm[:, 0].min() + right.alignment.extent_mm / 6.0
     kept = right.faces[np.abs(centres[:, 0] - start) > 8.0]
     holed = aligned_of(right.alignment, right.vertices_mm, kept)
-    heel = next(m for m in profiled(holed).measures if m.name == "heel_width")
+    heel = next(m for m in profiled_scan(holed).measures if m.name == "heel_width")
     assert (heel.measured.value, heel.measured.sd) == (None, None)
     assert "open at the heel" in heel.measured.reason
 
@@ -126,18 +126,19 @@ def test_a_planted_bend_keeps_what_lies_across_the_line(right):
 
 def test_a_flare_that_no_foot_has_is_said(right):
     """The forefoot turned by a quarter, as of a foot that hangs in the air."""
-    assert profiled(right).suspects == ()
+    assert profiled_scan(right).suspects == ()
     vertices = right.vertices_mm
     turned = bends.bent(vertices, bends.x_axis(right.alignment.extent_mm), 30.0)
-    (found,) = profiled(aligned_of(right.alignment, turned, right.faces)).suspects
+    (found,) = profiled_scan(aligned_of(right.alignment, turned, right.faces)).suspects
     assert found.code == "suspect_flare"
     assert "(-3 to +33)" in found.message
 
 
 def test_what_is_said_of_the_angle_grows_where_the_sole_is_missing(right):
-    whole = profiled(right).flare
+    whole = profiled_scan(right).flare
     pose = replace(right.alignment.pose, sole=False)
-    cut = profiled(replace(right, alignment=replace(right.alignment, pose=pose))).flare
+    alignment = replace(right.alignment, pose=pose)
+    cut = profiled_scan(aligned_of(alignment, right.vertices_mm, right.faces)).flare
     assert cut.angle_deg == whole.angle_deg
     assert cut.angle_sd_deg == pytest.approx(np.hypot(whole.angle_sd_deg, 2.0))
     assert whole.angle_sd_deg >= 0.2

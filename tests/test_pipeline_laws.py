@@ -19,7 +19,7 @@ from footfit.geometry.numeric.rotations import moved_points
 from footfit.meshes.units import UNIT_SCALES
 from footfit.meshes.write import encoded_mesh
 from footfit.pipeline.scan.curvature import surface_curvature
-from footfit.pipeline.scan.flare import profiled
+from footfit.pipeline.scan.flare import profiled_scan
 from tests import distortions
 from tests.conftest import SAMPLES
 from tests.reading import scan_from_bytes
@@ -130,7 +130,7 @@ class Home:
 
 def at_home(vertices, faces) -> Home:
     scan = read(unchanged(vertices, faces, None))
-    return Home(vertices, faces, profiled(aligned(scan)), surface_curvature(scan, RADIUS_MM))
+    return Home(vertices, faces, profiled_scan(aligned(scan)), surface_curvature(scan, RADIUS_MM))
 
 
 @pytest.fixture(scope="module")
@@ -151,7 +151,7 @@ def homes():
 def test_frame_and_flare_obey(homes, body, law, seed):
     home, bound = homes[body], LAWS[law]
     changed = bound.change(home.vertices, home.faces, np.random.default_rng(seed))
-    found = profiled(aligned(read(changed)))
+    found = profiled_scan(aligned(read(changed)))
     one, other = home.profile.aligned.alignment, found.aligned.alignment
     flip = FLIP if changed.mirrored else np.ones(3)
     # where the frames put the first mesh's points: the same place, or its mirror image

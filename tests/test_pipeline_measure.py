@@ -12,8 +12,8 @@ import pytest
 from footfit.errors import HalfScan, SideUndecided
 from footfit.pipeline.fit.candidates import choice
 from footfit.pipeline.fit.match import Question, matched
-from footfit.pipeline.scan.flare import profiled
-from footfit.pipeline.scan.measure import measured_scan, suspects
+from footfit.pipeline.scan.flare import profiled_scan
+from footfit.pipeline.scan.measure import measured_scan, unusual_measures
 from footfit.results import Measure, Measured
 from tests.conftest import SAMPLES, Footfit
 from tests.distortions import (
@@ -121,11 +121,11 @@ def test_without_a_side_nothing_is_measured():
 def test_a_value_that_is_hardly_a_foots_stays_and_is_said():
     rows = [("length", 250.0), ("ball_girth", 290.0), ("heel_width", 66.0), ("ball_width", None)]
     measures = [Measure(name, Measured(value), f"{name}/1") for name, value in rows]
-    (found,) = suspects(measures, "foot")
+    (found,) = unusual_measures(measures, "foot")
     assert found.code == "suspect_measure"
     assert "ball girth 290.0 mm is 1.16 of the length" in found.message
-    assert suspects(measures, "last") == ()
-    assert suspects(measures[1:], "foot") == ()
+    assert unusual_measures(measures, "last") == ()
+    assert unusual_measures(measures[1:], "foot") == ()
 
 
 # ------------------------------------------------------------------ the command
@@ -179,7 +179,7 @@ def test_toes_that_were_not_scanned_give_no_length_and_no_match(stocked: Path) -
     whole = aligned(scan, side="right")
     length_mm = whole.alignment.extent_mm
     cut = plane_cut(whole.vertices_mm, whole.faces, np.array([0.965 * length_mm, 0, 0]), AHEAD)
-    short = profiled(aligned(moved_scan(scan, *cut), side="right"))
+    short = profiled_scan(aligned(moved_scan(scan, *cut), side="right"))
     assert "open_end" in {notice.code for notice in short.aligned.alignment.warnings}
     alignment, rows = short.aligned.alignment, {row.name: row.measured for row in short.measures}
     assert alignment.length == rows["length"]

@@ -12,7 +12,8 @@ from footfit.geometry.mesh.topology import boundary_loops, is_closed
 from footfit.meshes.write import encoded_mesh
 from footfit.pipeline.batch.sources import ReadingOptions, Source
 from footfit.pipeline.scan import preparation
-from footfit.pipeline.scan.flare import measured, profiled
+from footfit.pipeline.scan.flare import profiled_scan
+from footfit.pipeline.scan.measure import shape_measures
 from footfit.pipeline.scan.reading import profiled_source
 from footfit.pipeline.scan.split import split_sources
 from tests.conftest import SAMPLES, Footfit
@@ -125,8 +126,8 @@ def test_mirroring_before_or_after_filling_gives_the_same_numbers(foot_with_hole
     vertices, faces = mirrored(found.vertices_mm, found.faces)
     assert not is_closed(faces)
     first = closed_mesh(vertices, faces, found.alignment.extent_mm)
-    before = measured(first.vertices, first.faces, "foot")
-    after = measured(*right_shape(found), "foot")
+    before = shape_measures(first.vertices, first.faces, "foot")
+    after = shape_measures(*right_shape(found), "foot")
     for one, other in zip(before, after, strict=True):
         assert (one.measured.value is None) == (other.measured.value is None)
         if one.measured.value is not None:
@@ -151,5 +152,5 @@ def test_the_scanned_mesh_is_the_one_of_the_file(foot_with_holes: Path) -> None:
 def test_a_hole_hardly_moves_what_is_measured(foot_with_holes: Path) -> None:
     """Three closed holes against the whole foot: what the caps are for."""
     whole = scan_from_bytes((SAMPLES / "feet" / "mh007_R.stl").read_bytes())
-    there, here = profiled(aligned(whole)), profiled(aligned(read_scan(foot_with_holes)))
+    there, here = profiled_scan(aligned(whole)), profiled_scan(aligned(read_scan(foot_with_holes)))
     assert here.flare.angle_deg == pytest.approx(there.flare.angle_deg, abs=0.3)

@@ -15,7 +15,7 @@ import numpy as np
 from footfit.pipeline.demo import demonstrate
 from footfit.pipeline.library import lasts
 from footfit.pipeline.scan.curvature import surface_curvature
-from footfit.pipeline.scan.flare import profiled
+from footfit.pipeline.scan.flare import profiled_scan
 from footfit.report.pictures.curvature_figure import curvature_figure
 from footfit.report.pictures.figures import png_bytes
 from footfit.report.pictures.flare_figure import flare_figure
@@ -39,8 +39,8 @@ def pictures() -> dict[str, bytes]:
     thrown = replace(foot, vertices_mm=moved(foot.vertices_mm, random_pose(rng)))
     return {
         **method_pictures(thrown),
-        "flare-foot.png": png_bytes(flare_figure(profiled(aligned(foot)))),
-        "flare-last.png": png_bytes(flare_figure(profiled(aligned(last)))),
+        "flare-foot.png": png_bytes(flare_figure(profiled_scan(aligned(foot)))),
+        "flare-last.png": png_bytes(flare_figure(profiled_scan(aligned(last)))),
         **curvature_pictures(foot, rng),
     }
 

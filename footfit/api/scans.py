@@ -153,9 +153,9 @@ def outcomes(
 
 def profiled_shape(shape: Shape, reading: Mapping[str, Any]) -> Profiled:
     """A shape as a match takes it; ``reading`` may hold other keys too."""
-    from footfit.pipeline.scan.flare import profiled
+    from footfit.pipeline.scan.flare import profiled_scan
 
-    return shape if isinstance(shape, Profiled) else profiled(_aligned(shape, reading))
+    return shape if isinstance(shape, Profiled) else profiled_scan(_aligned(shape, reading))
 
 
 def _aligned(shape: Shape, reading: Mapping[str, Any]) -> AlignedScan:

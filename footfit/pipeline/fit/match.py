@@ -26,7 +26,7 @@ from footfit.pipeline.fit.ranking import (
     with_toe_room,
 )
 from footfit.pipeline.fit.scoring import UNKNOWN_SCORE, VERDICTS
-from footfit.pipeline.scan.measure import suspects
+from footfit.pipeline.scan.measure import unusual_measures
 from footfit.pipeline.scan.reading import profiled_source
 from footfit.results import (
     Candidate,
@@ -285,7 +285,7 @@ def _notices(
     notices = [
         notice
         for foot, kind in zip(feet, kinds, strict=True)
-        for notice in (*foot.suspects, *suspects(foot.measures, kind))
+        for notice in (*foot.suspects, *unusual_measures(foot.measures, kind))
     ]
     if judged.by == "flare":
         notices.append(

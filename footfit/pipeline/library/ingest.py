@@ -15,7 +15,7 @@ from footfit.errors import BadOption, ExitCode, FootfitError, NameTaken, NoCatal
 from footfit.pipeline.batch.runs import HERE, Outcome, outcomes
 from footfit.pipeline.batch.sources import ReadingOptions, Source
 from footfit.pipeline.library.manifest import ManifestRow
-from footfit.pipeline.scan.measure import suspects
+from footfit.pipeline.scan.measure import unusual_measures
 from footfit.pipeline.scan.reading import content_hash, profiled_source
 from footfit.pipeline.scan.settled_unit import unit_notes
 from footfit.results import IngestOutcome, LastLabels, LastRecord, MeshCopy, Notice, Profiled
@@ -132,7 +132,7 @@ def last_record(shape: Profiled, labels: LastLabels) -> LastRecord:
     kind = alignment.pose.kind
     notices = (*alignment.warnings, *shape.suspects)
     if kind == "last":
-        notices = (*notices, *suspects(shape.measures, kind))
+        notices = (*notices, *unusual_measures(shape.measures, kind))
     if kind == "foot":
         looks = Notice("looks_like_a_foot", "its shape is nearer to a foot's than to a last's")
         notices = (*notices, looks)

@@ -9,7 +9,7 @@ from footfit.catalogue.store import Catalogue, open_catalogue
 from footfit.geometry.flare.definition import FlareDefinition
 from footfit.geometry.flare.flare_profile import flare_profile
 from footfit.pipeline.library.lasts import has_other_measures
-from footfit.pipeline.scan.flare import measured
+from footfit.pipeline.scan.measure import shape_measures
 from footfit.pipeline.scan.preparation import stored_shape
 from footfit.results import LastRecord, UpgradeOutcome
 
@@ -51,7 +51,7 @@ def _renew(catalogue: Catalogue, record: LastRecord, definition: FlareDefinition
     """Measure a last again, and profile it by ``definition``; None keeps the profile."""
     copy, kind = catalogue.mesh_copy(record.labels.name), record.pose.kind
     right = stored_shape(copy.data, record.side.side)
-    record = replace(record, measures=measured(*right, kind))
+    record = replace(record, measures=shape_measures(*right, kind))
     if definition is not None:
         flare = flare_profile(*right, definition, kind)
         record = replace(record, flare=flare, upgraded_from=record.flare.definition.version)

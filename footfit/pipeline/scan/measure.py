@@ -1,18 +1,32 @@
-"""Measure: from an aligned mesh, or a source, to its measures and what is hardly right of them."""
+"""Measure: from an aligned scan to its measures, with a warning for each that is hardly right."""
 
 from __future__ import annotations
 
 from collections.abc import Iterable
+from dataclasses import replace
 
-from footfit.geometry.measures.measure_table import MEASURES, unusual
-from footfit.pipeline.batch.sources import ReadingOptions, Source
-from footfit.pipeline.scan.flare import believed, check_side, measured
-from footfit.pipeline.scan.reading import aligned_source
-from footfit.results import AlignedScan, Measure, MeasuredScan, Notice
+from footfit.errors import SideUndecided
+from footfit.geometry.measures import measure_table
+from footfit.geometry.measures.landmarks import Shape
+from footfit.geometry.numeric.arrays import Floats, Ints
+from footfit.results import (
+    AlignedScan,
+    Alignment,
+    Measure,
+    Measured,
+    MeasuredScan,
+    Notice,
+    PreparedScan,
+)
+
+END_MEASURES = frozenset({"length", "functional_length", "tape_length", "ball_length"})
+"""What is counted from the pternion or to the toes."""
+STEEPEST_HEEL = 0.30
+"""Heel height over length: a last steeper than this may come to rest on its shank."""
 
 
 def measured_scan(aligned: AlignedScan) -> MeasuredScan:
-    """Measure an aligned mesh; a left one as its mirror image.
+    """Measure an aligned scan; a left one as its mirror image.
 
     Raises
     ------
@@ -21,56 +35,97 @@ def measured_scan(aligned: AlignedScan) -> MeasuredScan:
     """
     alignment = aligned.alignment
     check_side(alignment)
-    measures = measured(aligned.prepared.vertices_mm, aligned.prepared.faces, alignment.pose.kind)
-    measures = believed(measures, alignment.warnings)
-    return MeasuredScan(alignment, measures, suspects(measures, alignment.pose.kind))
+    measures = scan_measures(aligned.prepared)
+    return MeasuredScan(alignment, measures, unusual_measures(measures, alignment.pose.kind))
 
 
-def measured_source(source: Source, reading: ReadingOptions) -> MeasuredScan:
-    """Read, align and measure one mesh."""
-    return measured_scan(aligned_source(source, reading))
+def check_side(alignment: Alignment) -> None:
+    """Refuse a shape whose side is undecided: its medial side would be the wrong one.
+
+    Raises
+    ------
+    SideUndecided
+        Neither the user nor the shape says which side it is.
+    """
+    if alignment.side.side is None:
+        words = "the shape does not show which side it is: give --side left or --side right"
+        raise SideUndecided(words, alignment.info.path)
 
 
-STEEPEST_HEEL = 0.30
-"""Heel height over length: a last steeper than this may come to rest on its shank."""
+def scan_measures(prepared: PreparedScan) -> tuple[Measure, ...]:
+    """Every measure of a prepared scan, in the table's order.
+
+    If an end was not scanned, the measures that end there have the reason instead of a value that
+    would be too short.
+    """
+    rows = shape_measures(prepared.vertices_mm, prepared.faces, prepared.pose.kind)
+    if prepared.length.value is not None:
+        return rows
+    return tuple(
+        replace(row, measured=prepared.length) if row.name in END_MEASURES else row for row in rows
+    )
 
 
-def suspects(measures: Iterable[Measure], kind: str) -> tuple[Notice, ...]:
-    """A warning for each value of a foot that is outside what a survey's people have.
+def shape_measures(vertices_mm: Floats, faces: Ints, kind: str = "foot") -> tuple[Measure, ...]:
+    """Every measure of the table that a kind of shape has, on a canonical right shape.
 
-    The value stays: a foot may be unusual. A last is no foot: of its values only a heel is
-    suspect that is steeper than the frame was tried on.
+    Parameters
+    ----------
+    vertices_mm : (n, 3)
+    faces : (m, 3)
+    kind : {"foot", "last"}
+
+    Returns
+    -------
+    tuple of Measure
+        In the table's order; one that cannot be taken has a reason instead of a value.
+    """
+    shape = Shape(vertices_mm, faces, kind)
+    return tuple(_measure(entry, shape) for entry in measure_table.of_kind(kind))
+
+
+def _measure(entry: measure_table.MeasureDefinition, shape: Shape) -> Measure:
+    reading = entry.value_of(shape)
+    sd = None if reading.value is None else entry.sd
+    return Measure(entry.name, Measured(reading.value, sd, reading.reason), entry.definition_id)
+
+
+def unusual_measures(measures: Iterable[Measure], kind: str) -> tuple[Notice, ...]:
+    """A warning for each value of a foot that is outside the range of a survey's people.
+
+    The value stays, because a foot may be unusual. Of a last only the heel is looked at: the frame
+    was not tried on a steeper one.
     """
     values = {row.name: row.measured.value for row in measures}
     length_mm = values.get("length")
     if length_mm is None:
         return ()
     if kind != "foot":
-        return steep_heel(values.get("heel_height"), length_mm)
-    found = []
-    for entry in MEASURES:
-        value = values.get(entry.name)
-        words = None if value is None else unusual(entry, value, length_mm)
-        if words is not None:
-            found.append(Notice("suspect_measure", words))
-    return tuple(found)
+        return _steep_heel(values.get("heel_height"), length_mm)
+    known = ((entry, values.get(entry.name)) for entry in measure_table.MEASURES)
+    words = (
+        measure_table.unusual(entry, value, length_mm)
+        for entry, value in known
+        if value is not None
+    )
+    return tuple(Notice("suspect_measure", message) for message in words if message is not None)
 
 
-def steep_heel(heel_mm: float | None, length_mm: float) -> tuple[Notice, ...]:
+def _steep_heel(heel_mm: float | None, length_mm: float) -> tuple[Notice, ...]:
     """What to say of a last that may rest on its shank instead of on its ball and its seat.
 
     Examples
     --------
-    >>> steep_heel(50.0, 250.0)
+    >>> _steep_heel(50.0, 250.0)
     ()
-    >>> print(steep_heel(80.0, 250.0)[0].message)
-    heel height 80.0 mm is 0.32 of the length: above 0.30 check length and flare on the last itself
+    >>> print(_steep_heel(80.0, 250.0)[0].message)
+    heel height 80.0 mm is 0.32 of the length, above 0.30: check length and flare on the last itself
     """
     share = 0.0 if heel_mm is None else heel_mm / length_mm
     if heel_mm is None or share <= STEEPEST_HEEL:
         return ()
     words = (
-        f"heel height {heel_mm:.1f} mm is {share:.2f} of the length: above {STEEPEST_HEEL:.2f}"
+        f"heel height {heel_mm:.1f} mm is {share:.2f} of the length, above {STEEPEST_HEEL:.2f}:"
         " check length and flare on the last itself"
     )
     return (Notice("steep_heel", words),)

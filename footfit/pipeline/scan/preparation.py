@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from functools import lru_cache
 from typing import Literal
@@ -47,8 +46,8 @@ class FramingSettings:
     quadrature_edge: float = 0.03  # over L
     many_points: int = 200_000  # more are gathered: a million moved the frame by .01 mm, .001 deg
     gathered_edge: float = 0.0025  # over L
-    settling_rounds: int = 2  # more of the frame from the frame: two poses agree to 1e-8 mm
-    low_leg: float = 0.24  # of L: what ends lower is a leg cut low
+    rounds: int = 3  # of the frame from the frame: two poses then agree to 1e-8 mm
+    low_leg: float = 0.24  # of L: a scan that ends lower has its leg cut low
 
 
 FRAMING = FramingSettings()
@@ -88,24 +87,28 @@ def prepared_scan(
     """
     shape = shape_in(scan, length_windows(scan.info, known_length_mm))
     closed = closed_mesh(shape.vertices, shape.faces, shape.pose.length)
-    frame = _Framed.of(shape, closed)
-    _refuse_half(closed, frame)
-    verdict = _verdict(frame, side)
+    frame = _Frame.of(shape, closed)
+    rims = [frame.points[rim] for rim in closed.rims]
+    missing = missing_part(frame.surface, rims, frame.extent)
+    if missing is not None:
+        raise HalfScan(_MISSING[missing])
     known = known_length_mm
     info = info_with_unit(scan.info, frame.extent if known is None else frame.length, known)
     info = replace(info, vertices=len(shape.vertices), faces=len(shape.faces))
     factor = info.unit_scale / scan.info.unit_scale
-    points_mm, extent_mm = factor * frame.points, factor * frame.extent
-    open_ends = _end_notices(closed, frame)
-    length = _length(factor * frame.length, open_ends)
-    vertices_mm, faces = right_copy(points_mm, closed.faces, verdict.side)
-    height_mm = float(points_mm[: len(shape.vertices), 2].max())
+    verdict = _verdict(frame, side)
+    vertices_mm, faces = right_copy(factor * frame.points, closed.faces, verdict.side)
+    length = Measured(factor * frame.length, measure_named("length").sd)
+    open_end = _open_end(frame, rims)
+    if open_end:  # what was not scanned is not known
+        length = Measured(None, reason=open_end[0].message)
     notices = (
         *read_notices(scan, info, length.value),
         *shape.notices,
         *_hole_notices(closed, factor),
-        *open_ends,
-        *_notices(frame, height_mm, extent_mm, verdict),
+        *open_end,
+        *_frame_notices(frame, factor),
+        *_side_notices(verdict),
         *length_notices(info, factor * frame.length),
     )
     return PreparedScan(
@@ -114,7 +117,7 @@ def prepared_scan(
         pose=frame.quality,
         canonical_transform=transform(frame.rotation, factor * frame.shift, info.unit_scale),
         length=length,
-        extent_mm=extent_mm,
+        extent_mm=factor * frame.extent,
         file_vertices_mm=factor * shape.vertices,
         vertices_mm=vertices_mm,
         faces=faces,
@@ -158,11 +161,12 @@ def closed_shape(vertices_mm: Floats, faces: Ints) -> tuple[Floats, Ints]:
 
 
 @dataclass(frozen=True, slots=True)
-class _Framed:
+class _Frame:
     """The canonical frame in provisional mm: points = rotation @ vertices + shift, caps included.
 
     ``surface`` is the whole surface as points with areas, ``extent`` how far the mesh reaches along
-    X below the leg, ``length`` the measured length, whether or not its ends were scanned.
+    X below the leg, ``length`` the measured length, whether or not its ends were scanned, ``top``
+    the height of the highest scanned point.
     """
 
     points: Floats
@@ -171,61 +175,41 @@ class _Framed:
     shift: Floats
     extent: float
     length: float
+    top: float
     quality: PoseQuality
 
     @classmethod
-    def of(cls, shape: PosedShape, closed: ClosedMesh) -> _Framed:
+    def of(cls, shape: PosedShape, closed: ClosedMesh) -> _Frame:
         """Refine the rough pose of a shape, by its surface with its holes closed."""
         rough = shape.pose
         about = moved_points(transform(rough.rotation, rough.shift), closed.vertices)
         # The edge in steps of a tenth: two poses of one shape get the same points.
         step = np.round(np.log(rough.length) / np.log(1.1))
-        edge = FRAMING.quadrature_edge * float(1.1**step)
-        sample = quadrature(about, closed.faces, edge)
+        sample = quadrature(about, closed.faces, FRAMING.quadrature_edge * float(1.1**step))
         if len(sample.areas) > FRAMING.many_points:
             sample = gathered_sample(sample, FRAMING.gathered_edge * rough.length)
-        fine = canonical_frame(sample, rough.length)
-        rotation, shift = fine.rotation, fine.shift
-        for _ in range(FRAMING.settling_rounds):  # until the pose it came from is forgotten
-            turned = turned_sample(sample, rotation)
-            surface = replace(turned, points=turned.points + shift)
-            fine = canonical_frame(surface, fine.length)
+        rotation, shift, surface, length = np.eye(3), np.zeros(3), sample, rough.length
+        for _ in range(FRAMING.rounds):  # until the pose that it came from is forgotten
+            fine = canonical_frame(surface, length)
             rotation, shift = fine.rotation @ rotation, fine.rotation @ shift + fine.shift
-        turned = turned_sample(sample, rotation)
-        surface = replace(turned, points=turned.points + shift)
+            turned = turned_sample(sample, rotation)
+            surface, length = replace(turned, points=turned.points + shift), fine.length
         shift = rotation @ rough.shift + shift
         rotation = nearest_rotation(rotation @ rough.rotation)
         points = moved_points(transform(rotation, shift), closed.vertices)
-        quality = PoseQuality(rough.cost, rough.margin, fine.support, fine.sole, rough.kind)
-        extent = length_of(points, 0.0, fine.length)
-        length = Shape(points, closed.faces, rough.kind).length_mm
-        return cls(points, surface, rotation, shift, extent, length, quality)
+        return cls(
+            points=points,
+            surface=surface,
+            rotation=rotation,
+            shift=shift,
+            extent=length_of(points, 0.0, fine.length),
+            length=Shape(points, closed.faces, rough.kind).length_mm,
+            top=float(points[: len(shape.vertices), 2].max()),
+            quality=PoseQuality(rough.cost, rough.margin, fine.support, fine.sole, rough.kind),
+        )
 
 
-def _refuse_half(closed: ClosedMesh, frame: _Framed) -> None:
-    """Raise HalfScan where a part was cut off, since length and flare would be another's."""
-    rims = [frame.points[rim] for rim in closed.rims]
-    missing = missing_part(frame.surface, rims, frame.extent)
-    if missing is not None:
-        raise HalfScan(_MISSING[missing])
-
-
-def _end_notices(closed: ClosedMesh, frame: _Framed) -> list[Notice]:
-    """The end, if any, that may be longer than it was scanned."""
-    end = doubtful_end(frame.surface, [frame.points[rim] for rim in closed.rims], frame.extent)
-    if end is None:
-        return []
-    return [Notice("open_end", f"the surface is open at the {end}, so its length is not known")]
-
-
-def _length(length_mm: float, open_ends: Sequence[Notice]) -> Measured:
-    """The measured length; no value, with the reason, where an end was not scanned."""
-    if open_ends:
-        return Measured(None, reason=open_ends[0].message)
-    return Measured(length_mm, measure_named("length").sd)
-
-
-def _verdict(frame: _Framed, side: str) -> SideVerdict:
+def _verdict(frame: _Frame, side: str) -> SideVerdict:
     """The side detected, or the one given with what the shape says of it."""
     score = side_score(frame.surface.points, frame.extent).score
     word: Confidence = confidence(score)
@@ -237,36 +221,41 @@ def _verdict(frame: _Framed, side: str) -> SideVerdict:
     return SideVerdict(given, "low" if contradicted else "sure", score, "given")
 
 
-def _hole_notices(closed: ClosedMesh, factor: float) -> list[Notice]:
+# ---------------------------------------------------------------- notices
+
+
+def _open_end(frame: _Frame, rims: list[Floats]) -> tuple[Notice, ...]:
+    """The end, if any, that may be longer than it was scanned."""
+    end = doubtful_end(frame.surface, rims, frame.extent)
+    if end is None:
+        return ()
+    return (Notice("open_end", f"the surface is open at the {end}, so its length is not known"),)
+
+
+def _hole_notices(closed: ClosedMesh, factor: float) -> tuple[Notice, ...]:
     """What was closed, if anything."""
     if not closed.extents:
-        return []
+        return ()
     count, widest_mm = len(closed.extents), factor * closed.extents[0]
     holes = "a hole" if count == 1 else f"{count} holes"
-    return [Notice("holes_filled", f"{holes} of up to {widest_mm:.0f} mm bridged")]
+    return (Notice("holes_filled", f"{holes} of up to {widest_mm:.0f} mm bridged"),)
 
 
-def _notices(frame: _Framed, top_mm: float, extent_mm: float, verdict: SideVerdict) -> list[Notice]:
-    """What the alignment found that a person should know."""
-    found = []
-    if not frame.quality.sole:
-        found.append(Notice("no_sole", "there is no sole: the frame rests on the lowest rim"))
-    if top_mm < FRAMING.low_leg * extent_mm:
-        found.append(Notice("leg_cut_low", f"the scan ends {top_mm:.0f} mm above the floor"))
-    if verdict.source == "detected" and verdict.confidence != "sure":
-        found.append(
-            Notice(
-                "low_side_confidence",
-                f"left or right is {verdict.confidence}"
-                f" (score {verdict.score:.2f}); say --side left|right",
-            )
-        )
-    if verdict.source == "given" and verdict.confidence == "low":
-        found.append(
-            Notice(
-                "side_contradicted",
-                f"given as {verdict.side}, but the shape looks like the other"
-                f" (score {verdict.score:.2f})",
-            )
-        )
-    return found
+def _frame_notices(frame: _Frame, factor: float) -> tuple[Notice, ...]:
+    """What the frame may suffer from: no sole, a leg that is cut low."""
+    no_sole = Notice("no_sole", "there is no sole: the frame rests on the lowest rim")
+    low_leg = Notice("leg_cut_low", f"the scan ends {factor * frame.top:.0f} mm above the floor")
+    is_low = frame.top < FRAMING.low_leg * frame.extent
+    return (*([] if frame.quality.sole else [no_sole]), *([low_leg] if is_low else []))
+
+
+def _side_notices(verdict: SideVerdict) -> tuple[Notice, ...]:
+    """A side that is not sure, or that the shape contradicts."""
+    if verdict.confidence == "sure":
+        return ()
+    score = f"(score {verdict.score:.2f})"
+    if verdict.source == "given":
+        words = f"given as {verdict.side}, but the shape looks like the other {score}"
+        return (Notice("side_contradicted", words),)
+    words = f"left or right is {verdict.confidence} {score}; say --side left|right"
+    return (Notice("low_side_confidence", words),)

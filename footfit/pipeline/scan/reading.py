@@ -14,10 +14,12 @@ from footfit.meshes.units import check_unit_options
 from footfit.pipeline.batch.sources import ReadingOptions, Source
 from footfit.pipeline.scan.align import aligned_scan
 from footfit.pipeline.scan.cleaning import scan_of
-from footfit.pipeline.scan.flare import profiled
+from footfit.pipeline.scan.flare import profiled_scan
+from footfit.pipeline.scan.measure import measured_scan
 from footfit.pipeline.scan.preparation import prepared_scan
 from footfit.results import (
     AlignedScan,
+    MeasuredScan,
     Method,
     PreparedScan,
     Profiled,
@@ -86,4 +88,9 @@ def aligned_source(
 
 def profiled_source(source: Source, reading: ReadingOptions) -> Profiled:
     """Read, align, measure and profile one mesh."""
-    return profiled(aligned_source(source, reading))
+    return profiled_scan(aligned_source(source, reading))
+
+
+def measured_source(source: Source, reading: ReadingOptions) -> MeasuredScan:
+    """Read, align and measure one mesh."""
+    return measured_scan(aligned_source(source, reading))
