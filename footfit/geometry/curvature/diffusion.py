@@ -14,7 +14,7 @@ import numpy as np
 
 from footfit.geometry.mesh.surface import area_vectors, vertex_sums
 from footfit.geometry.mesh.topology import dilated_mask
-from footfit.geometry.numeric.arrays import Bools, Floats, Ints
+from footfit.geometry.numeric.arrays import Bools, Floats, Ints, row_dots, row_lengths
 
 if TYPE_CHECKING:
     from scipy.sparse import csr_array
@@ -140,9 +140,7 @@ def _projected_areas(vertices: Floats, faces: Ints) -> Floats:
 
     Noise wrinkles a surface and so adds to its area, but not to the sum of the area vectors.
     """
-    sums = vertex_sums(area_vectors(vertices, faces), faces, len(vertices))
-    areas: Floats = np.sqrt(np.einsum("ij,ij->i", sums, sums)) / 3.0
-    return areas
+    return row_lengths(vertex_sums(area_vectors(vertices, faces), faces, len(vertices))) / 3.0
 
 
 def _cotangent_matrix(vertices: Floats, faces: Ints) -> csr_array:
@@ -153,7 +151,7 @@ def _cotangent_matrix(vertices: Floats, faces: Ints) -> csr_array:
     u, v = vertices[start] - vertices[opposite], vertices[end] - vertices[opposite]
     doubled = 2.0 * np.linalg.norm(area_vectors(vertices, faces), axis=1)
     across = np.repeat(np.where(doubled > 0.0, doubled, np.inf), 3)
-    weight = np.maximum(np.einsum("ij,ij->i", u, v) / across, SETTINGS.cotangent_least) / 2.0
+    weight = np.maximum(row_dots(u, v) / across, SETTINGS.cotangent_least) / 2.0
     shape = (len(vertices), len(vertices))
     half = coo_array((weight, (start, end)), shape).tocsr()
     return half + half.T

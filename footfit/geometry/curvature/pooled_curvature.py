@@ -19,7 +19,7 @@ from footfit.geometry.curvature.diffusion import (
 from footfit.geometry.curvature.one_ring import PrincipalCurvatures
 from footfit.geometry.mesh.refinement import with_flat_facets_split
 from footfit.geometry.mesh.surface import area_vectors, cross, unit, vertex_sums
-from footfit.geometry.numeric.arrays import Bools, Floats, Ints
+from footfit.geometry.numeric.arrays import Bools, Floats, Ints, row_dots, row_lengths
 
 
 @dataclass(frozen=True, slots=True)
@@ -148,13 +148,13 @@ def _stars(vertices: Floats, faces: Ints) -> tuple[Floats, Floats]:
     with a zero normal.
     """
     flat = area_vectors(vertices, faces)
-    areas = np.sqrt(np.einsum("ij,ij->i", flat, flat))
+    areas = row_lengths(flat)
     weighted = areas[:, None] * vertices[faces].sum(axis=1) / 3.0
     sums = vertex_sums(np.column_stack([weighted, areas]), faces, len(vertices))
     area = sums[:, 3:]
     centres: Floats = np.where(area > 0.0, sums[:, :3] / np.where(area > 0.0, area, 1.0), vertices)
     normals = _arched_normals(vertices, faces, centres, flat)
-    below = np.einsum("ij,ij->i", vertices - centres, normals)
+    below = row_dots(vertices - centres, normals)
     return centres + below[:, None] * normals, normals
 
 

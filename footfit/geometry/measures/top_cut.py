@@ -11,7 +11,7 @@ import numpy as np
 
 from footfit.geometry.mesh.samples import calm_vectors
 from footfit.geometry.mesh.surface import area_vectors
-from footfit.geometry.numeric.arrays import Bools, Floats, Ints
+from footfit.geometry.numeric.arrays import Bools, Floats, Ints, row_lengths
 from footfit.geometry.numeric.planes import Plane, robust_plane
 
 
@@ -80,7 +80,7 @@ def top_cut_faces(
     vectors = area_vectors(vertices, high)
     for _ in range(settings.calm_rounds):
         vectors = calm_vectors(vectors, high, len(vertices))
-    areas = np.sqrt(np.einsum("ij,ij->i", vectors, vectors))
+    areas = row_lengths(vectors)
     middles = (vertices[high[:, 0]] + vertices[high[:, 1]]) / 3.0 + vertices[high[:, 2]] / 3.0
     behind = middles[:, 0] < start_x + settings.front * length
     behind &= vectors[:, 2] > settings.facing * areas

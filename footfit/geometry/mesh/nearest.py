@@ -8,7 +8,7 @@ import numpy as np
 
 from footfit.geometry.mesh.surface import area_vectors, corner_angles, unit
 from footfit.geometry.mesh.topology import boundary_vertices
-from footfit.geometry.numeric.arrays import Bools, Floats, Ints
+from footfit.geometry.numeric.arrays import Bools, Floats, Ints, row_dots
 
 
 @dataclass(frozen=True, slots=True)
@@ -124,7 +124,7 @@ def nearest_on_triangles(points: Floats, corners: Floats) -> tuple[Floats, Float
     """
     a, b, c = corners[:, 0], corners[:, 1], corners[:, 2]
     u, v, w = b - a, c - a, points - a
-    uu, uv, vv, wu, wv = (_dot(p, q) for p, q in ((u, u), (u, v), (v, v), (w, u), (w, v)))
+    uu, uv, vv, wu, wv = (row_dots(p, q) for p, q in ((u, u), (u, v), (v, v), (w, u), (w, v)))
     determinant = uu * vv - uv * uv
     safe = np.where(determinant > 0.0, determinant, 1.0)
     s, t = (vv * wu - uv * wv) / safe, (uu * wv - uv * wu) / safe
@@ -134,7 +134,7 @@ def nearest_on_triangles(points: Floats, corners: Floats) -> tuple[Floats, Float
     weights[outside] = _on_edges(points[outside], corners[outside])
     place = np.einsum("pj,pjk->pk", weights, corners)
     away = place - points
-    return weights, place, _dot(away, away)
+    return weights, place, row_dots(away, away)
 
 
 def _on_edges(points: Floats, corners: Floats) -> Floats:
@@ -143,21 +143,16 @@ def _on_edges(points: Floats, corners: Floats) -> Floats:
     for first in range(3):
         second = (first + 1) % 3
         start, along = corners[:, first], corners[:, second] - corners[:, first]
-        length = _dot(along, along)
-        share = _dot(points - start, along) / np.where(length > 0.0, length, 1.0)
+        length = row_dots(along, along)
+        share = row_dots(points - start, along) / np.where(length > 0.0, length, 1.0)
         share = np.clip(share, 0.0, 1.0)
         away = points - start - share[:, None] * along
-        squared = _dot(away, away)
+        squared = row_dots(away, away)
         nearer = np.flatnonzero(squared < least)
         best[nearer] = 0.0
         best[nearer, first], best[nearer, second] = 1.0 - share[nearer], share[nearer]
         least[nearer] = squared[nearer]
     return best
-
-
-def _dot(rows: Floats, others: Floats) -> Floats:
-    products: Floats = np.einsum("ij,ij->i", rows, others)
-    return products
 
 
 def triangle_samples(

@@ -14,7 +14,7 @@ from footfit.geometry.mesh.topology import (
     lowest_connected,
     sorted_keys,
 )
-from footfit.geometry.numeric.arrays import Bools, Floats, Ints
+from footfit.geometry.numeric.arrays import Bools, Floats, Ints, row_dots
 
 
 @dataclass(frozen=True, slots=True)
@@ -107,7 +107,7 @@ def _some_to_split(vertices: Floats, faces: Ints, longest: float) -> bool:
 
 
 def _turn_little(normals: Floats, others: Floats) -> Bools:
-    along = np.einsum("ij,ij->i", normals, others)
+    along = row_dots(normals, others)
     little: Bools = along > np.cos(np.radians(SETTINGS.turn_most_deg))
     return little
 

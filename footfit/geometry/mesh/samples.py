@@ -8,7 +8,7 @@ from functools import reduce
 import numpy as np
 
 from footfit.geometry.mesh.surface import area_vectors, unit, vertex_sums
-from footfit.geometry.numeric.arrays import Floats, Ints
+from footfit.geometry.numeric.arrays import Floats, Ints, row_dots, row_lengths
 
 # Fractions of the plastic number: the R2 sequence fills the unit square evenly, without a seed.
 _R2 = np.array([0.7548776662466927, 0.5698402909980532])
@@ -33,7 +33,7 @@ def even_sample(vertices: Floats, faces: Ints, count: int) -> SurfaceSample:
     The normals are interpolated from those at the vertices, which averages a scanner's noise.
     """
     vectors = area_vectors(vertices, faces)
-    areas = np.sqrt(np.einsum("ij,ij->i", vectors, vectors))
+    areas = row_lengths(vectors)
     cumulative = np.cumsum(areas)
     along = (np.arange(count) + 0.5) * cumulative[-1] / count
     chosen = np.minimum(np.searchsorted(cumulative, along), len(faces) - 1)
@@ -79,7 +79,7 @@ def quadrature(vertices: Floats, faces: Ints, edge: float, rounds: int = 5) -> S
     vectors = np.where(small[:, None], calm_vectors(plain, faces, len(vertices)), plain)
     pieces, owners, shares = short_triangles(corners, edge, rounds)
     vectors = vectors[owners] * shares[:, None]
-    areas = np.sqrt(np.einsum("ij,ij->i", vectors, vectors))
+    areas = row_lengths(vectors)
     return SurfaceSample(
         points=_middles(pieces),
         normals=vectors / np.maximum(areas, np.finfo(np.float64).tiny)[:, None],
@@ -165,8 +165,8 @@ def calm_vectors(vectors: Floats, faces: Ints, n_vertices: int) -> Floats:
     """
     around = unit(vertex_sums(vectors, faces, n_vertices))
     normals = unit(around[faces[:, 0]] + around[faces[:, 1]] + around[faces[:, 2]])
-    along = np.einsum("ij,ij->i", vectors, normals)
-    lengths = np.sqrt(np.einsum("ij,ij->i", vectors, vectors))
+    along = row_dots(vectors, normals)
+    lengths = row_lengths(vectors)
     smooth = along > CREASE_COSINE * lengths
     return np.where(smooth[:, None], normals * along[:, None], vectors)
 

@@ -12,7 +12,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from footfit.geometry.numeric.arrays import Bools, Floats, Ints
+from footfit.geometry.numeric.arrays import Bools, Floats, Ints, row_dots
 
 # The corner that is alone on its side of a plane. Bit i of the index says that corner i is above.
 _LONE_CORNER = np.array([0, 0, 1, 2, 2, 1, 0, 0])
@@ -133,8 +133,8 @@ def _crossing_points(
     """Where edges from ``below`` to ``above`` meet their plane, (m, 3)."""
     start, end = vertices[below], vertices[above]
     origin, normal = planes.origins[plane], planes.normals[plane]
-    under = np.einsum("ij,ij->i", start - origin, normal)
-    over = np.einsum("ij,ij->i", end - origin, normal)
+    under = row_dots(start - origin, normal)
+    over = row_dots(end - origin, normal)
     rise = over - under
     share = np.clip(-under / np.where(rise == 0.0, 1.0, rise), 0.0, 1.0)
     return np.asarray(start + share[:, None] * (end - start), dtype=np.float64)

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from footfit.geometry.numeric.arrays import Floats, Ints
+from footfit.geometry.numeric.arrays import Floats, Ints, row_dots, row_lengths
 
 
 def area_vectors(vertices: Floats, faces: Ints) -> Floats:
@@ -33,7 +33,7 @@ def cross(u: Floats, v: Floats) -> Floats:
 
 def unit(vectors: Floats) -> Floats:
     """The rows (k, d) at length 1; a zero row stays zero."""
-    length = np.sqrt(np.einsum("ij,ij->i", vectors, vectors))
+    length = row_lengths(vectors)
     units: Floats = vectors / np.where(length > 0.0, length, 1.0)[:, None]
     return units
 
@@ -45,9 +45,7 @@ def face_normals(vertices: Floats, faces: Ints) -> Floats:
 
 def face_areas(vertices: Floats, faces: Ints) -> Floats:
     """Areas of the faces, (m,)."""
-    vectors = area_vectors(vertices, faces)
-    areas: Floats = np.sqrt(np.einsum("ij,ij->i", vectors, vectors))
-    return areas
+    return row_lengths(area_vectors(vertices, faces))
 
 
 def corner_angles(vertices: Floats, faces: Ints) -> Floats:
@@ -58,7 +56,7 @@ def corner_angles(vertices: Floats, faces: Ints) -> Floats:
         here = vertices[faces[:, corner]]
         u = vertices[faces[:, (corner + 1) % 3]] - here
         v = vertices[faces[:, (corner + 2) % 3]] - here
-        angles[:, corner] = np.arctan2(doubled_area, np.einsum("ij,ij->i", u, v))
+        angles[:, corner] = np.arctan2(doubled_area, row_dots(u, v))
     return angles
 
 

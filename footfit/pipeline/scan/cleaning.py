@@ -4,13 +4,11 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-import numpy as np
-
 from footfit.errors import EmptyMesh
 from footfit.geometry.mesh.surface import area_vectors
 from footfit.geometry.mesh.topology import boundary_edges, edges, face_components
 from footfit.geometry.mesh.welding import without_unused_vertices
-from footfit.geometry.numeric.arrays import Floats, Ints
+from footfit.geometry.numeric.arrays import Floats, Ints, row_lengths
 from footfit.geometry.pose.facing import outward_faces
 from footfit.geometry.pose.loose_pieces import KeptPieces, kept_pieces
 from footfit.meshes.clean.triangles import WeldedMesh, counted
@@ -53,7 +51,7 @@ def clean_surface(mesh: WeldedMesh) -> CleanSurface:
     """
     vertices, faces = mesh.vertices, mesh.faces
     vectors = area_vectors(vertices, faces)
-    areas = np.sqrt(np.einsum("ij,ij->i", vectors, vectors))
+    areas = row_lengths(vectors)
     flat = areas <= SLIVER * areas.mean() if len(areas) else areas == 0.0
     if flat.all():
         raise EmptyMesh("no triangle of the file has an area: export the mesh again")
