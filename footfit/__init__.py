@@ -24,6 +24,7 @@ if TYPE_CHECKING:
         picture,
         read,
         sources,
+        to_trimesh,
     )
 
 __all__ = [
@@ -46,6 +47,7 @@ __all__ = [
     "read",
     "results",
     "sources",
+    "to_trimesh",
 ]
 
 

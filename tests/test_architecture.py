@@ -50,7 +50,7 @@ def drawing() -> str:
         for floor in layers[container]:
             for name in floor:
                 room = folder / name
-                is_room = room.is_dir()
+                is_room = (room / "__init__.py").exists()
                 if is_room:
                     label, words = f"{name}/", first_line(room / "__init__.py")
                 else:

@@ -7,7 +7,7 @@ What cannot be done raises one of `footfit.errors`; docs/library.md has examples
 """
 
 from footfit.api.catalogues import Catalogue, match, open_catalogue
-from footfit.api.files import mesh_file, page, picture
+from footfit.api.files import mesh_file, page, picture, to_trimesh
 from footfit.api.inputs import sources
 from footfit.api.scans import align, compare, curvature, flare, measure, outcomes, read
 from footfit.errors import FootfitError
@@ -30,4 +30,5 @@ __all__ = [
     "picture",
     "read",
     "sources",
+    "to_trimesh",
 ]

@@ -1,13 +1,16 @@
-"""Results as files: meshes, pictures and pages, as bytes or text that the caller writes."""
+"""Results as files, and as meshes for other tools; the caller writes them."""
 
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from footfit import results
 from footfit.api.inputs import FilePath
 from footfit.errors import BadOption
+
+if TYPE_CHECKING:
+    from footfit.meshes.exchange import Trimesh
 
 
 def picture(result: Any, kind: str = "svg") -> bytes:
@@ -72,6 +75,18 @@ def mesh_file(result: Any, kind: str) -> bytes:
         case results.Comparison():
             return heat_bytes(result, kind)
     raise BadOption(f"there is no mesh in a {type(result).__name__}")
+
+
+def to_trimesh(result: results.Scan | results.AlignedScan | results.Profiled) -> Trimesh:
+    """The mesh of a scan in mm for trimesh: of `read` as in its file, else in the canonical frame.
+
+    `read`, `align` and the others take a trimesh mesh as well.
+    """
+    from footfit.meshes.exchange import as_trimesh
+
+    mesh = result.aligned if isinstance(result, results.Profiled) else result
+    info = mesh.info if isinstance(mesh, results.Scan) else mesh.alignment.info
+    return as_trimesh(mesh.vertices_mm, mesh.faces, path=info.path)
 
 
 def page(result: results.Match | results.Comparison, catalogue: FilePath | None = None) -> str:

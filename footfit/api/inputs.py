@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Mapping
-from typing import TYPE_CHECKING, Any, Literal, TypedDict
+from typing import TYPE_CHECKING, Any, Literal, Protocol, TypedDict, Union, runtime_checkable
 
 from footfit.pipeline.batch.sources import ReadingOptions, Source, mesh_sources
 from footfit.results import AlignedScan, Profiled, Scan, SearchBy
@@ -12,9 +12,11 @@ from footfit.results import AlignedScan, Profiled, Scan, SearchBy
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike
 
+    from footfit.meshes.exchange import Trimesh
+
 FilePath = str | os.PathLike[str]
-Mesh = FilePath | bytes | tuple["ArrayLike", "ArrayLike"] | Scan | Source
-"""A file, its bytes, vertices (n, 3) with faces (m, 3), what `read` gave, or one of `sources`."""
+Mesh = Union[FilePath, bytes, tuple["ArrayLike", "ArrayLike"], "Trimesh", Scan, Source]
+"""A file, its bytes, vertices (n, 3) with faces (m, 3), a trimesh mesh, a `read`, a source."""
 Shape = Mesh | AlignedScan | Profiled
 """A mesh of one foot or last, or what `align` or `flare` gave for it."""
 Feet = Shape | list[Shape] | list[str] | list[Source]
@@ -63,6 +65,14 @@ class IngestKeywords(ReadingKeywords, total=False):
     jobs: int
 
 
+@runtime_checkable
+class SurfaceMesh(Protocol):
+    """What trimesh and others call a mesh: arrays ``vertices`` (n, 3) and ``faces`` (m, 3)."""
+
+    vertices: ArrayLike
+    faces: ArrayLike
+
+
 def sources(meshes: Meshes, *, split: bool = False, **reading: Any) -> list[Source]:
     """The meshes in files, folders and globs; with ``split`` each foot of a file by itself.
 
@@ -97,12 +107,13 @@ def source_of(mesh: Mesh, scale: Mapping[str, Any]) -> Source:
             return mesh
         case Scan():
             return Source(mesh.info.path, scan=mesh)
-        case tuple():
+        case tuple() | SurfaceMesh():
             from footfit.meshes.read import array_mesh
             from footfit.pipeline.scan.cleaning import scan_of
 
             options = reading_options(scale)
-            file = array_mesh(*mesh)
+            arrays = mesh if isinstance(mesh, tuple) else (mesh.vertices, mesh.faces)
+            file = array_mesh(*arrays)
             return Source(None, scan=scan_of(file, None, options.units, options.known_length_mm))
         case bytes():
             return Source(None, mesh, scale.get("format"))
