@@ -10,12 +10,23 @@ import sys
 from pathlib import Path
 
 import pytest
+from typer.main import get_command
 
-from footfit.cli.app import COMMANDS
+from footfit.cli.app import COMMANDS, application
 from tests.conftest import ROOT, SAMPLES
 
 README = (ROOT / "README.md").read_text(encoding="utf-8")
 BLOCKS = re.findall(r"^## (.+?)\n(.*?)(?=^## |\Z)", README, re.M | re.S)
+PAGES = (*ROOT.glob("*.md"), *ROOT.glob("docs/**/*.md"), SAMPLES / "README.md")
+WIDEST = 120
+NOT_HERE = {
+    "footfit/_migrations",
+    "footfit/_sample_data",
+    "migrations/versions/NNNN_title.py",
+}
+"""Folders that only the wheel has, and a name to fill in."""
+OF_TOOLS = {"--count", "--only", "--scale", "--seed", "--write"}
+"""Options of benchmarks, ``tests.torture`` and ``tools.fuzz``."""
 SCRIPTS = {
     title: "\n".join(re.findall(r"```sh\n(.*?)```", text, re.S))
     for title, text in BLOCKS
@@ -70,9 +81,36 @@ def test_readme_names_every_command() -> None:
 
 
 def test_every_link_leads_somewhere() -> None:
-    for page in (ROOT / "README.md", *ROOT.glob("docs/**/*.md"), SAMPLES / "README.md"):
+    for page in PAGES:
         for target in re.findall(r"\]\((?!https?:)([^)#]+)", page.read_text(encoding="utf-8")):
             assert (page.parent / target).exists(), f"{page.name}: {target}"
+
+
+def test_no_line_of_a_page_is_wider_than_a_screen() -> None:
+    """A row of a table cannot be wrapped, and may be longer."""
+    for page in PAGES:
+        for number, line in enumerate(page.read_text(encoding="utf-8").splitlines(), start=1):
+            assert len(line) <= WIDEST or line.startswith("|"), f"{page.name}:{number}"
+
+
+def test_every_file_and_folder_that_a_page_names_is_there() -> None:
+    named = re.compile(
+        r"`((?:footfit|tests|tools|benchmarks|docs|migrations|sample_data)/[\w./-]+)`"
+    )
+    paths = [(page, path) for page in PAGES for path in named.findall(page.read_text("utf-8"))]
+    assert len(paths) > 50
+    missing = {(page.name, path) for page, path in paths if not (ROOT / path).exists()}
+    assert {path for _, path in missing} == NOT_HERE, missing
+
+
+def test_every_option_that_a_page_names_is_one_of_a_command() -> None:
+    known = {*OF_TOOLS, "--version"}
+    group = get_command(application())
+    for name, _, _ in COMMANDS:
+        known.update(o for p in group.get_command(None, name).params for o in p.opts)
+    for page in PAGES:
+        named = re.findall(r"(?<![\w-])--[a-z][a-z-]+", page.read_text(encoding="utf-8"))
+        assert set(named) <= known, f"{page.name}: {sorted(set(named) - known)}"
 
 
 def test_every_cited_source_is_listed() -> None:
