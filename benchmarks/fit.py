@@ -25,9 +25,8 @@ from footfit.pipeline.fit.fit_profile import fit_profile
 from footfit.pipeline.fit.match import Question, matched
 from footfit.pipeline.fit.scoring import scales
 from footfit.pipeline.fit.zones import last_shape, pitch_gain_mm
-from footfit.pipeline.library.ingest import last_record
 from footfit.pipeline.scan.flare import profiled_scan
-from footfit.pipeline.scan.measure import shape_measures
+from footfit.pipeline.scan.measure import last_record, shape_measures
 from footfit.results import LastLabels, LastRecord, Library, Profiled
 from tests.distortions import decimated, moved, random_pose, white_noise
 from tests.reading import read_scan

@@ -9,8 +9,9 @@ import pytest
 
 from footfit.errors import BadOption, NameTaken
 from footfit.pipeline.batch.sources import ReadingOptions, Source
-from footfit.pipeline.library.ingest import Entry, Holdings, entries, last_record, unused_rows
+from footfit.pipeline.library.ingest import Entry, Holdings, entries, unused_rows
 from footfit.pipeline.library.manifest import manifest_rows
+from footfit.pipeline.scan.measure import last_record
 from footfit.pipeline.scan.reading import profiled_source
 from footfit.results import LastLabels, Measure, Measured
 from tests.conftest import SAMPLES

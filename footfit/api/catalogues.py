@@ -80,8 +80,8 @@ class Catalogue:
         InputError, GeometryRefused
             As `flare`; HalfScan where the length of a foot is not known.
         """
+        from footfit.pipeline.fit.compare import with_surface_clearance
         from footfit.pipeline.fit.match import matched
-        from footfit.pipeline.fit.surface_clearance import with_surface_clearance
 
         asked = self._question(question)
         given: list[Any] = feet if isinstance(feet, list) else [feet]

@@ -13,7 +13,7 @@ from footfit.meshes.clean.triangles import WeldedMesh, welded_mesh
 from footfit.meshes.formats.known_formats import raw_mesh
 from footfit.meshes.formats.raw import RawMesh, checked_mesh
 from footfit.meshes.read_limits import LIMITS, Limits
-from footfit.results import Notice
+from footfit.results.values import Notice
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from footfit.errors import BadOption, UnknownUnits
 from footfit.geometry.numeric.arrays import Floats
 from footfit.geometry.pose.extents import principal_extents
-from footfit.results import Notice
+from footfit.results.values import Notice
 
 UNIT_SCALES = {"mm": 1.0, "cm": 10.0, "in": 25.4, "m": 1000.0}
 UNIT_NAMES = {"mm": "millimetres", "cm": "centimetres", "in": "inches", "m": "metres"}

@@ -15,7 +15,7 @@ from footfit.geometry.mesh.welding import (
 )
 from footfit.geometry.numeric.arrays import Bools, Floats, Ints
 from footfit.meshes.clean.spikes import pressed_spikes
-from footfit.results import Notice
+from footfit.results.values import Notice
 
 
 @dataclass(frozen=True, slots=True)

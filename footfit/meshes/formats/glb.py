@@ -22,7 +22,7 @@ from footfit.geometry.numeric.rotations import rotation_matrices, transform
 from footfit.meshes.formats.placed_parts import Part, joined_parts, placed_nodes
 from footfit.meshes.formats.raw import RawMesh, check_counts, doubles
 from footfit.meshes.read_limits import Limits
-from footfit.results import Notice
+from footfit.results.values import Notice
 
 Tree = dict[str, Any]
 Types = dict[int, str]

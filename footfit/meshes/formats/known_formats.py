@@ -16,7 +16,7 @@ from footfit.meshes.formats.raw import RawMesh, checked_mesh
 from footfit.meshes.formats.stl import is_binary_stl, read_ascii_stl, read_binary_stl
 from footfit.meshes.formats.threemf import is_3mf, read_3mf
 from footfit.meshes.read_limits import Limits
-from footfit.results import Notice
+from footfit.results.values import Notice
 
 
 @dataclass(frozen=True, slots=True)

@@ -19,7 +19,7 @@ from footfit.geometry.numeric.arrays import Floats, Ints
 from footfit.geometry.numeric.rotations import moved_points
 from footfit.meshes.formats.raw import RawMesh
 from footfit.meshes.read_limits import Limits
-from footfit.results import Notice
+from footfit.results.values import Notice
 
 _Key = TypeVar("_Key")
 

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from footfit.errors import DamagedMesh, EmptyMesh, TooLarge
 from footfit.geometry.numeric.arrays import Floats, Ints
 from footfit.meshes.read_limits import Limits
-from footfit.results import Notice
+from footfit.results.values import Notice
 
 
 @dataclass(frozen=True, slots=True)

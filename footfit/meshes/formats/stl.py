@@ -13,7 +13,7 @@ from footfit.geometry.numeric.arrays import Floats, Ints
 from footfit.meshes.formats.raw import RawMesh, check_counts, doubles
 from footfit.meshes.formats.tokens import BLANK, floats, unix_text, word_offsets
 from footfit.meshes.read_limits import Limits
-from footfit.results import Notice
+from footfit.results.values import Notice
 
 HEADER_BYTES = 84
 FACET = np.dtype([("normal", "<f4", (3,)), ("corners", "<f4", (9,)), ("attribute", "<u2")])

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 from footfit.catalogue.store import open_catalogue
@@ -16,10 +16,11 @@ from footfit.geometry.measures.measure_table import measure_named
 from footfit.geometry.measures.measure_value import MeasureValue
 from footfit.geometry.numeric.arrays import Floats, Ints
 from footfit.pipeline.batch.sources import ReadingOptions, Source
-from footfit.pipeline.library.ingest import last_record
+from footfit.pipeline.scan.measure import last_record
 from footfit.pipeline.scan.preparation import stored_shape
 from footfit.pipeline.scan.reading import profiled_source
 from footfit.results import (
+    Candidate,
     Comparison,
     LastLabels,
     LastRecord,
@@ -29,6 +30,7 @@ from footfit.results import (
     Profiled,
     SectionComparison,
     SizeDifference,
+    SurfaceClearance,
 )
 
 SD_FROM = {
@@ -158,6 +160,46 @@ def _warnings(foot: Profiled, last: LastRecord) -> tuple[Notice, ...]:
         words = f"the last is {abs(longer):.0f} mm {'longer' if longer > 0 else 'shorter'}"
         notices.append(Notice("far_size", f"{words} than the foot: it fits in no zone"))
     return tuple(notices)
+
+
+# ---------------------------------------------------------------- the lasts of an answer
+
+
+def with_surface_clearance(match: Match, path: Path) -> Match:
+    """The same answer with the clearance in each last that it shows.
+
+    It needs the lasts' meshes, which ranking does not read. So it is taken only if it is asked
+    for, and only of the lasts that are shown. It judges nothing.
+    """
+    return replace(
+        match,
+        candidates=tuple(_with_clearance(last, match.feet, path) for last in match.candidates),
+        nearest=tuple(_with_clearance(last, match.feet, path) for last in match.nearest),
+    )
+
+
+def _with_clearance(candidate: Candidate, feet: tuple[Profiled, ...], path: Path) -> Candidate:
+    try:
+        last = stored_last(path, candidate.last)
+    except (CatalogueDamaged, UnknownLast) as error:
+        surfaces = tuple(_unknown(foot, str(error)) for foot in feet)
+    else:
+        surfaces = tuple(surface_clearance(foot, last) for foot in feet)
+    return replace(candidate, surfaces=surfaces)
+
+
+def surface_clearance(foot: Profiled, last: LastShape) -> SurfaceClearance:
+    """The clearance by zone of one foot in one last, as ``compare`` says it."""
+    try:
+        inside = placed_foot(foot, last)
+    except NoSole as error:
+        return _unknown(foot, str(error))
+    side = foot.aligned.alignment.side.side
+    return SurfaceClearance(side, inside.placement.swing_mm, inside.zones)
+
+
+def _unknown(foot: Profiled, reason: str) -> SurfaceClearance:
+    return SurfaceClearance(foot.aligned.alignment.side.side, None, (), reason)
 
 
 # ---------------------------------------------------------------- sections

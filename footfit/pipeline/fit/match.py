@@ -140,7 +140,7 @@ def _answered(
     except HalfScan as error:
         return Outcome(source, None, error)
     if question.surfaces_in is not None:
-        from footfit.pipeline.fit.surface_clearance import with_surface_clearance
+        from footfit.pipeline.fit.compare import with_surface_clearance
 
         answer = with_surface_clearance(answer, question.surfaces_in)
     return Outcome(source, answer, None)

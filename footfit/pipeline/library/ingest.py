@@ -15,10 +15,10 @@ from footfit.errors import BadOption, ExitCode, FootfitError, NameTaken, NoCatal
 from footfit.pipeline.batch.runs import HERE, Outcome, outcomes
 from footfit.pipeline.batch.sources import ReadingOptions, Source
 from footfit.pipeline.library.manifest import ManifestRow
-from footfit.pipeline.scan.measure import unusual_measures
+from footfit.pipeline.scan.measure import last_record
 from footfit.pipeline.scan.reading import content_hash, profiled_source
 from footfit.pipeline.scan.settled_unit import unit_notes
-from footfit.results import IngestOutcome, LastLabels, LastRecord, MeshCopy, Notice, Profiled
+from footfit.results import IngestOutcome, LastLabels, LastRecord, MeshCopy, Notice
 
 SAME_LENGTH_MM = 0.01
 """Two known lengths that differ by less are the same: a measuring stick shows whole mm."""
@@ -124,32 +124,6 @@ def new_last(entry: Entry, known: frozenset[str] = frozenset()) -> NewLast:
     shape = profiled_source(entry.source, entry.reading)
     copy = compact_copy(shape.aligned.vertices_mm, shape.aligned.faces)
     return NewLast(sha256, last_record(shape, entry.labels), copy)
-
-
-def last_record(shape: Profiled, labels: LastLabels) -> LastRecord:
-    """The record of a profiled shape; the catalogue will keep its file's name, but no folder."""
-    alignment = shape.aligned.alignment
-    kind = alignment.pose.kind
-    notices = (*alignment.warnings, *shape.suspects)
-    if kind == "last":
-        notices = (*notices, *unusual_measures(shape.measures, kind))
-    if kind == "foot":
-        looks = Notice("looks_like_a_foot", "its shape is nearer to a foot's than to a last's")
-        notices = (*notices, looks)
-    return LastRecord(
-        labels=labels,
-        info=alignment.info,
-        side=alignment.side,
-        pose=alignment.pose,
-        eigenframe=alignment.eigenframe,
-        printed_frame=alignment.printed_frame,
-        canonical_transform=alignment.canonical_transform,
-        paper_transform=None,
-        extent_mm=alignment.extent_mm,
-        flare=shape.flare,
-        measures=shape.measures,
-        warnings=notices,
-    )
 
 
 class Holdings:

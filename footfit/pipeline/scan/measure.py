@@ -12,11 +12,14 @@ from footfit.geometry.numeric.arrays import Floats, Ints
 from footfit.results import (
     AlignedScan,
     Alignment,
+    LastLabels,
+    LastRecord,
     Measure,
     Measured,
     MeasuredScan,
     Notice,
     PreparedScan,
+    Profiled,
 )
 
 END_MEASURES = frozenset({"length", "functional_length", "tape_length", "ball_length"})
@@ -129,3 +132,29 @@ def _steep_heel(heel_mm: float | None, length_mm: float) -> tuple[Notice, ...]:
         " check length and flare on the last itself"
     )
     return (Notice("steep_heel", words),)
+
+
+def last_record(shape: Profiled, labels: LastLabels) -> LastRecord:
+    """The record of a profiled shape; the catalogue will keep its file's name, but no folder."""
+    alignment = shape.aligned.alignment
+    kind = alignment.pose.kind
+    notices = (*alignment.warnings, *shape.suspects)
+    if kind == "last":
+        notices = (*notices, *unusual_measures(shape.measures, kind))
+    if kind == "foot":
+        looks = Notice("looks_like_a_foot", "its shape is nearer to a foot's than to a last's")
+        notices = (*notices, looks)
+    return LastRecord(
+        labels=labels,
+        info=alignment.info,
+        side=alignment.side,
+        pose=alignment.pose,
+        eigenframe=alignment.eigenframe,
+        printed_frame=alignment.printed_frame,
+        canonical_transform=alignment.canonical_transform,
+        paper_transform=None,
+        extent_mm=alignment.extent_mm,
+        flare=shape.flare,
+        measures=shape.measures,
+        warnings=notices,
+    )
