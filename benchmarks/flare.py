@@ -312,7 +312,12 @@ def main() -> None:
     move = ["lasts RMS", "lasts worst", "feet RMS", "feet worst"]
     posed_head = ["lasts: RMS error"]
     for kind in ("lasts", "feet"):
-        posed_head += [f"{kind} moved RMS", f"{kind} worst", f"{kind} said sd", "moved / said"]
+        posed_head += [
+            f"{kind} moved RMS",
+            f"{kind} worst",
+            f"{kind} predicted sd",
+            "moved / predicted",
+        ]
     text = "\n".join(
         [
             f"Seed {options.seed}, {len(shapes['last'])} lasts, {len(shapes['foot'])} feet.\n",
