@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import BinaryIO
 
 from footfit.errors import EmptyMesh, FootfitError, TooLarge, UnreadableFile
-from footfit.meshes.read_limits import Limits
+from footfit.meshes.read_limits import SIMPLIFY, Limits
 
 _READ_FLAGS = (
     os.O_RDONLY
@@ -94,7 +94,7 @@ def _check(status: os.stat_result, limits: Limits) -> None:
 def _too_large(limits: Limits) -> str:
     return (
         f"the file is over {limits.file_bytes // 1_000_000:,} MB, the most that footfit reads:"
-        " simplify the mesh first (100,000 faces are plenty)"
+        f" {SIMPLIFY}"
     )
 
 

@@ -45,3 +45,5 @@ class Limits:
 
 
 LIMITS = Limits()
+SIMPLIFY = "simplify the mesh first (100,000 faces are plenty)"
+"""What to do with a mesh that is too large."""

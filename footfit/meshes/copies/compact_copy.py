@@ -24,6 +24,7 @@ from footfit.geometry.mesh.welding import (
 from footfit.geometry.numeric.arrays import Floats, Ints
 from footfit.meshes.copies.deviation import largest_deviation_mm
 from footfit.meshes.copies.lighter import lighter_mesh
+from footfit.meshes.read_limits import LIMITS
 from footfit.results import MeshCopy
 
 _HEADER = struct.Struct("<4sBxxxIId3d")
@@ -42,15 +43,11 @@ class CopySettings:
         Coordinates are whole multiples of it: off by half of it at most.
     error_mm : float
         A copy that deviates further is made again with twice the faces.
-    most_faces, most_vertices : int
-        What :func:`expanded_mesh` accepts.
     zlib_level : int
     """
 
     step_mm: float = 0.005
     error_mm: float = 0.25
-    most_faces: int = 3_000_000
-    most_vertices: int = 9_000_000
     zlib_level: int = 9
 
 
@@ -85,21 +82,20 @@ def compact_copy(
     while True:
         lighter, fewer = lighter_mesh(vertices_mm, faces, target_faces)
         data = _encoded(lighter, fewer, settings)
-        copy_vertices, copy_faces = expanded_mesh(data, settings)
+        copy_vertices, copy_faces = expanded_mesh(data)
         error = largest_deviation_mm(vertices_mm, faces, copy_vertices, copy_faces)
         if error <= settings.error_mm or target_faces >= len(faces):
             return MeshCopy(data, len(copy_faces), error)
         target_faces *= 2
 
 
-def expanded_mesh(data: bytes, settings: CopySettings = COPY_SETTINGS) -> tuple[Floats, Ints]:
+def expanded_mesh(data: bytes) -> tuple[Floats, Ints]:
     """The mesh in a copy's bytes.
 
     Parameters
     ----------
     data : bytes
         From :func:`compact_copy`.
-    settings : CopySettings
 
     Returns
     -------
@@ -117,7 +113,7 @@ def expanded_mesh(data: bytes, settings: CopySettings = COPY_SETTINGS) -> tuple[
         raise _damaged("it is cut off") from error
     if magic != _MAGIC or version != _VERSION:
         raise _damaged("its header is not one this version knows")
-    if not (0 < n <= settings.most_vertices and 0 < m <= settings.most_faces):
+    if not (0 < n <= LIMITS.vertices and 0 < m <= LIMITS.faces):
         raise _damaged("its counts are impossible")
     if not (0.0 < step < 1.0 and all(math.isfinite(value) for value in origin)):
         raise _damaged("its scale is impossible")

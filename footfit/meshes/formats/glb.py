@@ -93,7 +93,7 @@ def _chunks(data: bytes, limits: Limits) -> tuple[Tree, bytes, int]:
     _, version, length = _HEAD.unpack_from(data)
     if version != _VERSION:
         raise UnknownFormat(
-            f"the GLB is of version {version}, footfit reads version 2: export it again"
+            f"the GLB is of version {version}, footfit reads version {_VERSION}: export it again"
         )
     if length > len(data):
         raise DamagedMesh(

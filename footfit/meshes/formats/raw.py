@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from footfit.errors import DamagedMesh, EmptyMesh, TooLarge
 from footfit.geometry.numeric.arrays import Floats, Ints
-from footfit.meshes.read_limits import Limits
+from footfit.meshes.read_limits import SIMPLIFY, Limits
 from footfit.results.values import Notice
 
 
@@ -84,6 +84,5 @@ def check_counts(vertices: int, faces: int, limits: Limits) -> None:
     ):
         if count > most:
             raise TooLarge(
-                f"the mesh has {count:,} {noun} and footfit reads up to {most:,}:"
-                " simplify it first (100,000 faces are plenty)"
+                f"the mesh has {count:,} {noun} and footfit reads up to {most:,}: {SIMPLIFY}"
             )
