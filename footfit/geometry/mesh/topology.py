@@ -26,12 +26,8 @@ def edges(faces: Ints) -> Ints:
     >>> edges(np.array([[0, 1, 2], [2, 1, 3]])).tolist()
     [[0, 1], [0, 2], [1, 2], [1, 3], [2, 3]]
     """
-    if len(faces) == 0:
-        return np.empty((0, 2), dtype=np.int64)
-    keys, span = _edge_keys(faces)
-    keys.sort()
-    keys = keys[np.append(True, keys[1:] != keys[:-1])]
-    return np.stack([keys // span, keys % span], axis=1)
+    order, starts, _ = edge_groups(faces)
+    return np.sort(half_edges(faces)[order[starts]], axis=1)
 
 
 def sorted_keys(keys: Ints) -> tuple[Ints, Ints]:
@@ -50,21 +46,15 @@ def sorted_keys(keys: Ints) -> tuple[Ints, Ints]:
     return order, keys[order]
 
 
-def _edge_keys(faces: Ints) -> tuple[Ints, int]:
-    start, end = faces.ravel(), faces[:, [1, 2, 0]].ravel()
-    span = int(faces.max()) + 1
-    keys: Ints = np.minimum(start, end) * span + np.maximum(start, end)
-    return keys, span
-
-
 def edge_groups(faces: Ints) -> tuple[Ints, Ints, Ints]:
     """Half-edges (3 m,) in the order of their edges, each edge's first place in it, and its count.
 
     A half-edge has the number of its row in :func:`half_edges`.
     """
-    keys, _ = _edge_keys(faces)
-    order, ordered = sorted_keys(keys)
-    starts = np.flatnonzero(np.append(True, ordered[1:] != ordered[:-1]))
+    start, end = faces.ravel(), faces[:, [1, 2, 0]].ravel()
+    span = int(faces.max(initial=0)) + 1
+    order, ordered = sorted_keys(np.minimum(start, end) * span + np.maximum(start, end))
+    starts = np.flatnonzero(np.diff(ordered, prepend=-1))
     return order, starts, np.diff(np.append(starts, len(ordered)))
 
 
@@ -76,8 +66,6 @@ def boundary_edges(faces: Ints) -> Ints:
     >>> boundary_edges(np.array([[0, 1, 2], [2, 1, 3]])).tolist()
     [[0, 1], [2, 0], [1, 3], [3, 2]]
     """
-    if len(faces) == 0:
-        return np.empty((0, 2), dtype=np.int64)
     order, starts, counts = edge_groups(faces)
     single: Ints = half_edges(faces)[np.sort(order[starts[counts == 1]])]
     return single
@@ -224,8 +212,6 @@ def consistent_faces(faces: Ints) -> Ints:
 
 def _shared_edges(faces: Ints) -> tuple[Ints, Bools]:
     """Pairs of faces (k, 2) that alone share an edge, and whether both run it the same way."""
-    if len(faces) == 0:
-        return np.empty((0, 2), dtype=np.int64), np.empty(0, dtype=bool)
     order, starts, counts = edge_groups(faces)
     first = starts[counts == 2]
     pairs = np.stack([order[first], order[first + 1]], axis=1)
@@ -239,8 +225,6 @@ def closed_fan_vertices(faces: Ints, n_vertices: int) -> Bools:
     False on a boundary, at an edge of three faces or of two that run it the same way, where two
     fans touch in a vertex, and for a vertex without faces.
     """
-    if len(faces) == 0:
-        return np.zeros(n_vertices, dtype=bool)
     order, starts, counts = edge_groups(faces)
     ends = half_edges(faces)
     here, beyond = order[starts], order[np.minimum(starts + 1, len(order) - 1)]

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 from footfit.errors import EmptyMesh
 from footfit.geometry.mesh.surface import area_vectors
-from footfit.geometry.mesh.topology import boundary_edges, edges, face_components
+from footfit.geometry.mesh.topology import edge_groups, face_components
 from footfit.geometry.mesh.welding import without_unused_vertices
 from footfit.geometry.numeric.arrays import Floats, Ints, row_lengths
 from footfit.geometry.pose.facing import outward_faces
@@ -122,8 +122,8 @@ def turned_notices(count: int) -> tuple[Notice, ...]:
 
 def _open_notices(faces: Ints) -> tuple[Notice, ...]:
     """What to say where not every edge has exactly two faces."""
-    rims = len(boundary_edges(faces))
-    crowded = 3 * len(faces) - rims - 2 * (len(edges(faces)) - rims)
+    counts = edge_groups(faces)[2]
+    rims, crowded = int((counts == 1).sum()), int((counts - 2).clip(0).sum())
     return (
         *counted("non_manifold", crowded, "times more than two faces share an edge"),
         *counted("open_mesh", rims, "edges have one face only: the surface is open"),
