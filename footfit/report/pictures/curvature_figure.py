@@ -8,7 +8,13 @@ import numpy as np
 
 from footfit.geometry.numeric.arrays import Floats, Ints
 from footfit.geometry.numeric.rotations import moved_points
-from footfit.report.pictures.figures import DIVERGING, headline, house_style, scale_bar, show_image
+from footfit.report.pictures.figures import (
+    DIVERGING,
+    draw_scale_bar,
+    house_style,
+    show_image,
+    write_title,
+)
 from footfit.report.pictures.shading import VIEWS, frame_around, shaded_image
 from footfit.report.wording.text import file_name, plain
 
@@ -54,14 +60,14 @@ def curvature_figure(
         figure = Figure(figsize=(10.5, 6.6), layout="constrained")
         panels = zip(figure.subplots(2, 2).flat, PANELS.items(), strict=True)
         for number, (axes, (title, view)) in enumerate(panels, start=1):
-            _panel(axes, points @ view.T, curvature.faces, colours)
+            _draw_panel(axes, points @ view.T, curvature.faces, colours)
             axes.set_title(f"View {number}" if canonical_transform is None else title)
         bar = figure.colorbar(scale, ax=figure.axes, location="right", shrink=0.7, extend="both")
         bar.set_label("mean curvature (1/mm), + convex, - hollow")
         bar.outline.set_visible(False)
         radius = curvature.radius_mm
         around = f"over a radius of {plain(radius)} mm" if radius else "of one ring of neighbours"
-        headline(figure, f"{file_name(curvature.info.path)}   mean curvature {around}")
+        write_title(figure, f"{file_name(curvature.info.path)}   mean curvature {around}")
     return figure
 
 
@@ -100,10 +106,10 @@ def _colours(values: Floats) -> tuple[Floats, Any]:
     return colours, scale
 
 
-def _panel(axes: Axes, projected: Floats, faces: Ints, colours: Floats) -> None:
+def _draw_panel(axes: Axes, projected: Floats, faces: Ints, colours: Floats) -> None:
     frame = frame_around(projected, margin=0.06)
     show_image(axes, shaded_image(projected, faces, frame, COLUMNS, colours), frame)
-    scale_bar(axes, length_mm=_bar_length(frame.right - frame.left), place=(0.03, 0.0))
+    draw_scale_bar(axes, length_mm=_bar_length(frame.right - frame.left), place=(0.03, 0.0))
 
 
 def _bar_length(width_mm: float) -> float:

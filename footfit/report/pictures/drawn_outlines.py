@@ -1,4 +1,4 @@
-"""Outlines of a shape for drawing: the sole's in plan and the profile from the side, by section."""
+"""The outlines of a shape as they are drawn: the sole in plan, and the profile from the side."""
 
 from __future__ import annotations
 
@@ -12,7 +12,10 @@ from footfit.geometry.numeric.arrays import Floats, Ints
 
 @dataclass(frozen=True, slots=True)
 class Drawing:
-    """What an outline is drawn from; ``band`` is the sole's height over the length."""
+    """How an outline is read: how many stations, how high the sole is, how far from the ends.
+
+    ``band`` and ``inset`` are shares of the length.
+    """
 
     stations: int = 160
     band: float = 0.10
@@ -21,7 +24,7 @@ class Drawing:
 
 DRAWING = Drawing()
 SHADOW = 10.0
-"""A band that takes in every height: the outline of the whole shape's shadow."""
+"""A band as high as any shape: the outline of the whole shape's shadow."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -33,7 +36,7 @@ class Outline:
     second_mm: Floats
 
     def closed(self) -> Floats:
-        """The outline as a closed polygon (2n, 2), without the stations that cut nothing."""
+        """The outline as a polygon (2n, 2), without the stations where nothing is cut."""
         known = np.isfinite(self.first_mm) & np.isfinite(self.second_mm)
         there = np.column_stack([self.x_mm[known], self.first_mm[known]])
         back = np.column_stack([self.x_mm[known], self.second_mm[known]])

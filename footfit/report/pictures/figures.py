@@ -1,4 +1,4 @@
-"""The pictures' one look, and their bytes: SVG and PNG that are the same on every run."""
+"""The look that all pictures share, and their bytes: SVG and PNG, the same on every run."""
 
 from __future__ import annotations
 
@@ -56,7 +56,7 @@ _STYLE = {
 
 @contextmanager
 def house_style() -> Iterator[None]:
-    """The defaults of matplotlib and this look, whatever a user's own settings say."""
+    """Use the defaults of matplotlib and this look; the settings of a user change nothing."""
     import matplotlib.style
 
     with matplotlib.style.context(["default", _STYLE]):
@@ -64,7 +64,7 @@ def house_style() -> Iterator[None]:
 
 
 def svg_text(figure: Figure) -> str:
-    """The figure as SVG: text as outlines, no date, no address of a program."""
+    """The figure as SVG: text is drawn as outlines; there is no date and no program's address."""
     target = io.BytesIO()
     with house_style():
         nothing = dict.fromkeys(("Date", "Creator", "Format", "Type"))
@@ -95,24 +95,24 @@ def picture_bytes(figure: Figure, kind: str) -> bytes:
     raise BadOption(f"a picture is svg or png, not {kind!r}; end its name in .svg or .png")
 
 
-def headline(figure: Figure, words: str) -> None:
-    """The title of a whole figure, in its upper left corner."""
+def write_title(figure: Figure, words: str) -> None:
+    """Write the title of a whole figure into its upper left corner."""
     figure.suptitle(words, x=0.01, ha="left", fontsize=12, fontweight="bold")
 
 
 def show_image(axes: Axes, image: Floats, frame: Frame) -> None:
-    """An RGBA image in an axes whose data are mm, as large as ``frame``."""
+    """Show an RGBA image in an axes whose data are mm, as large as ``frame``."""
     extent = (frame.left, frame.right, frame.bottom, frame.top)
     axes.imshow(image, extent=extent, interpolation="antialiased")
     axes.set_xlim(frame.left, frame.right)
     axes.set_ylim(frame.bottom, frame.top)
-    bare(axes)
+    hide_axes(axes)
 
 
-def scale_bar(
+def draw_scale_bar(
     axes: Axes, length_mm: float = 50.0, place: tuple[float, float] = (0.03, 0.02)
 ) -> None:
-    """A bar of ``length_mm`` in an axes whose data are mm, at ``place`` in axes fractions."""
+    """Draw a bar of ``length_mm`` in an axes whose data are mm, at ``place`` in axes fractions."""
     left, right = axes.get_xlim()
     bottom, top = axes.get_ylim()
     x, y = left + place[0] * (right - left), bottom + place[1] * (top - bottom)
@@ -128,8 +128,8 @@ def scale_bar(
     )
 
 
-def bare(axes: Axes) -> None:
-    """A drawing in true proportion: no ticks, no frame."""
+def hide_axes(axes: Axes) -> None:
+    """Show a drawing in true proportion, without ticks and frame."""
     axes.set_aspect("equal")
     axes.set_xticks([])
     axes.set_yticks([])

@@ -33,8 +33,8 @@ def toe_up(points: Floats) -> tuple[Floats, Floats]:
     return -points[:, 1], points[:, 0]
 
 
-def curve_axes(axes: Axes, definition: FlareDefinition, quantity: str, title: str) -> None:
-    """An axes for curves by station, with the two windows behind them."""
+def set_up_curves(axes: Axes, definition: FlareDefinition, quantity: str, title: str) -> None:
+    """Set up an axes for curves by station, with the two windows behind them."""
     for colour, window in windows(definition).items():
         axes.axvspan(*window, facecolor=colour, edgecolor="none", zorder=0)
     axes.axhline(0.0, color=QUIET, linewidth=0.7, zorder=1)
@@ -44,7 +44,7 @@ def curve_axes(axes: Axes, definition: FlareDefinition, quantity: str, title: st
     axes.set_title(title)
 
 
-def station_labels(axes: Axes) -> None:
-    """The names of the stations, below the lowest axes of a column."""
+def label_stations(axes: Axes) -> None:
+    """Name the stations, below the lowest axes of a column."""
     axes.tick_params(labelbottom=True)
     axes.set_xlabel("station along the centre line (0 heel, 1 toe)")

@@ -18,16 +18,16 @@ from footfit.report.pictures.figures import (
     PAPER,
     QUIET,
     SERIES,
-    bare,
-    headline,
+    draw_scale_bar,
+    hide_axes,
     house_style,
-    scale_bar,
+    write_title,
 )
 from footfit.report.pictures.flare_axes import (
     Window,
     centre_line_mm,
-    curve_axes,
-    station_labels,
+    label_stations,
+    set_up_curves,
     toe_up,
     windows,
 )
@@ -66,20 +66,20 @@ def flare_figure(profiled: Profiled) -> Figure:
     with house_style():
         figure = Figure(figsize=(11.0, 7.0), layout="constrained")
         grid = figure.add_gridspec(3, 2, width_ratios=(1.1, 1.4))
-        colours = _plan(figure.add_subplot(grid[:, 0]), profiled)
-        _colour_bar(figure, figure.axes[0], colours)
+        colours = _draw_plan(figure.add_subplot(grid[:, 0]), profiled)
+        _draw_colour_bar(figure, figure.axes[0], colours)
         heading = figure.add_subplot(grid[0, 1])
-        _heading(heading, profiled.flare)
-        _plan_curvature(figure.add_subplot(grid[1, 1], sharex=heading), profiled.flare)
-        _bottom(figure.add_subplot(grid[2, 1], sharex=heading), profiled.flare)
+        _draw_heading(heading, profiled.flare)
+        _draw_plan_curvature(figure.add_subplot(grid[1, 1], sharex=heading), profiled.flare)
+        _draw_bottom(figure.add_subplot(grid[2, 1], sharex=heading), profiled.flare)
         alignment = profiled.aligned.alignment
         words = f"{shape_words(alignment)}, {length_text(alignment.length)}"
         flare = f"flare {angle_text(profiled.flare)} ({profiled.flare.flare_class})"
-        headline(figure, f"{words}, {flare}")
+        write_title(figure, f"{words}, {flare}")
     return figure
 
 
-def _colour_bar(figure: Figure, axes: Axes, colours: Any) -> None:
+def _draw_colour_bar(figure: Figure, axes: Axes, colours: Any) -> None:
     place = axes.inset_axes((0.0, -0.055, 1.0, 0.018))
     bar = figure.colorbar(colours, cax=place, orientation="horizontal", extend="both")
     bar.set_label("plan curvature x length: - turns outward, + turns inward", fontsize=8)
@@ -89,7 +89,7 @@ def _colour_bar(figure: Figure, axes: Axes, colours: Any) -> None:
 # ---------------------------------------------------------------- the plan
 
 
-def _plan(axes: Axes, profiled: Profiled) -> Any:
+def _draw_plan(axes: Axes, profiled: Profiled) -> Any:
     """Seen from above with the toe up, so that the wearer's left is on the left."""
     mesh, flare = profiled.aligned, profiled.flare
     sole = sole_outline(mesh.vertices_mm, mesh.faces)
@@ -102,17 +102,17 @@ def _plan(axes: Axes, profiled: Profiled) -> Any:
         part = sole.between(start, end).closed()
         if len(part):
             axes.fill(*toe_up(part), facecolor=colour, edgecolor="none", zorder=1.5)
-    _angle_mark(axes, profiled, line)
-    coloured = _coloured_line(axes, line, flare)
-    _medial_label(axes, profiled, sole)
+    _draw_angle_mark(axes, profiled, line)
+    coloured = _draw_coloured_line(axes, line, flare)
+    _write_sides(axes, profiled, sole)
     axes.set_title("Sole from above")
     axes.margins(0.06)
-    bare(axes)
-    scale_bar(axes)
+    hide_axes(axes)
+    draw_scale_bar(axes)
     return coloured
 
 
-def _coloured_line(axes: Axes, line_mm: Floats, flare: FlareProfile) -> Any:
+def _draw_coloured_line(axes: Axes, line_mm: Floats, flare: FlareProfile) -> Any:
     from matplotlib.collections import LineCollection
 
     right, up = toe_up(line_mm)
@@ -132,7 +132,7 @@ def _coloured_line(axes: Axes, line_mm: Floats, flare: FlareProfile) -> Any:
     return coloured
 
 
-def _angle_mark(axes: Axes, profiled: Profiled, line_mm: Floats) -> None:
+def _draw_angle_mark(axes: Axes, profiled: Profiled, line_mm: Floats) -> None:
     """The two mean headings as straight lines through their windows, and the angle between."""
     flare, length = profiled.flare, profiled.aligned.alignment.extent_mm
     mirror = -1.0 if is_left(profiled) else 1.0
@@ -156,7 +156,7 @@ def _angle_mark(axes: Axes, profiled: Profiled, line_mm: Floats) -> None:
     )
 
 
-def _medial_label(axes: Axes, profiled: Profiled, sole: Outline) -> None:
+def _write_sides(axes: Axes, profiled: Profiled, sole: Outline) -> None:
     medial = 1 if is_left(profiled) else -1
     widest = float(np.nanmax(np.abs(np.concatenate([sole.first_mm, sole.second_mm]))))
     height = 0.42 * profiled.aligned.alignment.extent_mm
@@ -174,9 +174,9 @@ def _medial_label(axes: Axes, profiled: Profiled, sole: Outline) -> None:
 # ---------------------------------------------------------------- the curves
 
 
-def _heading(axes: Axes, flare: FlareProfile) -> None:
+def _draw_heading(axes: Axes, flare: FlareProfile) -> None:
     title = "Heading: flare angle = fore minus rear"
-    curve_axes(axes, flare.definition, "heading (deg)\n+ to medial", title)
+    set_up_curves(axes, flare.definition, "heading (deg)\n+ to medial", title)
     axes.plot(flare.stations, flare.heading_deg, color=INK, linewidth=1.6)
     for window, word in zip(windows(flare.definition).values(), ("rear", "fore"), strict=True):
         mean = mean_heading_deg(flare, window)
@@ -193,12 +193,12 @@ def _heading(axes: Axes, flare: FlareProfile) -> None:
     axes.margins(y=0.25)
 
 
-def _plan_curvature(axes: Axes, flare: FlareProfile) -> None:
+def _draw_plan_curvature(axes: Axes, flare: FlareProfile) -> None:
     quantity, title = "curvature x length\n+ turns inward", "Plan: how the centre line bends"
-    curve_axes(axes, flare.definition, quantity, title)
+    set_up_curves(axes, flare.definition, quantity, title)
     plan = flare.curvature["plan"]
     if plan is None:
-        _absent(axes, "the plan curvature is not measurable")
+        _write_absent(axes, "the plan curvature is not measurable")
         return
     axes.plot(flare.stations, plan, color=INK, linewidth=1.6)
     for turns, colour in ((plan > 0, SERIES[0]), (plan < 0, SERIES[1])):
@@ -207,10 +207,10 @@ def _plan_curvature(axes: Axes, flare: FlareProfile) -> None:
         )
 
 
-def _bottom(axes: Axes, flare: FlareProfile) -> None:
+def _draw_bottom(axes: Axes, flare: FlareProfile) -> None:
     quantity, title = "curvature x length\n+ convex", "Bottom: how the sole bends along its length"
-    curve_axes(axes, flare.definition, quantity, title)
-    station_labels(axes)
+    set_up_curves(axes, flare.definition, quantity, title)
+    label_stations(axes)
     shares = [f"at {100 * share:.0f} %" for share in flare.definition.bottom_places]
     labels = (f"{shares[0]} from medial", *shares[1:], "whole surface")
     styles = [*zip(SERIES, DASHES, (1.5, 1.5, 1.5), strict=False), (QUIET, "-", 1.2)]
@@ -222,9 +222,9 @@ def _bottom(axes: Axes, flare: FlareProfile) -> None:
     if axes.get_legend_handles_labels()[0]:
         axes.legend(ncols=4, loc="upper left", bbox_to_anchor=(-0.01, -0.32), columnspacing=1.2)
     else:
-        _absent(axes, "no sole: the bottom is not measurable")
+        _write_absent(axes, "no sole: the bottom is not measurable")
 
 
-def _absent(axes: Axes, words: str) -> None:
+def _write_absent(axes: Axes, words: str) -> None:
     axes.text(0.5, 0.5, words, transform=axes.transAxes, ha="center", color=QUIET)
     axes.set_yticks([])

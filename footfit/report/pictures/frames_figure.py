@@ -12,10 +12,10 @@ from footfit.report.pictures.figures import (
     INK,
     SERIES,
     SKIN,
-    headline,
+    draw_scale_bar,
     house_style,
-    scale_bar,
     show_image,
+    write_title,
 )
 from footfit.report.pictures.shading import VIEWS, axonometric_view, frame_around, shaded_image
 from footfit.report.wording.text import length_text, plain, shape_words
@@ -66,26 +66,26 @@ def frames_figure(mesh: AlignedScan) -> Figure:
         figure = Figure(figsize=(10.5, 7.4), layout="constrained")
         for axes, (title, view, state) in zip(figure.subplots(2, 2).flat, panels, strict=True):
             points, origin, ends = (array @ view.T for array in state)
-            _panel(axes, (points, mesh.faces), origin, ends)
-            _triad(axes, view)
+            _draw_panel(axes, (points, mesh.faces), origin, ends)
+            _draw_triad(axes, view)
             axes.set_title(title)
         spread = ", ".join(plain(float(value)) for value in np.sqrt(frame.eigenvalues_mm2))
         words = f"{shape_words(alignment)}, {length_text(alignment.length)}"
-        headline(figure, f"{words}; spread along e1, e2, e3: {spread} mm")
+        write_title(figure, f"{words}; spread along e1, e2, e3: {spread} mm")
     return figure
 
 
-def _panel(axes: Axes, mesh: tuple[Floats, Ints], origin: Floats, ends: Floats) -> None:
+def _draw_panel(axes: Axes, mesh: tuple[Floats, Ints], origin: Floats, ends: Floats) -> None:
     """One shaded view with the eigenvectors over it; all in view coordinates."""
     projected, faces = mesh
     frame = frame_around(np.concatenate([projected, origin + ends]), margin=0.07)
     show_image(axes, shaded_image(projected, faces, frame, COLUMNS, np.array(SKIN)), frame)
     for (name, colour), end in zip(ARROWS, ends, strict=True):
-        _arrow(axes, origin[:2], end[:2], name, colour)
-    scale_bar(axes, place=(0.03, 0.01))
+        _draw_arrow(axes, origin[:2], end[:2], name, colour)
+    draw_scale_bar(axes, place=(0.03, 0.01))
 
 
-def _arrow(axes: Axes, origin: Floats, way: Floats, name: str, colour: str) -> None:
+def _draw_arrow(axes: Axes, origin: Floats, way: Floats, name: str, colour: str) -> None:
     style = {"arrowstyle": "-|>", "color": colour, "linewidth": 2.0, "shrinkA": 0, "shrinkB": 0}
     start, tip = _pair(origin), _pair(origin + way)
     axes.annotate("", tip, xytext=start, arrowprops=style, zorder=4)
@@ -108,7 +108,7 @@ def _pair(point: Floats) -> tuple[float, float]:
     return float(point[0]), float(point[1])
 
 
-def _triad(axes: Axes, view: Floats) -> None:
+def _draw_triad(axes: Axes, view: Floats) -> None:
     """The directions of X, Y and Z in the upper right corner; an axis towards the eye is a dot."""
     corner, size = (0.9, 0.88), 22.0
     for name, way in zip("XYZ", view[:2].T, strict=True):

@@ -10,11 +10,11 @@ from footfit.geometry.numeric.arrays import Floats, Ints
 from footfit.report.pictures.drawn_outlines import SHADOW, ring, side_outline, sole_outline
 from footfit.report.pictures.figures import (
     INK,
-    headline,
+    draw_scale_bar,
     house_style,
     picture_bytes,
-    scale_bar,
     show_image,
+    write_title,
 )
 from footfit.report.pictures.heat import BREAKS_MM, COLOURS, NOT_COMPARED, SHADE, heat_colours
 from footfit.report.pictures.shading import (
@@ -54,12 +54,12 @@ def heat_figure(comparison: Comparison, *, titled: bool = True) -> Figure:
         grid = figure.add_gridspec(2, 3, width_ratios=(1.0, 1.0, 0.16))
         for index, (title, view) in enumerate(_views(comparison).items()):
             axes = figure.add_subplot(grid[index // 2, index % 2])
-            _panel(axes, meshes, VIEWS[view], comparison.clearance_mm)
+            _draw_panel(axes, meshes, VIEWS[view], comparison.clearance_mm)
             axes.set_title(title)
-        _legend(figure.add_subplot(grid[:, 2]))
+        _draw_legend(figure.add_subplot(grid[:, 2]))
         if titled:
             foot, last = comparison_names(comparison)
-            headline(figure, f"{foot} in {last}: the clearance around the foot")
+            write_title(figure, f"{foot} in {last}: the clearance around the foot")
     return figure
 
 
@@ -87,14 +87,14 @@ def _views(comparison: Comparison) -> dict[str, str]:
     return {title: named.get(view, view) for title, view in PANELS.items()}
 
 
-def _panel(axes: Axes, meshes: tuple[Mesh, Mesh], view: Floats, clearance_mm: Floats) -> None:
+def _draw_panel(axes: Axes, meshes: tuple[Mesh, Mesh], view: Floats, clearance_mm: Floats) -> None:
     (vertices, faces), last = meshes
     outline = _outline(last, view)
     low = vertices[vertices[:, 2] <= last[0][:, 2].max()]  # the leg needs no space in the picture
     frame = frame_around(np.concatenate([outline, (low @ view.T)[:, :2]]))
     show_image(axes, heat_image(vertices @ view.T, faces, clearance_mm, frame, COLUMNS), frame)
     axes.plot(*ring(outline).T, color=INK, linewidth=1.0, linestyle=(0, (5, 2)))
-    scale_bar(axes, place=(0.02, 0.0))
+    draw_scale_bar(axes, place=(0.02, 0.0))
 
 
 def heat_image(
@@ -129,7 +129,7 @@ def _outline(last: Mesh, view: Floats) -> Floats:
     return np.asarray(points * signs, dtype=np.float64)
 
 
-def _legend(axes: Axes) -> None:
+def _draw_legend(axes: Axes) -> None:
     """The colours as boxes, with the mm at their edges."""
     for step, colour in enumerate(COLOURS):
         axes.bar(0.5, 1.0, width=1.0, bottom=step, color=colour, edgecolor="white", linewidth=0.6)

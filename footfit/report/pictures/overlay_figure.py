@@ -12,15 +12,15 @@ from footfit.report.pictures.figures import (
     FILL,
     INK,
     SERIES,
-    bare,
-    headline,
+    draw_scale_bar,
+    hide_axes,
     house_style,
-    scale_bar,
+    write_title,
 )
 from footfit.report.pictures.flare_axes import (
     centre_line_mm,
-    curve_axes,
-    station_labels,
+    label_stations,
+    set_up_curves,
     toe_up,
 )
 from footfit.report.pictures.sides import Mesh, is_left, on_side
@@ -78,15 +78,15 @@ def overlay_figure(foot: Profiled, lasts: Sequence[DrawnLast], several: str) -> 
     with house_style():
         figure = Figure(figsize=(10.5, 6.4), layout="constrained")
         grid = figure.add_gridspec(3, 2, width_ratios=(0.9, 1.4))
-        _plan(figure.add_subplot(grid[:, 0]), foot, lasts)
-        _side(figure.add_subplot(grid[0, 1]), foot, lasts)
+        _draw_plan(figure.add_subplot(grid[:, 0]), foot, lasts)
+        _draw_side(figure.add_subplot(grid[0, 1]), foot, lasts)
         heading = figure.add_subplot(grid[1, 1])
-        _heading(heading, foot, lasts)
-        _plan_curvature(figure.add_subplot(grid[2, 1], sharex=heading), foot.flare, lasts)
+        _draw_heading(heading, foot, lasts)
+        _draw_plan_curvature(figure.add_subplot(grid[2, 1], sharex=heading), foot.flare, lasts)
         handles, labels = heading.get_legend_handles_labels()
         figure.legend(handles, labels, loc="outside lower center", ncols=2)
         against = visible(lasts[0].record.labels.name) if len(lasts) == 1 else several
-        headline(figure, f"{file_name(foot.aligned.alignment.info.path)} against {against}")
+        write_title(figure, f"{file_name(foot.aligned.alignment.info.path)} against {against}")
     return figure
 
 
@@ -102,7 +102,7 @@ def _label(last: DrawnLast, foot: Profiled) -> str:
     return f"{last.rank}  {short}, flare {signed(delta)}° from the foot's"
 
 
-def _plan(axes: Axes, foot: Profiled, lasts: Sequence[DrawnLast]) -> None:
+def _draw_plan(axes: Axes, foot: Profiled, lasts: Sequence[DrawnLast]) -> None:
     """Seen from above with the toe up, heels together."""
     mesh, left = foot.aligned, is_left(foot)
     sole = sole_outline(mesh.vertices_mm, mesh.faces).closed()
@@ -120,11 +120,11 @@ def _plan(axes: Axes, foot: Profiled, lasts: Sequence[DrawnLast]) -> None:
         "Sole and centre line from above" if drawn else "The foot's sole, and centre lines"
     )
     axes.margins(0.08)
-    bare(axes)
-    scale_bar(axes)
+    hide_axes(axes)
+    draw_scale_bar(axes)
 
 
-def _side(axes: Axes, foot: Profiled, lasts: Sequence[DrawnLast]) -> None:
+def _draw_side(axes: Axes, foot: Profiled, lasts: Sequence[DrawnLast]) -> None:
     """Seen from the side with the toe on the right, heels together."""
     profile = side_outline(foot.aligned.vertices_mm, foot.aligned.faces).closed()
     axes.fill(*profile.T, facecolor=FILL, edgecolor=INK, linewidth=1.6)
@@ -133,12 +133,14 @@ def _side(axes: Axes, foot: Profiled, lasts: Sequence[DrawnLast]) -> None:
             axes.plot(*ring(side_outline(*last.mesh).closed()).T, **_style(index))
     axes.set_title("From the side")
     axes.margins(0.03)
-    bare(axes)
+    hide_axes(axes)
 
 
-def _heading(axes: Axes, foot: Profiled, lasts: Sequence[DrawnLast]) -> None:
+def _draw_heading(axes: Axes, foot: Profiled, lasts: Sequence[DrawnLast]) -> None:
     flare = foot.flare
-    curve_axes(axes, flare.definition, "heading (deg)\n+ to medial", "Heading of the centre line")
+    set_up_curves(
+        axes, flare.definition, "heading (deg)\n+ to medial", "Heading of the centre line"
+    )
     label = f"foot, flare {angle_text(flare)}"
     axes.plot(flare.stations, flare.heading_deg, color=INK, linewidth=2.2, label=label)
     for index, last in enumerate(lasts):
@@ -146,13 +148,13 @@ def _heading(axes: Axes, foot: Profiled, lasts: Sequence[DrawnLast]) -> None:
         axes.plot(curve.stations, curve.heading_deg, label=_label(last, foot), **_style(index))
 
 
-def _plan_curvature(axes: Axes, flare: FlareProfile, lasts: Sequence[DrawnLast]) -> None:
+def _draw_plan_curvature(axes: Axes, flare: FlareProfile, lasts: Sequence[DrawnLast]) -> None:
     quantity, title = (
         "curvature x length\n+ turns inward",
         "Plan curvature: what a search by flare compares",
     )
-    curve_axes(axes, flare.definition, quantity, title)
-    station_labels(axes)
+    set_up_curves(axes, flare.definition, quantity, title)
+    label_stations(axes)
     plan = flare.curvature["plan"]
     if plan is not None:
         axes.plot(flare.stations, plan, color=INK, linewidth=2.2)

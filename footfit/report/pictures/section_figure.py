@@ -12,10 +12,10 @@ from footfit.report.pictures.figures import (
     INK,
     QUIET,
     SERIES,
-    bare,
-    headline,
+    draw_scale_bar,
+    hide_axes,
     house_style,
-    scale_bar,
+    write_title,
 )
 from footfit.report.pictures.sides import is_left
 from footfit.report.wording.comparison_words import comparison_names
@@ -29,42 +29,44 @@ if TYPE_CHECKING:
 
 ACROSS = 3
 STRIP = 6
-"""Panels side by side where all stand in one strip, with less said of each."""
+"""Panels side by side if all are in one strip, with fewer words for each."""
 SHOWN_OVER_MM = 6.0
-"""How far over the last a leg is drawn."""
+"""How far above the last a leg is drawn."""
 HALF_WIDTH_MM, UNDER_MM, WIDTH_INCHES = 66.0, 6.0, 10.5
-"""What a panel shows, and how wide the picture is."""
+"""How much a panel shows, and how wide the picture is."""
 
 
 def section_figure(comparison: Comparison, across: int = ACROSS, *, titled: bool = True) -> Figure:
-    """One panel a station, seen from behind, all at one scale: the foot filled, the last a line."""
+    """A panel for each station, seen from behind, all at one scale; foot filled, last a line."""
     from matplotlib.figure import Figure
 
-    mirror = 1.0 if is_left(comparison.foot) else -1.0  # the medial side, as it is seen from behind
+    mirror = 1.0 if is_left(comparison.foot) else -1.0
     sections, brief = comparison.sections, across > ACROSS
     rows = [sections[at : at + across] for at in range(0, len(sections), across)]
     tall = [max(_top(section) for section in row) + UNDER_MM for row in rows]
     inches = WIDTH_INCHES / across / (2.0 * HALF_WIDTH_MM)
-    height = (0.7 if titled else 0.4) + sum((0.9 if brief else 0.6) + inches * one for one in tall)
+    height = (0.7 if titled else 0.4) + sum(
+        (0.9 if brief else 0.6) + inches * high for high in tall
+    )
     with house_style():
         figure = Figure(figsize=(WIDTH_INCHES, height), layout="constrained")
         grid = figure.add_gridspec(len(rows), across, height_ratios=tall)
         for at, row in enumerate(rows):
             for column, section in enumerate(row):
                 axes = figure.add_subplot(grid[at, column])
-                _panel(axes, section, mirror, brief=brief)
+                _draw_panel(axes, section, mirror, brief=brief)
                 axes.set_xlim(-HALF_WIDTH_MM, HALF_WIDTH_MM)
                 axes.set_ylim(-UNDER_MM, tall[at] - UNDER_MM)
-        scale_bar(figure.axes[0], length_mm=20.0, place=(0.0, -0.02))
+        draw_scale_bar(figure.axes[0], length_mm=20.0, place=(0.0, -0.02))
         handles, labels = figure.axes[0].get_legend_handles_labels()
         figure.legend(handles, labels, loc="outside lower center", ncols=2)
         if titled:
             foot, last = comparison_names(comparison)
-            headline(figure, f"{foot} in {last}: sections from behind")
+            write_title(figure, f"{foot} in {last}: sections from behind")
     return figure
 
 
-def _panel(axes: Axes, section: SectionComparison, mirror: float, *, brief: bool) -> None:
+def _draw_panel(axes: Axes, section: SectionComparison, mirror: float, *, brief: bool) -> None:
     top = _top(section)
     for index, loop in enumerate(section.foot_outline):
         across, up = (ring(loop) * [mirror, 1.0]).T
@@ -78,7 +80,7 @@ def _panel(axes: Axes, section: SectionComparison, mirror: float, *, brief: bool
     where = f"{plain(section.x_mm, 0)} mm" + ("" if brief else " from the heel")
     axes.set_title(f"{section.station.capitalize()}, {where}")
     axes.axhline(0.0, color=QUIET, linewidth=0.5, zorder=0)
-    bare(axes)
+    hide_axes(axes)
     axes.set_xlabel(_words(section, brief=brief), fontsize=8)
 
 

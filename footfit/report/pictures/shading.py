@@ -124,7 +124,7 @@ def _hits(corners: Floats, low: Ints, box: int, shape: tuple[int, int]) -> _Hits
     """Which pixel centres of each triangle's box (box x box pixels) lie in the triangle."""
     steps = np.arange(box)
     columns, rows = low[:, :1] + steps, low[:, 1:] + steps
-    first, second = (_weight(corners, which, (columns, rows)) for which in (0, 1))
+    first, second = (_weight(corners, corner, (columns, rows)) for corner in (0, 1))
     third = 1.0 - first - second
     inside = (first >= 0) & (second >= 0) & (third >= 0)
     inside &= ((columns >= 0) & (columns < shape[1]))[:, None, :]
@@ -136,34 +136,32 @@ def _hits(corners: Floats, low: Ints, box: int, shape: tuple[int, int]) -> _Hits
     return _Hits(triangle, pixel, depth, weights)
 
 
-def _weight(corners: Floats, which: int, pixels: tuple[Ints, Ints]) -> Floats:
+def _weight(corners: Floats, corner: int, pixels: tuple[Ints, Ints]) -> Floats:
     """One corner's barycentric weight at each pixel centre of a box: linear in row and column.
 
     A triangle seen edge-on has no weights: NaN, which lies in no triangle.
     """
-    origin, one, two = (corners[:, (which + k) % 3, :2] for k in range(3))
-    across = two - one
-    area = across[:, 0] * (origin[:, 1] - one[:, 1]) - across[:, 1] * (origin[:, 0] - one[:, 0])
+    own, start, end = (corners[:, (corner + k) % 3, :2] for k in range(3))
+    across = end - start
+    area = across[:, 0] * (own[:, 1] - start[:, 1]) - across[:, 1] * (own[:, 0] - start[:, 0])
     slope = across / np.where(area == 0.0, np.nan, area)[:, None]
-    right = pixels[0] + 0.5 - one[:, :1]
-    up = pixels[1] + 0.5 - one[:, 1:]
+    right = pixels[0] + 0.5 - start[:, :1]
+    up = pixels[1] + 0.5 - start[:, 1:]
     weight: Floats = (slope[:, :1] * up)[:, :, None] - (slope[:, 1:] * right)[:, None, :]
     return weight
 
 
 def _keep_nearest(hits: _Hits, chunk: Ints, depth: Floats, kept: tuple[Ints, Floats]) -> None:
-    """Write the hits that lie in front of what ``depth`` and ``kept`` hold."""
-    order = np.lexsort((-hits.triangle, hits.depth, hits.pixel))
-    pixel = hits.pixel[order]
-    last = np.append(pixel[1:] != pixel[:-1], True) if len(pixel) else np.zeros(0, dtype=bool)
-    front = order[last]
-    front = front[hits.depth[front] > depth[hits.pixel[front]]]
-    depth[hits.pixel[front]] = hits.depth[front]
-    kept[0][hits.pixel[front]] = chunk[hits.triangle[front]]
-    kept[1][hits.pixel[front]] = hits.weights[front]
+    """Write into ``depth`` and ``kept`` the hits that lie in front of what they hold."""
+    front = np.flatnonzero(hits.depth > depth[hits.pixel])
+    front = front[np.lexsort((-hits.triangle[front], hits.depth[front]))]  # the nearest is last
+    pixel = hits.pixel[front]
+    depth[pixel] = hits.depth[front]
+    kept[0][pixel] = chunk[hits.triangle[front]]
+    kept[1][pixel] = hits.weights[front]
 
 
-def blended(values: Floats, corners: Ints, weights: Floats) -> Floats:
+def values_at(values: Floats, corners: Ints, weights: Floats) -> Floats:
     """Per-vertex ``values`` (n, k) at points given by their corners and weights, (p, 3) each."""
     mixed: Floats = np.einsum("pj,pjk->pk", weights, values[corners])
     return mixed
@@ -192,12 +190,12 @@ def seen_surface(
     normals = vertex_normals(projected, faces)
     if culled:
         a, b, c = (projected[faces[:, corner], :2] for corner in range(3))
-        one, two = b - a, c - a
-        faces = faces[one[:, 0] * two[:, 1] > one[:, 1] * two[:, 0]]
+        along, aside = b - a, c - a
+        faces = faces[along[:, 0] * aside[:, 1] > along[:, 1] * aside[:, 0]]
     seen = fragments(projected, faces, frame, shape)
     covered: Bools = seen.face >= 0
     corners, weights = faces[seen.face[covered]], seen.weights[covered]
-    normals = blended(normals, corners, weights)
+    normals = values_at(normals, corners, weights)
     normals /= np.maximum(np.linalg.norm(normals, axis=1, keepdims=True), 1e-12)
     return SeenSurface(covered, corners, weights, normals)
 
@@ -208,7 +206,7 @@ def light_direction() -> Floats:
     return light
 
 
-def lit(colours: Floats, normals: Floats) -> Floats:
+def colours_in_light(colours: Floats, normals: Floats) -> Floats:
     """``colours`` (p, 3) in the light; a surface seen from behind is lit as if from before.
 
     ``normals`` (p, 3) are in view coordinates: the third is towards the eye.
@@ -246,13 +244,13 @@ def shaded_image(
     fine = LIGHTING.oversampling
     shape = (rows_for(frame, columns) * fine, columns * fine)
     seen = seen_surface(projected, faces, frame, shape, culled=is_closed(faces))
-    base = colours if colours.ndim == 1 else blended(colours, seen.corners, seen.weights)
+    base = colours if colours.ndim == 1 else values_at(colours, seen.corners, seen.weights)
     shaded = np.zeros((*shape, 3))
-    shaded[seen.covered] = lit(np.broadcast_to(base, seen.normals.shape), seen.normals)
-    return _downsampled(shaded, seen.covered)[::-1]
+    shaded[seen.covered] = colours_in_light(np.broadcast_to(base, seen.normals.shape), seen.normals)
+    return _coarse_image(shaded, seen.covered)[::-1]
 
 
-def _downsampled(shaded: Floats, covered: Bools) -> Floats:
+def _coarse_image(shaded: Floats, covered: Bools) -> Floats:
     """Blocks of fine pixels as one with their share of coverage as alpha."""
     n = LIGHTING.oversampling
     rows, columns = covered.shape[0] // n, covered.shape[1] // n
