@@ -72,7 +72,7 @@ def test_a_check_beside_a_bad_mesh_has_the_code_of_different_failures(
     ("options", "code", "words"),
     [
         (("--profile", "disco"), 2, "child, dress, safety, sport, walking"),
-        (("--profile", "none.toml"), 3, "name a fit profile"),
+        (("--profile", "none.toml"), 3, "give a fit profile"),
         (("--by", "shape", "--fail-under", "good"), 2, "judges no fit"),
         (("--fail-under", "superb"), 2, "superb"),
     ],
