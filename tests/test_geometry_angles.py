@@ -7,6 +7,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from footfit.geometry.numeric.angles import angle_between, turning_angle
+from tests.bounds import EXACT
 from tests.strategies import rotations
 
 turns = st.floats(-np.pi + 1e-9, np.pi)
@@ -20,7 +21,7 @@ def test_turning_angle_is_the_difference_of_directions(start, turn, long, wide):
         return length * np.array([np.cos(angle), np.sin(angle)])
 
     found = turning_angle(leg(start, long), leg(start + turn, wide))
-    assert abs(np.angle(np.exp(1j * (found - turn)))) < 1e-12
+    assert abs(np.angle(np.exp(1j * (found - turn)))) < EXACT
 
 
 @given(rotations(), st.floats(0.0, np.pi), lengths)
@@ -28,7 +29,7 @@ def test_turning_angle_is_the_difference_of_directions(start, turn, long, wide):
 def test_angle_between_survives_rotation_and_length(rotation, angle, length):
     a = rotation @ np.array([1.0, 0.0, 0.0])
     b = rotation @ np.array([np.cos(angle), np.sin(angle), 0.0]) * length
-    assert abs(angle_between(a, b) - angle) < 1e-12
+    assert abs(angle_between(a, b) - angle) < EXACT
 
 
 def test_an_angle_near_pi_keeps_the_digits_that_arccos_loses():

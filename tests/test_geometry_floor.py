@@ -13,6 +13,7 @@ from footfit.geometry.numeric.planes import LEVEL, Plane, fitted_plane
 from footfit.geometry.pose.floor_plate import is_flat, without_plate
 from footfit.geometry.pose.sole_plane import sole_plane, support
 from tests import distortions, shapes
+from tests.bounds import ROUNDING
 from tools.lasts import LastSpec, last_mesh
 
 
@@ -25,17 +26,17 @@ def test_a_plane_through_points_of_a_plane_is_that_plane(seed):
     across = np.linalg.svd(normal[None])[2][1:]
     points = rng.normal(size=(40, 2)) @ across + 3.5 * normal
     plane = fitted_plane(points, rng.uniform(0.1, 1.0, 40), LEVEL.normal)
-    assert plane.normal == pytest.approx(normal, abs=1e-9)
-    assert plane.offset == pytest.approx(3.5, abs=1e-9)
+    assert plane.normal == pytest.approx(normal, abs=ROUNDING)
+    assert plane.offset == pytest.approx(3.5, abs=ROUNDING)
 
 
 def test_the_sole_plane_of_a_box_is_its_bottom():
     vertices, faces = shapes.cube(1.0, 8)
     sample = quadrature(vertices * [260.0, 90.0, 60.0], faces, 8.0)
     plane = sole_plane(sample, 260.0, Plane(LEVEL.normal, -28.0))
-    assert plane.normal == pytest.approx([0, 0, 1], abs=1e-6)
-    assert plane.offset == pytest.approx(-30.0, abs=0.2)
-    assert support(sample, plane, 260.0) == pytest.approx(90 / 260, rel=0.02)
+    assert plane.normal == pytest.approx([0, 0, 1], abs=ROUNDING)
+    assert plane.offset == pytest.approx(-30.0, abs=ROUNDING)
+    assert support(sample, plane, 260.0) == pytest.approx(90 / 260, rel=ROUNDING)
 
 
 def test_nothing_that_faces_down_leaves_the_start():

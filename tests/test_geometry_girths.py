@@ -11,6 +11,7 @@ from scipy.special import ellipe
 from footfit.geometry.measures.landmarks import Shape
 from footfit.geometry.measures.tape import convex_hull, hull_girth
 from tests import shapes
+from tests.bounds import EXACT
 from tests.strategies import seeds
 
 
@@ -20,7 +21,7 @@ def test_the_hull_is_scipys(seed: int) -> None:
     rng = np.random.default_rng(seed)
     points = rng.normal(size=(int(rng.integers(4, 200)), 2)) * [30.0, 8.0]
     peer = ConvexHull(points)
-    assert hull_girth(points) == pytest.approx(peer.area, rel=1e-12)
+    assert hull_girth(points) == pytest.approx(peer.area, rel=EXACT)
     assert len(convex_hull(points)) == len(peer.vertices)
 
 
@@ -46,4 +47,6 @@ def test_the_girth_of_an_ellipsoids_section_is_the_ellipses(share: float) -> Non
     shape = Shape(vertices - vertices.min(axis=0) * [1.0, 0.0, 1.0], faces)
     scale = np.sqrt(1.0 - (2.0 * share - 1.0) ** 2)
     girth = 4.0 * b * scale * ellipe(1.0 - (c / b) ** 2)
-    assert hull_girth(shape.across(share).points) == pytest.approx(girth, abs=0.3)
+    assert hull_girth(shape.across(share).points) == pytest.approx(
+        girth, abs=0.099
+    )  # measured 0.066

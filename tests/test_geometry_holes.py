@@ -12,6 +12,7 @@ from footfit.geometry.mesh.holes import HOLES, closed_mesh
 from footfit.geometry.mesh.surface import area_vectors
 from footfit.geometry.mesh.topology import boundary_loops, is_closed
 from tests import distortions, shapes
+from tests.bounds import ROUNDING
 from tests.solids import is_consistently_wound, signed_volume
 from tests.strategies import rotations, scales, shifts_mm
 from tools.lasts import LastSpec, last_mesh
@@ -47,7 +48,8 @@ def test_a_spheres_cap_is_the_spheres_to_a_seventh_of_what_a_flat_one_misses(
     away = np.linalg.norm(caps_of(whole, vertices), axis=1) - 50.0
     assert np.abs(away).max() < flat_misses / 7.0
     assert signed_volume(whole.vertices, whole.faces) == pytest.approx(
-        signed_volume(*shapes.sphere(50.0, subdivisions)), rel=1e-3
+        signed_volume(*shapes.sphere(50.0, subdivisions)),
+        rel=7.1e-4,  # measured 0.00047
     )
 
 
@@ -56,7 +58,7 @@ def test_noise_on_the_rim_does_not_make_a_cap_wild():
     noisy = distortions.white_noise(vertices, np.random.default_rng(2), 0.3)
     whole = closed_mesh(noisy, faces, LENGTH_MM)
     away = np.linalg.norm(caps_of(whole, vertices), axis=1) - 50.0
-    assert np.abs(away).max() < 0.75
+    assert np.abs(away).max() < 0.55  # measured 0.36
 
 
 def test_a_cap_of_a_plane_lies_in_it():
@@ -66,9 +68,9 @@ def test_a_cap_of_a_plane_lies_in_it():
     whole = closed_mesh(vertices, faces[keep], LENGTH_MM)
     cap = caps_of(whole, vertices)
     assert len(whole.extents) == 1
-    assert np.abs(cap[:, 2]).max() < 1e-9
+    assert np.abs(cap[:, 2]).max() < ROUNDING
     vectors = area_vectors(whole.vertices, whole.faces)
-    assert vectors[:, 2].sum() == pytest.approx(260.0 * 100.0, rel=1e-9)
+    assert vectors[:, 2].sum() == pytest.approx(260.0 * 100.0, rel=ROUNDING)
 
 
 def test_a_closed_mesh_comes_back_as_it_is(last):
@@ -137,7 +139,9 @@ def test_caps_move_with_the_mesh_whatever_its_order(last, rotation, shift, scale
     assert there.extents == pytest.approx([scale * extent for extent in home.extents])
     # A mirrored rim is walked the other way round: the same surface, its faces in another order.
     expected = _moments(home.vertices * flip @ rotation.T + shift, home.faces)
-    assert np.allclose(_moments(there.vertices / scale, there.faces), expected, atol=1e-6)
+    assert np.allclose(
+        _moments(there.vertices / scale, there.faces), expected, atol=ROUNDING, rtol=0
+    )
 
 
 def _moments(vertices, faces):

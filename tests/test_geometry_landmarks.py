@@ -27,7 +27,7 @@ def test_the_ends_are_the_ends() -> None:
     shape = last(length_mm=270.0)
     assert shape.length_mm == pytest.approx(270.0, abs=0.5)
     assert shape.pternion[0] == pytest.approx(0.0, abs=0.3)
-    assert shape.x_mm(1.0) == pytest.approx(270.0, abs=0.5)
+    assert shape.x_mm(1.0) == pytest.approx(270.0, abs=0.12)  # measured 0.075
     assert shape.x_mm(1.0) == pytest.approx(shape.ends[1].reach)
 
 
@@ -43,9 +43,9 @@ def test_a_joint_farther_forward_is_found_farther_forward() -> None:
 def test_the_joints_lie_on_the_outline() -> None:
     shape = last(length_mm=270.0, flare_deg=6.0)
     near = shape.vertices_mm[np.abs(shape.vertices_mm[:, 0] - shape.mt1[0]) < 3.0]
-    assert shape.mt1[1] == pytest.approx(near[:, 1].max(), abs=0.6)
+    assert shape.mt1[1] == pytest.approx(near[:, 1].max(), abs=0.29)  # measured 0.19
     near = shape.vertices_mm[np.abs(shape.vertices_mm[:, 0] - shape.mt5[0]) < 3.0]
-    assert shape.mt5[1] == pytest.approx(near[:, 1].min(), abs=0.6)
+    assert shape.mt5[1] == pytest.approx(near[:, 1].min(), abs=0.37)  # measured 0.24
     assert shape.mt5[0] < shape.mt1[0]
 
 
@@ -63,7 +63,7 @@ def test_the_lid_is_a_lasts_cone_top_whatever_the_noise() -> None:
     top_mm = shape.vertices_mm[:, 2].max()
     for one in (shape, noisy):
         lid_mm = one.vertices_mm[one.faces[one.top_cut]].mean(axis=1)[:, 2]
-        assert len(lid_mm) > 20
+        assert len(lid_mm) > 160  # measured 270
         assert np.mean(lid_mm > top_mm - 12.0) > 0.9
 
 
@@ -93,6 +93,7 @@ def test_a_leg_that_is_cut_is_closed_by_its_lid_and_no_dorsum(thinning: float) -
     shape = Shape(vertices, faces)
     lid, cut = shape.faces[shape.top_cut], whole.faces[whole.top_cut]
     assert face_areas(vertices, lid).sum() == pytest.approx(
-        face_areas(whole.vertices_mm, cut).sum(), rel=0.1
+        face_areas(whole.vertices_mm, cut).sum(),
+        rel=0.026,  # measured 0.017
     )
     assert vertices[lid][:, :, 2].min() > vertices[:, 2].max() - 12.0

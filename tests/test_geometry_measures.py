@@ -14,6 +14,7 @@ from hypothesis import strategies as st
 from footfit.geometry.measures.landmarks import Shape
 from footfit.geometry.measures.measure_table import BOTH, MEASURES, of_kind, unusual
 from footfit.geometry.mesh import topology
+from tests.bounds import ROUNDING
 from tests.conftest import ROOT, SAMPLES
 from tests.distortions import axis_rotation, half_subdivided, leg_cut, moved, plane_cut, white_noise
 from tests.reading import read_scan
@@ -66,7 +67,7 @@ def test_a_straight_last_has_its_planted_widths(ball_mm: float) -> None:
         2.0 * half_width_mm(spec, stations).max(), abs=0.8
     )
     sixth = 2.0 * half_width_mm(spec, np.array([1.0 / 6.0]))[0]
-    assert found["heel_width"] == pytest.approx(sixth, abs=0.8)
+    assert found["heel_width"] == pytest.approx(sixth, abs=0.16)  # measured 0.1
 
 
 @pytest.mark.parametrize("flare_deg", [6.0, 11.0, 16.0])
@@ -78,7 +79,7 @@ def test_a_bent_last_is_cut_aslant(flare_deg: float) -> None:
     slant = np.cos(np.radians(true_heading_deg(spec, np.array([1.0 / 6.0]))[0]))
     assert bent["heel_width"] == pytest.approx(straight["heel_width"] / slant, abs=0.8)
     for name in ("waist_girth", "short_heel_girth"):
-        assert bent[name] == pytest.approx(straight[name], rel=0.03), name
+        assert bent[name] == pytest.approx(straight[name], rel=0.018), name  # measured 0.012
 
 
 @pytest.mark.parametrize("toe_shape", ["round", "pointed"])
@@ -95,7 +96,7 @@ def test_a_last_stands_as_high_as_it_was_drafted(heel_mm: float, toe_shape: ToeS
 def test_the_heel_height_is_no_matter_of_widths_toes_or_flare(seed: int) -> None:
     spec = varied(np.random.default_rng(seed), rings=110, segments=80)
     found = taken(*last_mesh(spec), "last")
-    assert found["heel_height"] == pytest.approx(spec.heel_height_mm, abs=4.0)
+    assert found["heel_height"] == pytest.approx(spec.heel_height_mm, abs=3.5)  # measured 1.9
 
 
 def test_a_toe_that_is_sprung_more_reads_more() -> None:
@@ -110,8 +111,12 @@ def test_the_bottom_is_as_wide_as_from_feather_to_feather() -> None:
     """
     found = taken(*last_of(STRAIGHT), "last")
     half = half_width_mm(STRAIGHT, np.array([0.66, 1.0 / 6.0]))
-    assert found["bottom_width_ball"] == pytest.approx(2.0 * 0.882 * half[0], abs=1.5)
-    assert found["bottom_width_heel"] == pytest.approx(2.0 * 0.90 * half[1], abs=3.0)
+    assert found["bottom_width_ball"] == pytest.approx(
+        2.0 * 0.882 * half[0], abs=1.2
+    )  # measured 0.74
+    assert found["bottom_width_heel"] == pytest.approx(
+        2.0 * 0.90 * half[1], abs=2.0
+    )  # measured 1.3
 
 
 # ------------------------------------------------------------------ laws
@@ -126,7 +131,7 @@ def test_a_graded_shape_is_graded_in_every_measure(ratio: float) -> None:
             if isinstance(value, str):
                 assert other[name] == value
             else:
-                assert other[name] == pytest.approx(ratio * value, abs=0.01), name
+                assert other[name] == pytest.approx(ratio * value, abs=ROUNDING), name
 
 
 def test_a_subdivided_shape_measures_the_same() -> None:
@@ -188,7 +193,7 @@ def test_a_leg_cut_low_gives_reasons_and_no_wrong_girth(height_mm: float, closed
     if height_mm < 80.0:
         assert "cut" in found["short_heel_girth"] or "open" in found["short_heel_girth"]
     for name in ("length", "ball_width", "ball_girth", "waist_girth", "instep_girth", "heel_width"):
-        assert found[name] == pytest.approx(whole[name], abs=0.1), name
+        assert found[name] == pytest.approx(whole[name], abs=0.0065), name  # measured 0.0043
 
 
 @pytest.mark.parametrize("closed", [True, False])
@@ -202,7 +207,7 @@ def test_a_leg_cut_at_the_instep_has_no_instep(closed: bool) -> None:
         assert isinstance(found[name], str), name
         assert "instep" in found[name]
     for name in ("length", "ball_width", "ball_girth", "heel_width", "toe_height"):
-        assert found[name] == pytest.approx(whole[name], abs=0.1), name
+        assert found[name] == pytest.approx(whole[name], abs=0.0031), name  # measured 0.002
 
 
 def test_a_last_that_is_sawn_off_low_has_no_girth_over_its_top() -> None:
@@ -211,7 +216,7 @@ def test_a_last_that_is_sawn_off_low_has_no_girth_over_its_top() -> None:
     for name in ("instep_girth", "long_heel_girth", "short_heel_girth"):
         assert isinstance(sawn[name], str), name
     assert "sawn off below the instep" in sawn["instep_girth"]
-    assert sawn["ball_girth"] == pytest.approx(whole["ball_girth"], abs=0.1)
+    assert sawn["ball_girth"] == pytest.approx(whole["ball_girth"], abs=ROUNDING)
 
 
 def test_an_outline_that_goes_on_outward_has_no_joint_there() -> None:
@@ -230,7 +235,9 @@ def test_a_sole_that_is_missing_gives_reasons() -> None:
     found = taken(vertices, without(faces, low))
     for name in ("ball_girth", "waist_girth", "instep_girth", "long_heel_girth", "arch_height"):
         assert "open" in found[name], name
-    assert found["length"] == pytest.approx(taken(vertices, faces)["length"], abs=0.6)
+    assert found["length"] == pytest.approx(
+        taken(vertices, faces)["length"], abs=0.0055
+    )  # measured 0.0036
 
 
 def test_a_hole_in_the_arch_is_no_arch() -> None:
@@ -250,7 +257,9 @@ def test_a_small_hole_changes_no_girth() -> None:
     hole = np.linalg.norm(middle - top, axis=1) < 4.0
     assert hole.any()
     found = taken(vertices, without(faces, hole))
-    assert found["instep_girth"] == pytest.approx(whole["instep_girth"], abs=0.5)
+    assert found["instep_girth"] == pytest.approx(
+        whole["instep_girth"], abs=0.052
+    )  # measured 0.034
 
 
 @pytest.mark.parametrize("kind", ["foot", "last"])

@@ -8,6 +8,7 @@ from hypothesis import given, settings
 
 from footfit.geometry.mesh.outlines import closed_loops, outline, smooth_loop
 from tests import shapes
+from tests.bounds import ROUNDING
 from tests.distortions import joined, shuffled, subdivided, white_noise
 from tests.strategies import seeds, surfaces
 
@@ -24,21 +25,24 @@ def test_a_sphere_is_cut_in_a_circle(x_mm: float) -> None:
     section = outline(*shapes.sphere(40.0, 5), np.array([x_mm, 0.0, 0.0]), UPRIGHT, LENGTH_MM)
     (loop,) = section.loops
     radius = np.sqrt(40.0**2 - x_mm**2)
-    np.testing.assert_allclose(np.linalg.norm(loop, axis=1), radius, atol=0.1)
+    np.testing.assert_allclose(np.linalg.norm(loop, axis=1), radius, atol=0.022)  # measured 0.015
     assert section.gap_mm() == 0.0
-    assert section.length_mm.sum() == pytest.approx(2 * np.pi * radius, rel=2e-3)
+    assert section.length_mm.sum() == pytest.approx(
+        2 * np.pi * radius, rel=5.7e-4
+    )  # measured 0.00038
 
 
 def test_smoothing_halves_the_noise_and_does_not_shrink() -> None:
     angle = np.linspace(0.0, 2.0 * np.pi, 200, endpoint=False)
     circle = 35.0 * np.column_stack([np.cos(angle), np.sin(angle)])
     assert np.linalg.norm(smooth_loop(circle, LENGTH_MM), axis=1).mean() == pytest.approx(
-        35, abs=0.02
+        35,
+        abs=0.0047,  # measured 0.0031
     )
     noisy = circle + np.random.default_rng(5).normal(0.0, 0.3, circle.shape)
     radius = np.linalg.norm(smooth_loop(noisy, LENGTH_MM), axis=1)
     assert np.std(radius) < 0.15
-    assert radius.mean() == pytest.approx(35.0, abs=0.1)
+    assert radius.mean() == pytest.approx(35.0, abs=0.033)  # measured 0.022
 
 
 def test_two_bodies_give_two_loops_and_a_speck_none() -> None:
@@ -52,7 +56,7 @@ def test_two_bodies_give_two_loops_and_a_speck_none() -> None:
 def test_an_open_surface_says_how_wide_it_is_open() -> None:
     vertices, faces = shapes.open_cap(50.0, 90.0)
     section = outline(vertices, faces, np.zeros(3), UPRIGHT, LENGTH_MM)
-    assert section.gap_mm() == pytest.approx(100.0, rel=1e-3)
+    assert section.gap_mm() == pytest.approx(100.0, rel=ROUNDING)
     assert len(section.loops) == 1
 
 
@@ -64,7 +68,7 @@ def test_every_segment_is_in_one_loop_whatever_the_order(mesh, seed: int) -> Non
     assert section.gap_mm() == 0.0
     again = outline(*mesh, vertices.mean(axis=0), UPRIGHT, LENGTH_MM)
     assert sorted(perimeter(p) for p in again.loops) == pytest.approx(
-        sorted(perimeter(p) for p in section.loops), rel=1e-3
+        sorted(perimeter(p) for p in section.loops), rel=ROUNDING
     )
 
 
@@ -75,7 +79,7 @@ def test_a_subdivided_mesh_has_the_same_outline() -> None:
     one = outline(vertices, faces, np.zeros(3), UPRIGHT, LENGTH_MM)
     finer = subdivided(vertices, faces, rng.random(len(faces)) < 0.4)
     other = outline(*finer, np.zeros(3), UPRIGHT, LENGTH_MM)
-    assert perimeter(other.points) == pytest.approx(perimeter(one.points), abs=0.02)
+    assert perimeter(other.points) == pytest.approx(perimeter(one.points), abs=ROUNDING)
 
 
 def test_where_four_segments_meet_each_is_walked_once() -> None:

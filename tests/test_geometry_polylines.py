@@ -8,6 +8,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from footfit.geometry.numeric.polylines import arc_length, concentrated_curvature, curvature_density
+from tests.bounds import EXACT, ROUNDING
 from tests.strategies import rotations, scales, seeds
 
 
@@ -23,8 +24,8 @@ def _star_polygon(seed: int, corners: int) -> np.ndarray:
 @settings(max_examples=60, deadline=None)
 def test_a_simple_closed_curve_turns_by_two_pi(seed, corners):
     polygon = _star_polygon(seed, corners)
-    assert abs(concentrated_curvature(polygon, closed=True).sum() - 2 * np.pi) < 1e-9
-    assert abs(concentrated_curvature(polygon[::-1], closed=True).sum() + 2 * np.pi) < 1e-9
+    assert abs(concentrated_curvature(polygon, closed=True).sum() - 2 * np.pi) < ROUNDING
+    assert abs(concentrated_curvature(polygon[::-1], closed=True).sum() + 2 * np.pi) < ROUNDING
 
 
 @given(seeds, st.floats(0.1, 100.0))
@@ -34,7 +35,7 @@ def test_the_density_on_uneven_points_of_a_circle_is_one_over_its_radius(seed, r
     angle = np.cumsum(rng.uniform(0.01, 0.05, 60))
     circle = radius * np.stack([np.cos(angle), np.sin(angle)], axis=1)
     density = curvature_density(circle)[1:-1]
-    np.testing.assert_allclose(density * radius, 1.0, atol=0.05**2 / 8)
+    np.testing.assert_allclose(density * radius, 1.0, atol=0.05**2 / 12)
 
 
 def test_eq_12_the_arc_in_the_corner_turns_by_pi_minus_gamma_whatever_its_radius():
@@ -43,7 +44,7 @@ def test_eq_12_the_arc_in_the_corner_turns_by_pi_minus_gamma_whatever_its_radius
     for radius in (0.01, 0.3):
         reach = radius / np.tan(gamma / 2)  # from p to where the circle touches a leg
         arc = 2.0 * np.arctan2(reach, radius) * radius
-        assert abs(arc / radius - abs(concentrated_curvature(corner)[1])) < 1e-12
+        assert abs(arc / radius - abs(concentrated_curvature(corner)[1])) < EXACT
     assert abs(concentrated_curvature(corner)[1]) == pytest.approx(np.pi - gamma, abs=1e-14)
 
 
@@ -61,12 +62,12 @@ def test_laws_in_space(rotation, scale, seed):
     points = np.cumsum(np.random.default_rng(seed).normal(size=(12, 3)), axis=0)
     moved = scale * points @ rotation.T
     np.testing.assert_allclose(
-        concentrated_curvature(moved)[1:-1], concentrated_curvature(points)[1:-1], atol=1e-11
+        concentrated_curvature(moved)[1:-1], concentrated_curvature(points)[1:-1], atol=ROUNDING
     )
     np.testing.assert_allclose(
         curvature_density(moved)[1:-1] * scale, curvature_density(points)[1:-1], rtol=1e-9
     )
-    np.testing.assert_allclose(arc_length(moved), scale * arc_length(points), rtol=1e-12)
+    np.testing.assert_allclose(arc_length(moved), scale * arc_length(points), rtol=EXACT)
 
 
 def test_the_plane_is_the_space_without_height():

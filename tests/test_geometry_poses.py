@@ -22,6 +22,7 @@ from footfit.geometry.pose.pose_search import (
 )
 from footfit.pipeline.scan.shipped_templates import shipped_templates
 from tests import distortions, shapes
+from tests.bounds import ROUNDING
 from tools.lasts import LastSpec, last_mesh
 
 WINDOW = ((100.0, 400.0),)
@@ -45,8 +46,12 @@ def test_the_normal_equations_are_those_of_the_rows_written_out():
                 row = np.r_[np.cross(point, d), d, point @ d, gap @ d]
                 total[k] += w * np.outer(row, row)
     used = (slice(None), slice(7), slice(None))  # the last row is never read
-    np.testing.assert_allclose(_point_part(q, away, weight)[used], by_point[used], atol=1e-4)
-    np.testing.assert_allclose(_plane_part(q, away, plane, weight), by_plane, atol=1e-4)
+    np.testing.assert_allclose(
+        _point_part(q, away, weight)[used], by_point[used], atol=3.8e-6
+    )  # measured 2.5e-06
+    np.testing.assert_allclose(
+        _plane_part(q, away, plane, weight), by_plane, atol=4.4e-6
+    )  # measured 2.9e-06
 
 
 def test_icp_finds_back_a_small_known_motion():
@@ -61,16 +66,16 @@ def test_icp_finds_back_a_small_known_motion():
     )
     found = icp_steps(start, moved, (normals @ turn.T).astype(np.float32), shape, 25)
     back = moved @ found.rotation[0].T * found.scale[0] + found.shift[0]
-    assert np.linalg.norm(back - points, axis=1).max() < 0.02
+    assert np.linalg.norm(back - points, axis=1).max() < 7.2e-4  # measured 0.00048
 
 
 def test_levelling_takes_length_and_shift_from_the_low_part():
     vertices, _ = shapes.cube(1.0, 4)
     box = (vertices + np.array([0.5, 0.0, 0.5])) * [200.0, 80.0, 60.0] + [30.0, 7.0, -5.0]
     poses = levelled(np.eye(3, dtype=np.float32)[None], box.astype(np.float32), 0.1)
-    assert 1 / poses.scale[0] == pytest.approx(200.0, rel=1e-5)
+    assert 1 / poses.scale[0] == pytest.approx(200.0, rel=ROUNDING)
     corner = box.min(axis=0) * poses.scale[0] + poses.shift[0]
-    assert corner == pytest.approx([0.0, 0.1 - 0.2, 0.0], abs=1e-5)
+    assert corner == pytest.approx([0.0, 0.1 - 0.2, 0.0], abs=8.4e-9)  # measured 5.6e-09
 
 
 def test_a_mirror_image_of_a_pose_keeps_the_place_mirrored():
@@ -85,7 +90,7 @@ def test_a_mirror_image_of_a_pose_keeps_the_place_mirrored():
     image = mirror_image(pose, 0.25)
     here = points @ pose.rotation[0].T + pose.shift[0]
     there = (points * flip) @ image.rotation[0].T + image.shift[0]
-    np.testing.assert_allclose(there, here * flip + [0, 0.5, 0], atol=1e-5)
+    np.testing.assert_allclose(there, here * flip + [0, 0.5, 0], atol=8.9e-8)  # measured 5.9e-08
 
 
 def test_a_pose_is_turned_about_the_middle_of_the_shape():
@@ -100,7 +105,9 @@ def test_a_pose_is_turned_about_the_middle_of_the_shape():
     turned = turned_about(pose, half[None], 0.1, (0.5, 0.2))
     points = 100 * rng.normal(size=(20, 3)).astype(np.float32)
     before, after = pose_fit_moved(pose, points)[0], pose_fit_moved(turned, points)[0]
-    np.testing.assert_allclose(after - centre, (before - centre) @ half.T, atol=1e-5)
+    np.testing.assert_allclose(
+        after - centre, (before - centre) @ half.T, atol=1.8e-7
+    )  # measured 1.2e-07
 
 
 def test_a_search_that_kept_only_wrong_poses_is_still_put_right(last):
@@ -117,7 +124,7 @@ def test_a_search_that_kept_only_wrong_poses_is_still_put_right(last):
         less = rough_pose(vertices, faces, references, WINDOW, lame)
         without += bool(less.accepted and _upright(less.rotation @ turn))
     assert right == 10
-    assert without < 8  # else this test would test nothing
+    assert without < 6  # else this test would test nothing
 
 
 def _upright(turn):
@@ -171,5 +178,5 @@ def test_the_sample_is_spread_by_area():
     vertices, faces = shapes.cube(100.0, 4)
     sample = even_sample(vertices, faces, 1200)
     on_top = (np.abs(sample.points[:, 2] - 50.0) < 1e-9).mean()
-    assert on_top == pytest.approx(1 / 6, abs=0.005)
+    assert on_top == pytest.approx(1 / 6, abs=ROUNDING)
     assert sample.areas.sum() == pytest.approx(6e4)

@@ -9,6 +9,7 @@ from footfit.geometry.curvature.pooled_curvature import pooled_curvature
 from footfit.geometry.mesh import topology
 from footfit.geometry.mesh.refinement import with_flat_facets_split
 from tests import shapes
+from tests.bounds import EXACT
 from tests.distortions import subdivided
 from tests.solids import is_consistently_wound, signed_volume, surface_area
 
@@ -21,7 +22,7 @@ def test_a_cylinders_ends_are_split_and_its_wall_is_not():
     added = finer[len(vertices) :]
     assert set(np.unique(added[:, 2])) <= {0.0, 250.0}
     for measure in (surface_area, signed_volume):
-        assert measure(finer, split) == pytest.approx(measure(vertices, faces), rel=1e-12)
+        assert measure(finer, split) == pytest.approx(measure(vertices, faces), rel=EXACT)
     assert topology.is_closed(split)
     assert is_consistently_wound(split)
     flat = np.ptp(finer[split][:, :, 2], axis=1) == 0.0
@@ -46,7 +47,7 @@ def test_what_has_no_big_facets_is_left_alone(mesh):
 
 def test_a_tiny_side_is_not_followed_for_ever():
     vertices, faces = with_flat_facets_split(*shapes.cylinder(40.0, 250.0, 48, 10), 1e-3)
-    assert len(vertices) < 100_000
+    assert len(vertices) < 33_000  # measured 22,000
     assert topology.is_closed(faces)
 
 
@@ -59,4 +60,4 @@ def test_facets_without_vertices_of_their_own_read_as_if_they_had_them():
     rim = (np.abs(vertices[:, 2] - 30.0) == 30.0) & (np.hypot(*vertices[:, :2].T) > 1.0)
     coarse_k2 = pooled_curvature(vertices, faces, 15.0).k2[rim]
     fine_k2 = pooled_curvature(*fine, 15.0).k2[: len(vertices)][rim]
-    np.testing.assert_allclose(coarse_k2, fine_k2, rtol=0.15)
+    np.testing.assert_allclose(coarse_k2, fine_k2, rtol=0.03)  # measured 0.020

@@ -13,12 +13,13 @@ from footfit.geometry.numeric.rotations import (
     super_fibonacci,
 )
 from tests import distortions
+from tests.bounds import EXACT, ROUNDING
 
 
 def test_the_grid_holds_rotations_without_a_gap():
     grid = super_fibonacci(576)
     np.testing.assert_allclose(
-        grid @ grid.transpose(0, 2, 1), np.tile(np.eye(3), (576, 1, 1)), atol=1e-12
+        grid @ grid.transpose(0, 2, 1), np.tile(np.eye(3), (576, 1, 1)), atol=EXACT
     )
     assert (np.linalg.det(grid) > 0).all()
     rng = np.random.default_rng(3)
@@ -37,10 +38,10 @@ def test_the_grid_holds_rotations_without_a_gap():
 def test_turning_by_a_vector_turns_by_its_length(axis, angle):
     vector = np.array(axis) / np.linalg.norm(axis) * angle
     turn = rotations_about(vector[None])[0]
-    assert abs(np.radians(angle_deg(np.eye(3), turn)) - angle) < 1e-9
-    np.testing.assert_allclose(turn @ vector, vector, atol=1e-12)
+    assert abs(np.radians(angle_deg(np.eye(3), turn)) - angle) < ROUNDING
+    np.testing.assert_allclose(turn @ vector, vector, atol=EXACT)
 
 
 def test_the_nearest_rotation_of_a_scaled_one_is_itself():
     R = distortions.random_rotation(np.random.default_rng(1))
-    np.testing.assert_allclose(nearest_rotation(3.7 * R), R, atol=1e-12)
+    np.testing.assert_allclose(nearest_rotation(3.7 * R), R, atol=EXACT)

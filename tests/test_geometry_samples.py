@@ -25,7 +25,7 @@ def test_quadrature_splits_large_triangles_and_keeps_the_area():
     # the second moment of a square's middles tends to that of the square, a quarter per halving
     top = sample.points[:, 2] > 49.999
     moment = (sample.areas[top] @ sample.points[top, 0] ** 2) / sample.areas[top].sum()
-    assert moment == pytest.approx(100.0**2 / 12, rel=0.02)
+    assert moment == pytest.approx(100.0**2 / 12, rel=0.004)  # measured 0.0026
 
 
 def test_quadrature_stops_after_its_rounds():
@@ -40,7 +40,9 @@ def test_gathered_points_keep_area_and_moments_in_any_order():
     again = gathered_sample(SurfaceSample(*(part[shuffled] for part in astuple(whole))), 5.0)
     assert len(fewer.areas) < len(whole.areas) / 5
     assert fewer.areas.sum() == pytest.approx(whole.areas.sum())
-    assert fewer.areas @ fewer.points == pytest.approx(whole.areas @ whole.points, abs=1e-3)
+    assert fewer.areas @ fewer.points == pytest.approx(
+        whole.areas @ whole.points, abs=5.6e-10
+    )  # measured 3.7e-10
     moments = [(s.areas[:, None] * s.points).T @ s.points for s in (whole, fewer)]
     assert np.diag(moments[1]) == pytest.approx(np.diag(moments[0]), rel=2e-3)
     assert again.points == pytest.approx(fewer.points)

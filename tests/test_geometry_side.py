@@ -8,6 +8,7 @@ import pytest
 from footfit.geometry.mesh.samples import quadrature
 from footfit.geometry.pose.frame import canonical_frame
 from footfit.geometry.pose.side import confidence, side_score
+from tests.bounds import ROUNDING
 from tools.lasts import LastSpec, last_mesh
 
 
@@ -25,8 +26,8 @@ def test_inflared_lasts_are_right_and_their_mirror_images_left(flare_deg, heel_h
     points, length = canonical_points(spec)
     here = side_score(points, length)
     there = side_score(points * [1.0, -1.0, 1.0], length)
-    assert here.score > 0.5
-    assert there.score == pytest.approx(-here.score, abs=1e-9)
+    assert here.score > 2.4  # measured 4.1
+    assert there.score == pytest.approx(-here.score, abs=ROUNDING)
 
 
 def test_a_symmetric_shape_is_undecided():
@@ -34,7 +35,7 @@ def test_a_symmetric_shape_is_undecided():
     half = rng.random((4000, 3)) * [260.0, 45.0, 60.0]
     points = np.concatenate([half, half * [1.0, -1.0, 1.0]])
     score = side_score(points, 260.0).score
-    assert abs(score) < 1e-6
+    assert abs(score) < ROUNDING
     assert confidence(score) == "undecided"
 
 

@@ -9,6 +9,7 @@ from hypothesis import strategies as st
 
 from footfit.geometry.mesh.outermost_point import TIPS, share_over, tip
 from tests import shapes
+from tests.bounds import EXACT, ROUNDING
 from tests.distortions import random_rotation, subdivided, white_noise
 from tests.strategies import seeds
 
@@ -22,8 +23,8 @@ def test_the_reach_of_a_sphere_is_its_radius(seed: int) -> None:
     direction = random_rotation(np.random.default_rng(seed))[0]
     found = tip(vertices, faces, direction, LENGTH_MM)
     # an inscribed mesh of 5 mm edges lies up to e^2 / 6 r = .1 mm inside
-    assert found.reach == pytest.approx(40.0, abs=0.1)
-    assert np.linalg.norm(np.cross(found.place, direction)) < 0.5
+    assert found.reach == pytest.approx(40.0, abs=0.06)
+    assert np.linalg.norm(np.cross(found.place, direction)) < 0.02
 
 
 def test_noise_moves_the_outermost_vertex_and_not_the_tip() -> None:
@@ -35,8 +36,8 @@ def test_noise_moves_the_outermost_vertex_and_not_the_tip() -> None:
     vertex = np.mean([(v @ d).max() for v, d in pairs]) - 40.0
     found = np.array([tip(v, faces, d, LENGTH_MM).reach for v, d in pairs]) - 40.0
     assert vertex > 0.4
-    assert abs(found.mean()) < 0.2
-    assert np.sqrt(np.mean(found**2)) < 0.3
+    assert abs(found.mean()) < 0.035  # measured 0.023
+    assert np.sqrt(np.mean(found**2)) < 0.09  # measured 0.059
 
 
 def test_the_reach_of_a_flat_wall_is_the_wall() -> None:
@@ -52,7 +53,7 @@ def test_the_tip_is_the_surfaces_not_the_meshs(seed: int) -> None:
     direction = random_rotation(rng)[0]
     one = tip(vertices, faces, direction, LENGTH_MM)
     other = tip(*subdivided(vertices, faces, rng.random(len(faces)) < 0.5), direction, LENGTH_MM)
-    assert other.reach == pytest.approx(one.reach, abs=1e-9)
+    assert other.reach == pytest.approx(one.reach, abs=ROUNDING)
     outermost = float((vertices @ direction).max())
     assert outermost - TIPS.law[0] * LENGTH_MM <= one.reach <= outermost
 
@@ -63,5 +64,7 @@ def test_the_shares_over_all_levels_add_up_to_the_mean(corner: list[float]) -> N
     """The integral of the share over the levels is the mean height over the lowest level."""
     levels = np.linspace(-5.0, 5.0, 20001)
     shares = share_over(np.array([corner]), levels)[0]
-    assert np.all(np.diff(shares) <= 1e-12)
-    assert np.trapezoid(shares, levels) == pytest.approx(np.mean(corner) + 5.0, abs=1e-3)
+    assert np.all(np.diff(shares) <= EXACT)
+    assert np.trapezoid(shares, levels) == pytest.approx(
+        np.mean(corner) + 5.0, abs=5e-4
+    )  # measured 2.5e-4: the trapezoids

@@ -16,6 +16,7 @@ from footfit.geometry.mesh.moments import (
 from footfit.geometry.numeric.rotations import angle_deg, moved_points, rotations_about, transform
 from footfit.geometry.pose import paper_frame
 from tests import distortions
+from tests.bounds import EXACT, ROUNDING
 from tools.lasts import LastSpec, last_mesh
 
 SEEDS = st.integers(0, 2**32 - 1)
@@ -50,7 +51,7 @@ def test_the_literal_reading_equals_om_e_v_prime(last, seed, left):
         P_c, R = paper_frame.mirrored_frame(P_c, R)
     found = paper_frame.paper_transform(P_c, R, OM_E, np.zeros(3), 1.0, literal=True)
     expected = (moved - vertex_mean(moved)) @ OM_E.T
-    assert np.abs(moved_points(found, moved) - expected).max() < 1e-9
+    assert np.abs(moved_points(found, moved) - expected).max() < ROUNDING
 
 
 def test_what_the_literal_reading_costs(last):
@@ -68,8 +69,8 @@ def test_what_the_literal_reading_costs(last):
         for found, displacement in ((wrong, literal), (right, consistent)):
             away = np.linalg.norm(moved_points(found, moved) - vertices, axis=1)
             displacement.append(np.median(away))
-    assert np.median(literal) > 40.0
-    assert max(consistent) < 1e-6
+    assert np.median(literal) > 73.0  # measured 120
+    assert max(consistent) < ROUNDING
 
 
 @settings(max_examples=15, deadline=None)
@@ -80,8 +81,8 @@ def test_step_5_turns_the_covariance_diagonal(last, seed):
     found = paper_frame.paper_transform(centroid, axes, np.eye(3), np.zeros(3), 1.0)
     C_M = printed_covariance(moved_points(found, moved), last[1])
     values = moments_along(printed_covariance(moved, last[1]), axes)
-    np.testing.assert_allclose(C_M, np.diag(values), atol=1e-8)
-    assert np.abs(moved_points(found, moved).mean(axis=0)).max() < 1e-9
+    np.testing.assert_allclose(C_M, np.diag(values), atol=ROUNDING)
+    assert np.abs(moved_points(found, moved).mean(axis=0)).max() < ROUNDING
 
 
 @settings(max_examples=15, deadline=None)
@@ -97,7 +98,7 @@ def test_the_frames_angle_is_the_planted_turn(seed):
     for found, mirrored in ((paper, False), (of_mirrored, True)):
         transforms = transform(found, rng.normal(size=3), 25.4), transform(canonical, np.ones(3))
         found_deg = paper_frame.paper_frame_angle_deg(*transforms, mirrored=mirrored)
-        assert found_deg == pytest.approx(np.degrees(angle), abs=1e-9)
+        assert found_deg == pytest.approx(np.degrees(angle), abs=ROUNDING)
 
 
 @settings(max_examples=15, deadline=None)
@@ -113,14 +114,14 @@ def test_a_left_last_lands_on_its_right_twin(last, seed, scale):
     as_right = paper_frame.mirrored_frame(left_centroid, left_axes)
     found = paper_frame.paper_transform(*as_right, OM_E, reference, scale)
     file = left / scale * [-1.0, 1.0, 1.0]
-    assert np.abs(moved_points(found, file) - last[0]).max() < 1e-6
+    assert np.abs(moved_points(found, file) - last[0]).max() < ROUNDING
     direct = paper_frame.unmirrored(found, mirrored=True)
     assert np.linalg.det(direct[:3, :3]) > 0
-    assert np.abs(moved_points(direct, left / scale) - twin[0]).max() < 1e-6
+    assert np.abs(moved_points(direct, left / scale) - twin[0]).max() < ROUNDING
     left_canonical = left_canonical @ np.diag([scale, scale, scale, 1.0])
-    assert angle_deg(paper_frame.om_e(left_axes, left_canonical, mirrored=True), OM_E) < 1e-6
+    assert angle_deg(paper_frame.om_e(left_axes, left_canonical, mirrored=True), OM_E) < ROUNDING
     of_left = paper_frame.canonical_centroid_mm(left_centroid, left_canonical, scale, mirrored=True)
-    assert np.abs(of_left - reference).max() < 1e-6
+    assert np.abs(of_left - reference).max() < ROUNDING
 
 
 @settings(max_examples=30, deadline=None)
@@ -131,7 +132,7 @@ def test_settled_axes_are_a_rotation_whatever_order_and_signs_came(seed):
     near = rotations_about(rng.uniform(-0.2, 0.2, (1, 3)))[0]
     axes = near @ canonical
     shuffled = axes[rng.permutation(3)] * rng.choice([-1.0, 1.0], 3)[:, None]
-    np.testing.assert_allclose(paper_frame.settled(shuffled, canonical), axes, atol=1e-12)
+    np.testing.assert_allclose(paper_frame.settled(shuffled, canonical), axes, atol=EXACT)
 
 
 @settings(max_examples=30, deadline=None)
