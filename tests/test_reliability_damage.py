@@ -11,7 +11,7 @@ import pytest
 
 from footfit.catalogue.checks.plausible_values import implausible
 from footfit.catalogue.file.migrate import Schema
-from footfit.catalogue.rows.verified_rows import StoredLast, stored_lasts
+from footfit.catalogue.rows.verified_rows import LastRows, stored_lasts
 from footfit.catalogue.store import open_catalogue
 from tests import records
 from tests.conftest import Footfit
@@ -138,8 +138,8 @@ def test_a_value_that_cannot_be_is_found_though_its_hash_is_right(
     rows = stored.measures[0] if table == "measures" else getattr(stored, table)
     changed = {**rows, column: value}
     given = (changed,) if table == "measures" else changed
-    parts = {name: getattr(stored, name) for name in StoredLast.__slots__}
-    wrong = StoredLast(**{**parts, table: given})
+    parts = {name: getattr(stored, name) for name in LastRows.__slots__}
+    wrong = LastRows(**{**parts, table: given})
     assert any(column in words or "curves" in words for words in implausible(wrong))
 
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from contextlib import contextmanager
+from dataclasses import dataclass
 from pathlib import Path
 
 from footfit.catalogue.checks.damage import findings
@@ -77,6 +78,7 @@ def open_catalogue(
         file.close()
 
 
+@dataclass
 class Catalogue:
     """An open catalogue. Each reading method sees one snapshot; each writing one does all or
     nothing.
@@ -84,13 +86,10 @@ class Catalogue:
     Every method may raise the leaves of ``CatalogueUnusable`` (locked, not writable, damaged).
     """
 
-    def __init__(
-        self, file: CatalogueFile, revisions: Revisions, schema: Schema, busy_timeout_s: float
-    ) -> None:
-        self.file = file
-        self.revisions = revisions
-        self._schema = schema
-        self._busy_timeout_s = busy_timeout_s
+    file: CatalogueFile
+    revisions: Revisions
+    schema: Schema
+    busy_timeout_s: float
 
     # ------------------------------------------------------------ reading
 
@@ -181,7 +180,7 @@ class Catalogue:
     def findings(self) -> list[Finding]:
         """Everything that is not as it was stored."""
         with self.file.reading() as connection:
-            return findings(connection, self._schema)
+            return findings(connection, self.schema)
 
     def copy_to(self, target: Path) -> None:
         """Write a whole copy of this moment to ``target``, a missing or empty file.
@@ -192,7 +191,7 @@ class Catalogue:
             The catalogue cannot be read, or the copy cannot be written.
         """
         with sqlite_errors_in_words(self.file.path):
-            copy_into(self.file.path, target, self._busy_timeout_s)
+            copy_into(self.file.path, target, self.busy_timeout_s)
 
     # ------------------------------------------------------------ writing
 

@@ -15,7 +15,7 @@ from footfit.catalogue.rows.array_blobs import array_of, definition_text
 from footfit.catalogue.rows.columns import MESH_COPY, REFERENCE
 from footfit.catalogue.rows.reference_last import stored_reference, transform_by
 from footfit.catalogue.rows.verified_rows import (
-    StoredLast,
+    LastRows,
     last_names,
     row_digest,
     rows,
@@ -132,7 +132,7 @@ def _reference(connection: sqlite3.Connection) -> Iterator[Finding]:
             yield Finding("paper_transform", words, stored.name)
 
 
-def _agrees(stored: StoredLast, expected: Floats) -> bool:
+def _agrees(stored: LastRows, expected: Floats) -> bool:
     data = (stored.frame or {})["paper_transform"]
     if data is None:
         return False

@@ -14,10 +14,10 @@ from footfit.catalogue.rows.array_blobs import array_of, definition_of
 from footfit.catalogue.rows.columns import FLARE, FRAME, LAST, MEASURE, NOTICE, Table
 from footfit.catalogue.rows.digests import Row
 from footfit.catalogue.rows.rules import LIMITS, Rule, is_rotation
-from footfit.catalogue.rows.verified_rows import StoredLast
+from footfit.catalogue.rows.verified_rows import LastRows
 
 
-def implausible(stored: StoredLast) -> Iterator[str]:
+def implausible(stored: LastRows) -> Iterator[str]:
     """The values of a last's rows that cannot be, in words; nothing for a plausible last."""
     frame, flare = stored.frame or {}, stored.flare or {}
     yield from implausible_values(LAST, stored.last)
@@ -43,7 +43,7 @@ def implausible_values(table: Table, row: Row) -> Iterator[str]:
                 yield f"{table.name}.{column.name} is {shown}; it must be {expected}"
 
 
-def _is_similarity(stored: StoredLast) -> bool:
+def _is_similarity(stored: LastRows) -> bool:
     matrix = array_of((stored.frame or {})["canonical_transform"], 4, 4)
     return (
         bool(np.isfinite(matrix).all())
@@ -52,7 +52,7 @@ def _is_similarity(stored: StoredLast) -> bool:
     )
 
 
-def _curves_fit(stored: StoredLast) -> bool:
+def _curves_fit(stored: LastRows) -> bool:
     """Every curve has a value per station, and no heading turns more than half a circle."""
     flare = stored.flare or {}
     count = len(array_of(flare["stations"]))
@@ -65,7 +65,7 @@ def _curves_fit(stored: StoredLast) -> bool:
     return bool((np.abs(known) <= LIMITS.heading_deg).all())
 
 
-def _has_its_version(stored: StoredLast) -> bool:
+def _has_its_version(stored: LastRows) -> bool:
     version = (stored.flare or {})["definition_version"]
     return bool(definition_of(stored.definition).version == version)
 

@@ -50,7 +50,9 @@ class Revisions:
     backup: str | None = None
 
 
-def stored_revision(connection: sqlite3.Connection, schema: Schema, path: Path) -> str:
+def stored_revision(
+    connection: sqlite3.Connection, schema: Schema, path: Path, *, older: bool = True
+) -> str:
     """The revision of an open catalogue, one of ``schema.revisions``.
 
     Raises
@@ -59,6 +61,8 @@ def stored_revision(connection: sqlite3.Connection, schema: Schema, path: Path) 
         A later footfit wrote it.
     CatalogueDamaged
         It names no revision, or one that never existed.
+    CatalogueUnusable
+        It is older than the newest one, and ``older`` does not accept that.
     """
     (mirror,) = connection.execute("PRAGMA user_version").fetchone()
     rows = connection.execute("SELECT version_num FROM alembic_version").fetchall()
@@ -77,24 +81,11 @@ def stored_revision(connection: sqlite3.Connection, schema: Schema, path: Path) 
             f"names the schema {revision!r}, which does not exist; restore it from a backup",
             str(path),
         )
-    return revision
-
-
-def require_current(connection: sqlite3.Connection, schema: Schema, path: Path) -> None:
-    """Refuse a catalogue that has to be upgraded first, which only a writer can do.
-
-    Raises
-    ------
-    CatalogueUnusable
-        Its schema is older than this footfit's.
-    NewerCatalogue, CatalogueDamaged
-        See :func:`stored_revision`.
-    """
-    revision = stored_revision(connection, schema, path)
-    if revision != schema.head:
+    if not older and revision != schema.head:
         raise CatalogueUnusable(
             f"has the older schema {revision!r}; type: footfit upgrade-catalogue", str(path)
         )
+    return revision
 
 
 def create(connection: sqlite3.Connection, schema: Schema) -> None:

@@ -16,7 +16,6 @@ from footfit.catalogue.file.migrate import (
     Revisions,
     Schema,
     create,
-    require_current,
     stored_revision,
     upgrade,
 )
@@ -64,9 +63,7 @@ def open_for_reading(
             raise _no_catalogue(path)
         connection = connect_for_reading(path, busy_timeout_s)
         try:
-            if not older:
-                require_current(connection, schema, path)
-            revision = stored_revision(connection, schema, path)
+            revision = stored_revision(connection, schema, path, older=older)
         except BaseException:
             connection.close()
             raise
@@ -131,7 +128,7 @@ def _make(path: Path, schema: Schema, busy_timeout_s: float) -> sqlite3.Connecti
     connection = connect(path, "rwc", busy_timeout_s)
     try:
         create(connection, schema)
-        require_current(connection, schema, path)
+        stored_revision(connection, schema, path, older=False)
     except BaseException:
         connection.close()
         raise

@@ -8,7 +8,7 @@ from operator import itemgetter
 from footfit.catalogue.file.engine import LACKS
 from footfit.catalogue.rows.columns import FLARE, FRAME, LAST, MEASURE, MESH_COPY, NOTICE, REFERENCE
 from footfit.catalogue.rows.digests import Row
-from footfit.catalogue.rows.verified_rows import StoredLast
+from footfit.catalogue.rows.verified_rows import LastRows
 from footfit.errors import CatalogueDamaged
 from footfit.geometry.flare.definition import FlareProfile
 from footfit.results import (
@@ -42,7 +42,7 @@ mesh_copy_of = MESH_COPY.reader("", MeshCopy)
 _reference = REFERENCE.reader("", Reference, last=itemgetter("last"))
 
 
-def record_of(stored: StoredLast, names: Mapping[int, str]) -> LastRecord:
+def record_of(stored: LastRows, names: Mapping[int, str]) -> LastRecord:
     """The record of a last whose rows are intact; ``names`` of all lasts, for its parent.
 
     Raises

@@ -12,7 +12,7 @@ from footfit.catalogue.rows.array_blobs import blob
 from footfit.catalogue.rows.columns import FRAME, REFERENCE
 from footfit.catalogue.rows.records import printed_frame_of, record_of, reference_from
 from footfit.catalogue.rows.verified_rows import (
-    StoredLast,
+    LastRows,
     last_names,
     row_digest,
     rows,
@@ -72,7 +72,7 @@ def reference_of(record: LastRecord) -> Reference:
     )
 
 
-def transform_by(reference: Reference, stored: StoredLast) -> Floats:
+def transform_by(reference: Reference, stored: LastRows) -> Floats:
     """A last's ``paper_transform`` (4, 4) to the frame of a reference (Eq. 8).
 
     It needs few columns, so that a catalogue of an older schema can be checked too.
@@ -118,7 +118,7 @@ def make_reference(connection: sa.Connection, key: int) -> Reference:
     return reference
 
 
-def _require_intact(lasts: list[StoredLast]) -> None:
+def _require_intact(lasts: list[LastRows]) -> None:
     damaged = [stored.name for stored in lasts if not stored.intact]
     if damaged:
         raise CatalogueDamaged(
@@ -127,7 +127,7 @@ def _require_intact(lasts: list[StoredLast]) -> None:
         )
 
 
-def _write_transform(connection: sa.Connection, stored: StoredLast, reference: Reference) -> None:
+def _write_transform(connection: sa.Connection, stored: LastRows, reference: Reference) -> None:
     """Write a last's ``paper_transform``, and seal the last."""
     transform = blob(transform_by(reference, stored))
     update_row(connection, FRAME, stored.id, {"paper_transform": transform})

@@ -9,7 +9,7 @@ from dataclasses import dataclass
 
 from footfit.catalogue.rows.array_blobs import definition_text
 from footfit.catalogue.rows.records import record_of
-from footfit.catalogue.rows.verified_rows import StoredLast, last_names, stored_lasts
+from footfit.catalogue.rows.verified_rows import LastRows, last_names, stored_lasts
 from footfit.geometry.flare.definition import FlareDefinition
 from footfit.results import LastRecord
 
@@ -29,7 +29,7 @@ class SearchRows:
     outdated: tuple[str, ...]
 
 
-def sorted_lasts(connection: sqlite3.Connection) -> tuple[list[StoredLast], list[str]]:
+def sorted_lasts(connection: sqlite3.Connection) -> tuple[list[LastRows], list[str]]:
     """The intact lasts by name, and the names of the damaged ones."""
     lasts = stored_lasts(connection)
     verdicts = [(stored, stored.intact) for stored in lasts]

@@ -16,7 +16,7 @@ from footfit.errors import CatalogueDamaged, UnknownLast
 
 
 @dataclass(frozen=True, slots=True)
-class StoredLast:
+class LastRows:
     """The raw rows of one last without its mesh copy; None stands for a missing row."""
 
     id: int
@@ -95,7 +95,7 @@ def rows(connection: sqlite3.Connection, table: Table, last_id: int | None = Non
     return [dict(zip(columns, row, strict=True)) for row in cursor]
 
 
-def stored_lasts(connection: sqlite3.Connection, last_id: int | None = None) -> list[StoredLast]:
+def stored_lasts(connection: sqlite3.Connection, last_id: int | None = None) -> list[LastRows]:
     """The raw rows of every last, or of one, in the order in which they were first stored.
 
     This takes five SELECTs, however many lasts there are. They read the tables, not an index.
@@ -105,7 +105,7 @@ def stored_lasts(connection: sqlite3.Connection, last_id: int | None = None) -> 
     measures = _by_last(rows(connection, MEASURE, last_id))
     notices = _by_last(rows(connection, NOTICE, last_id))
     return [
-        StoredLast(
+        LastRows(
             id=row["id"],
             last=row,
             frame=frames.get(row["id"]),
@@ -161,7 +161,7 @@ def key_where(connection: sqlite3.Connection, column: str, value: str) -> int | 
     return None if row is None else int(row[0])
 
 
-def intact_last(connection: sqlite3.Connection, key: int) -> StoredLast:
+def intact_last(connection: sqlite3.Connection, key: int) -> LastRows:
     """The rows of one last, verified.
 
     Raises
