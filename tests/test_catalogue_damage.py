@@ -4,10 +4,14 @@ from __future__ import annotations
 
 import shutil
 import sqlite3
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
 
+from footfit.catalogue.rows.columns import REFERENCE
+from footfit.catalogue.rows.verified_rows import row_digest, rows
+from footfit.catalogue.rows.writing import driver_of
 from footfit.catalogue.store import open_catalogue
 from footfit.errors import CatalogueUnusable
 from tests import records
@@ -138,3 +142,24 @@ def test_a_flip_in_the_schema_itself_is_refused_or_found(path: Path, old: str, n
             assert all(record.labels.style is None or old != "style" for record in ranked)
     except CatalogueUnusable:
         pass
+
+
+def test_a_mesh_copy_that_cannot_be_is_found_though_its_hash_is_right(tmp_path: Path) -> None:
+    with open_catalogue(tmp_path / "c", write=True) as catalogue:
+        catalogue.add(records.last(), replace(records.mesh_copy(), faces=0))
+        (finding,) = catalogue.findings()
+    assert (finding.code, finding.last) == ("range", "oxford-42")
+    assert finding.message == "mesh_copy.faces is 0; it must be above zero"
+
+
+def test_a_reference_that_cannot_be_is_found_though_its_hash_is_right(path: Path) -> None:
+    with open_catalogue(path, write=True) as catalogue, catalogue.file.atomic() as connection:
+        driver = driver_of(connection)
+        driver.execute("UPDATE reference SET om_e = zeroblob(72)")
+        (row,) = rows(driver, REFERENCE)
+        driver.execute("UPDATE reference SET sha256 = ?", (row_digest(REFERENCE, row),))
+    with open_catalogue(path) as catalogue:
+        findings = catalogue.findings()
+    assert (findings[0].code, findings[0].last) == ("range", None)
+    assert findings[0].message == "reference.om_e is 72 bytes; it must be a rotation"
+    assert {finding.code for finding in findings[1:]} == {"paper_transform"}
