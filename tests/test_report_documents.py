@@ -17,6 +17,7 @@ from hypothesis import strategies as st
 
 from footfit import __version__
 from footfit.errors import SeveralFeet
+from footfit.geometry.pose.paper_frame import paper_frame_angle_deg
 from footfit.pipeline.fit.match import matched
 from footfit.report.json import json_line
 from footfit.results import (
@@ -35,7 +36,7 @@ from footfit.results import (
     StoredLast,
     UpgradeOutcome,
 )
-from footfit.results.documents import document, exact, part, rounded
+from footfit.results.values import exact, part, rounded
 from tests import answers
 from tests.comparisons import comparison
 
@@ -60,7 +61,7 @@ def every_document():
         answers.curvature(),
         SeveralFeet("two feet; take them apart", "a.stl"),
         Library((record,), 1, "derby-42"),
-        StoredLast(record, "derby-42"),
+        StoredLast(record, "derby-42", 0.0),
         ReferenceOutcome(answers.reference(), 12),
         RenameOutcome("b", "a"),
         RemoveOutcome("a"),
@@ -240,9 +241,9 @@ def test_a_curvature_counts_only_vertices_that_have_one() -> None:
 @given(st.text(max_size=40))
 @settings(deadline=None, max_examples=200)
 def test_any_name_gives_one_line_of_utf8_that_reads_back(name: str) -> None:
-    line = json_line(document("x", {"name": name}))
+    line = json_line(RemoveOutcome(name).to_dict())
     assert len(line.splitlines()) == 1
-    assert json.loads(line.encode("utf-8"))["name"] == name
+    assert json.loads(line.encode("utf-8"))["last"] == name
 
 
 def test_a_file_name_that_is_no_text_reads_back() -> None:
@@ -288,10 +289,9 @@ def test_the_papers_frame_is_turned_by_the_planted_angle(left: bool, planted_deg
     file_mirror = np.diag([-1.0, 1, 1]) if left else np.eye(3)
     frame_mirror = np.diag([1.0, -1, 1]) if left else np.eye(3)
     paper = answers.placed(turn @ frame_mirror @ rotation @ file_mirror, [1, 2, 3], scale=1000.0)
-    turned = replace(record, paper_transform=paper)
     assert np.linalg.det(paper[:3, :3]) > 0
-    assert turned.paper_frame_angle_deg == pytest.approx(planted_deg, abs=1e-6)
-    assert replace(record, paper_transform=None).paper_frame_angle_deg is None
+    angle_deg = paper_frame_angle_deg(paper, record.canonical_transform, mirrored=left)
+    assert angle_deg == pytest.approx(planted_deg, abs=1e-6)
 
 
 def test_lasts_are_listed_by_name_with_the_reference_marked() -> None:

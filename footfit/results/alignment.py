@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from footfit.results.documents import Json, document, fields, part
+from footfit.results.values import Document, Json, Part, fields, part
 
 if TYPE_CHECKING:
     from footfit.geometry.numeric.arrays import Floats, Ints
@@ -35,7 +35,7 @@ class SideVerdict:
 
 
 @dataclass(frozen=True, slots=True)
-class PoseQuality:
+class PoseQuality(Part):
     """How well the pose is settled; see ``docs/alignment.md``.
 
     ``cost`` of the fit to the reference shapes, ``margin`` to the best other pose, ``support``
@@ -49,13 +49,11 @@ class PoseQuality:
     sole: bool
     kind: str
 
-    def to_dict(self) -> Json:
-        """How well the pose is settled."""
-        return part(fields(self, "kind"))
+    not_written = ("kind",)
 
 
 @dataclass(frozen=True, slots=True)
-class Eigenframe:
+class Eigenframe(Part):
     """The paper's frame of one mesh (Eq. 1-5), signs and order settled by the canonical frame.
 
     ``centroid_mm`` (3,) in the file's axes; ``eigenvectors`` (3, 3) as rows in the file's
@@ -68,15 +66,14 @@ class Eigenframe:
     eigenvectors: Floats
     eigenvalues_mm2: Floats
 
-    def to_dict(self) -> Json:
-        """The vectors, and their values twice: descending, and paired with the rows."""
+    def _keys(self) -> Json:
         values = self.eigenvalues_mm2
         paired = {"eigenvalues_mm2": np.sort(values)[::-1], "row_eigenvalues_mm2": values}
-        return part(fields(self) | paired)
+        return fields(self) | paired
 
 
 @dataclass(frozen=True, slots=True)
-class Reference:
+class Reference(Part):
     """The reference last: its name, OM_E (Eq. 6) and its P_c (Eq. 1) in its canonical frame.
 
     ``om_e`` (3, 3) has the eigenvectors as columns in the canonical frame. Both come from the
@@ -87,9 +84,7 @@ class Reference:
     om_e: Floats
     centroid_mm: Floats
 
-    def to_dict(self) -> Json:
-        """The last and its OM_E (Eq. 6)."""
-        return part(fields(self, "centroid_mm"))
+    not_written = ("centroid_mm",)
 
 
 @dataclass(frozen=True, slots=True)
@@ -142,7 +137,7 @@ class PreparedScan:
 
 
 @dataclass(frozen=True, slots=True)
-class Alignment:
+class Alignment(Document):
     """One mesh, aligned.
 
     ``transform`` (4, 4) takes the file's coordinates to aligned mm (rotation, translation and
@@ -176,24 +171,21 @@ class Alignment:
         """The measured length; None where an end was not scanned."""
         return self.length.value
 
-    def to_dict(self) -> Json:
-        """``footfit.align/2``."""
-        return document(
-            "align",
-            {
-                "mesh": self.info,
-                **self.side.to_dict(),
-                "method": self.method,
-                "transform": self.transform,
-                **self.eigenframe.to_dict(),
-                "reference": self.reference,
-                "pose": self.pose,
-                "length_mm": self.length_mm,
-                "extent_mm": self.extent_mm,
-                "warnings": self.warnings,
-            },
-            version=2,
-        )
+    schema = "align/2"
+
+    def _keys(self) -> Json:
+        return {
+            "mesh": self.info,
+            **self.side.to_dict(),
+            "method": self.method,
+            "transform": self.transform,
+            **self.eigenframe.to_dict(),
+            "reference": self.reference,
+            "pose": self.pose,
+            "length_mm": self.length_mm,
+            "extent_mm": self.extent_mm,
+            "warnings": self.warnings,
+        }
 
 
 @dataclass(frozen=True, slots=True)

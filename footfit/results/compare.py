@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, ClassVar
+from typing import TYPE_CHECKING
 
-from footfit.results.documents import Json, document, fields, part, rounded, rows
+from footfit.results.values import Document, Json, Part, fields, part, rounded, rows
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
@@ -29,7 +29,7 @@ def zones_part(zones: Iterable[ZoneClearance]) -> Json:
 
 
 @dataclass(frozen=True, slots=True)
-class SizeDifference:
+class SizeDifference(Part):
     """One size of one section in mm: of the foot, of the last, and last minus foot."""
 
     name: str
@@ -37,13 +37,11 @@ class SizeDifference:
     last: Measured
     difference: Measured
 
-    def to_dict(self) -> Json:
-        """The three measured values."""
-        return part(fields(self, "name"))
+    not_written = ("name",)
 
 
 @dataclass(frozen=True, slots=True)
-class SectionComparison:
+class SectionComparison(Part):
     """Foot and last cut by one plane at a named ``station``, ``x_mm`` from the foot's heel.
 
     The outlines are closed loops (k, 2), across (+ is medial) and up, mm.
@@ -55,14 +53,13 @@ class SectionComparison:
     last_outline: tuple[Floats, ...]
     sizes: tuple[SizeDifference, ...]
 
-    def to_dict(self) -> Json:
-        """Where the section is, and its sizes by name."""
+    def _keys(self) -> Json:
         sizes = part({size.name: size for size in self.sizes})
-        return part({"station": self.station, "x_mm": self.x_mm, "sizes": sizes})
+        return {"station": self.station, "x_mm": self.x_mm, "sizes": sizes}
 
 
 @dataclass(frozen=True, slots=True)
-class SurfaceClearance:
+class SurfaceClearance(Part):
     """One foot of a customer in one last: the clearance between the surfaces, zone by zone.
 
     ``swing_mm`` is how far the foot's tread moves to medial to lie on the last's. ``reason`` says
@@ -74,13 +71,12 @@ class SurfaceClearance:
     zones: tuple[ZoneClearance, ...]
     reason: str | None = None
 
-    def to_dict(self) -> Json:
-        """The fields, the zones by name."""
-        return part(fields(self) | {"zones": zones_part(self.zones)})
+    def _keys(self) -> Json:
+        return fields(self) | {"zones": zones_part(self.zones)}
 
 
 @dataclass(frozen=True, slots=True)
-class Comparison:
+class Comparison(Document):
     """A foot in a last, both as right shapes in the last's frame, mm.
 
     ``vertices_mm`` (n, 3) and ``faces`` (m, 3) are the foot in its place, ``clearance_mm`` (n,) its
@@ -101,18 +97,9 @@ class Comparison:
     sections: tuple[SectionComparison, ...]
     warnings: tuple[Notice, ...]
 
-    columns: ClassVar[tuple[str, ...]] = (
-        "path",
-        "last",
-        "part",
-        "place",
-        "quantity",
-        "unit",
-        "foot",
-        "last_value",
-        "difference",
-        "sd",
-        "reason",
+    columns = (
+        *("path", "last", "part", "place", "quantity", "unit"),
+        *("foot", "last_value", "difference", "sd", "reason"),
     )
 
     @property
@@ -125,27 +112,24 @@ class Comparison:
         """The flare angles' difference, last minus foot."""
         return self.last.flare.angle_deg - self.foot.flare.angle_deg
 
-    def to_dict(self) -> Json:
-        """``footfit.compare/2``."""
+    schema = "compare/2"
+
+    def _keys(self) -> Json:
         alignment = self.foot.aligned.alignment
-        return document(
-            "compare",
-            {
-                "mesh": alignment.info,
-                **alignment.side.to_dict(),
-                "last": self.last.labels.name,
-                "last_side": self.last.side.side,
-                "mirrored": self.mirrored,
-                "length_mm": _lengths_part(alignment.length_mm, self.last.length_mm),
-                "extent_mm": _lengths_part(alignment.extent_mm, self.last.extent_mm),
-                "flare_delta_deg": self.flare_delta_deg,
-                "docking": part(fields(self.placement, "hinge_mm", "hinge_length_mm")),
-                "zones": zones_part(self.zones),
-                "sections": self.sections,
-                "warnings": self.warnings,
-            },
-            version=2,
-        )
+        return {
+            "mesh": alignment.info,
+            **alignment.side.to_dict(),
+            "last": self.last.labels.name,
+            "last_side": self.last.side.side,
+            "mirrored": self.mirrored,
+            "length_mm": _lengths_part(alignment.length_mm, self.last.length_mm),
+            "extent_mm": _lengths_part(alignment.extent_mm, self.last.extent_mm),
+            "flare_delta_deg": self.flare_delta_deg,
+            "docking": part(fields(self.placement, "hinge_mm", "hinge_length_mm")),
+            "zones": zones_part(self.zones),
+            "sections": self.sections,
+            "warnings": self.warnings,
+        }
 
     def rows(self) -> list[Json]:
         """A table: a row for each size of each section, and for each figure of each zone."""

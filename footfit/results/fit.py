@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from footfit.results.documents import Json, exact, fields, part
+from footfit.results.values import Json, Part, exact, fields, part
 
 if TYPE_CHECKING:
     from footfit.results.values import Measured, SideName, Verdict
@@ -57,7 +57,7 @@ class FitProfile:
 
 
 @dataclass(frozen=True, slots=True)
-class ZoneFit:
+class ZoneFit(Part):
     """One foot in one zone of a last.
 
     ``clearance`` is in ``unit``, ``target`` what the profile asks, ``score`` 0 at the target and
@@ -74,19 +74,16 @@ class ZoneFit:
     verdict: Verdict | None
     counts: bool
 
-    def to_dict(self) -> Json:
-        """The fields but the zone's name, which is its key."""
-        return part(fields(self, "zone"))
+    not_written = ("zone",)
 
 
 @dataclass(frozen=True, slots=True)
-class FootFit:
+class FootFit(Part):
     """One foot of the customer in one last; ``verdict`` is the worst of the zones that count."""
 
     side: SideName | None
     verdict: Verdict
     zones: tuple[ZoneFit, ...]
 
-    def to_dict(self) -> Json:
-        """The side, the verdict, and the zones by name."""
-        return part(fields(self) | {"zones": part({zone.zone: zone for zone in self.zones})})
+    def _keys(self) -> Json:
+        return fields(self) | {"zones": part({zone.zone: zone for zone in self.zones})}

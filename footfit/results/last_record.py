@@ -6,10 +6,8 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from footfit.geometry.fit import sizes
-from footfit.geometry.pose import paper_frame
-from footfit.results.documents import Json, document, fields, part
 from footfit.results.profile import flare_part
-from footfit.results.values import Measured, measures_part
+from footfit.results.values import Document, Json, Measured, fields, measures_part, part
 
 if TYPE_CHECKING:
     from footfit.geometry.flare.definition import FlareProfile
@@ -75,15 +73,6 @@ class LastRecord:
         """The label held against the length; None where the label says no number."""
         return sizes.label_check(self.labels.size, self.labels.size_system, self.length_mm)
 
-    @property
-    def paper_frame_angle_deg(self) -> float | None:
-        """How far the paper's frame is turned from footfit's; None without a reference."""
-        if self.paper_transform is None:
-            return None
-        return paper_frame.paper_frame_angle_deg(
-            self.paper_transform, self.canonical_transform, mirrored=self.side.side == "left"
-        )
-
     def entry(self, reference: str | None) -> Json:
         """One line of the library: the labels as given, the geometry as measured."""
         labels = fields(self.labels)
@@ -116,32 +105,34 @@ def _label_part(check: sizes.LabelCheck | None) -> Json | None:
 
 
 @dataclass(frozen=True, slots=True)
-class StoredLast:
-    """One last of a catalogue, and which last is the catalogue's reference, if any."""
+class StoredLast(Document):
+    """One last of a catalogue, and which last is the catalogue's reference, if any.
+
+    ``paper_frame_angle_deg`` is how far the paper's frame is turned from footfit's; it needs a
+    reference.
+    """
 
     record: LastRecord
     reference: str | None
+    paper_frame_angle_deg: float | None = None
 
-    def to_dict(self) -> Json:
-        """``footfit.show-last/2``: everything that is stored of one last but its mesh."""
+    schema = "show-last/2"
+
+    def _keys(self) -> Json:
         record = self.record
-        return document(
-            "show-last",
-            {
-                **record.entry(self.reference),
-                "mesh": record.info,
-                **record.side.to_dict(),
-                **flare_part(record.flare),
-                "centre_line": record.flare.centre_line,
-                "upgraded_from": record.upgraded_from,
-                "measures": measures_part(record.measures),
-                "transform": record.canonical_transform,
-                "paper_transform": record.paper_transform,
-                "paper_frame_angle_deg": record.paper_frame_angle_deg,
-                **record.eigenframe.to_dict(),
-                "printed_frame": record.printed_frame,
-                "pose": record.pose,
-                "warnings": record.warnings,
-            },
-            version=2,
-        )
+        return {
+            **record.entry(self.reference),
+            "mesh": record.info,
+            **record.side.to_dict(),
+            **flare_part(record.flare),
+            "centre_line": record.flare.centre_line,
+            "upgraded_from": record.upgraded_from,
+            "measures": measures_part(record.measures),
+            "transform": record.canonical_transform,
+            "paper_transform": record.paper_transform,
+            "paper_frame_angle_deg": self.paper_frame_angle_deg,
+            **record.eigenframe.to_dict(),
+            "printed_frame": record.printed_frame,
+            "pose": record.pose,
+            "warnings": record.warnings,
+        }

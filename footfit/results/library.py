@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, ClassVar
+from typing import TYPE_CHECKING
 
-from footfit.results.documents import Json, document, fields, part
+from footfit.results.values import LABELS, Document, Json, fields, part
 
 if TYPE_CHECKING:
     from footfit.errors import FootfitError
@@ -18,7 +18,7 @@ NO_FEET = 0
 
 
 @dataclass(frozen=True, slots=True)
-class IngestOutcome:
+class IngestOutcome(Document):
     """What became of one file: ``status`` is added, unchanged, replaced or refused.
 
     ``path`` is None for standard input. ``failure`` says why a file was refused. ``notes`` are
@@ -36,19 +36,20 @@ class IngestOutcome:
     notes: tuple[Notice, ...] = ()
     dry_run: bool = False
 
-    def to_dict(self) -> Json:
-        """``footfit.ingest-last/1``: what became of one file."""
+    schema = "ingest-last/1"
+
+    def _keys(self) -> Json:
         failure = self.failure
         failed = {
             "error": None if failure is None else failure.message,
             "code": None if failure is None else failure.code,
             "exit": 0 if failure is None else int(failure.exit),
         }
-        return document("ingest-last", fields(self, "failure", "notes") | failed)
+        return fields(self, "failure", "notes") | failed
 
 
 @dataclass(frozen=True, slots=True)
-class CatalogueFacts:
+class CatalogueFacts(Document):
     """What ``catalogue-info`` says: where the file is, what it holds, what it keeps of whom.
 
     ``kept`` is every table of the file with its rows: there is none for feet or customers.
@@ -68,27 +69,25 @@ class CatalogueFacts:
     worst_copy_error_mm: float | None
     kept: tuple[tuple[str, int], ...] = ()
 
-    def to_dict(self) -> Json:
-        """``footfit.catalogue-info/1``: where the catalogue is, and what it keeps."""
+    schema = "catalogue-info/1"
+
+    def _keys(self) -> Json:
         counts = ("definitions", "styles", "size_systems", "sides", "kept")
         copies = {
             "count": self.mesh_copies,
             "bytes": self.mesh_copy_bytes,
             "worst_error_mm": self.worst_copy_error_mm,
         }
-        return document(
-            "catalogue-info",
-            {
-                **fields(self, "mesh_copies", "mesh_copy_bytes", "worst_copy_error_mm"),
-                **{name: dict(getattr(self, name)) for name in counts},
-                "mesh_copies": part(copies),
-                "feet_kept": NO_FEET,
-            },
-        )
+        return {
+            **fields(self, "mesh_copies", "mesh_copy_bytes", "worst_copy_error_mm"),
+            **{name: dict(getattr(self, name)) for name in counts},
+            "mesh_copies": part(copies),
+            "feet_kept": NO_FEET,
+        }
 
 
 @dataclass(frozen=True, slots=True)
-class UpgradeOutcome:
+class UpgradeOutcome(Document):
     """What ``upgrade-catalogue`` did: the schema's revisions and the profiles re-computed."""
 
     path: str
@@ -98,13 +97,11 @@ class UpgradeOutcome:
     recomputed: tuple[str, ...]
     backup: str | None
 
-    def to_dict(self) -> Json:
-        """``footfit.upgrade-catalogue/1``: what changed, and where the file as it was lies."""
-        return document("upgrade-catalogue", fields(self))
+    schema = "upgrade-catalogue/1"
 
 
 @dataclass(frozen=True, slots=True)
-class DemoOutcome:
+class DemoOutcome(Document):
     """Where the demo's files lie; the report is the last of ``outputs``."""
 
     folder: str
@@ -112,48 +109,49 @@ class DemoOutcome:
     best: str | None
     outputs: tuple[str, ...]
 
-    def to_dict(self) -> Json:
-        """``footfit.demo/1``."""
-        return document("demo", fields(self, "best") | {"best_last": self.best})
+    schema = "demo/1"
+
+    def _keys(self) -> Json:
+        return fields(self, "best") | {"best_last": self.best}
 
 
 @dataclass(frozen=True, slots=True)
-class ReferenceOutcome:
+class ReferenceOutcome(Document):
     """The new reference last, and how many stored frames were rewritten for it."""
 
     reference: Reference
     rewritten: int
 
-    def to_dict(self) -> Json:
-        """``footfit.set-reference/1``."""
-        return document("set-reference", fields(self.reference) | {"rewritten": self.rewritten})
+    schema = "set-reference/1"
+
+    def _keys(self) -> Json:
+        return fields(self.reference) | {"rewritten": self.rewritten}
 
 
 @dataclass(frozen=True, slots=True)
-class RenameOutcome:
+class RenameOutcome(Document):
     """A last under its new name."""
 
     last: str
     renamed_from: str
 
-    def to_dict(self) -> Json:
-        """``footfit.rename-last/1``."""
-        return document("rename-last", fields(self))
+    schema = "rename-last/1"
 
 
 @dataclass(frozen=True, slots=True)
-class RemoveOutcome:
+class RemoveOutcome(Document):
     """A last that is no longer in the catalogue."""
 
     last: str
 
-    def to_dict(self) -> Json:
-        """``footfit.remove-last/1``."""
-        return document("remove-last", {"last": self.last, "status": "removed"})
+    schema = "remove-last/1"
+
+    def _keys(self) -> Json:
+        return {"last": self.last, "status": "removed"}
 
 
 @dataclass(frozen=True, slots=True)
-class ExportOutcome:
+class ExportOutcome(Document):
     """A file that was written of a last; ``faces`` and ``error_mm`` None for a record in JSON."""
 
     last: str
@@ -161,13 +159,11 @@ class ExportOutcome:
     faces: int | None = None
     error_mm: float | None = None
 
-    def to_dict(self) -> Json:
-        """``footfit.export-last/1``."""
-        return document("export-last", fields(self))
+    schema = "export-last/1"
 
 
 @dataclass(frozen=True, slots=True)
-class Library:
+class Library(Document):
     """The lasts to choose from, and what the catalogue says of itself."""
 
     lasts: tuple[LastRecord, ...]
@@ -176,32 +172,21 @@ class Library:
     rejected: tuple[tuple[str, int], ...] = ()
     warnings: tuple[Notice, ...] = ()
 
-    columns: ClassVar[tuple[str, ...]] = (
-        "last",
-        "style",
-        "size",
-        "size_system",
-        "width_label",
-        "heel_height_mm",
-        "family",
-        "parent",
-        "side",
-        "length_mm",
-        "flare_angle_deg",
-        "class",
-        "reference",
-        "size_by_length",
-        "label_flagged",
+    columns = (
+        *("last", *LABELS, "heel_height_mm", "family", "parent", "side"),
+        *("length_mm", "flare_angle_deg", "class", "reference"),
+        *("size_by_length", "label_flagged"),
     )
 
     def by_name(self) -> list[LastRecord]:
         """The lasts in the order of their names."""
         return sorted(self.lasts, key=lambda record: record.labels.name)
 
-    def to_dict(self) -> Json:
-        """``footfit.list-lasts/2``: an entry for each last, by name."""
+    schema = "list-lasts/2"
+
+    def _keys(self) -> Json:
         entries = [record.entry(self.reference) for record in self.by_name()]
-        return document("list-lasts", {"reference": self.reference, "lasts": entries}, version=2)
+        return {"reference": self.reference, "lasts": entries}
 
     def rows(self) -> list[Json]:
         """A table: a row for each last, by name, with its label's check."""

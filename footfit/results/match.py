@@ -3,12 +3,23 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, ClassVar
+from typing import TYPE_CHECKING
 
 from footfit.geometry.fit.sizes import SYSTEMS, foot_sizes
-from footfit.results.documents import Json, document, fields, part, rows
 from footfit.results.profile import flare_part
-from footfit.results.values import FIT_NAMES, NOT_YET, measured_part, measures_part
+from footfit.results.values import (
+    FIT_NAMES,
+    LABELS,
+    NOT_YET,
+    Document,
+    Json,
+    Part,
+    fields,
+    measured_part,
+    measures_part,
+    part,
+    rows,
+)
 
 if TYPE_CHECKING:
     from footfit.results.compare import SurfaceClearance
@@ -17,22 +28,26 @@ if TYPE_CHECKING:
     from footfit.results.profile import Profiled
     from footfit.results.values import Measured, Notice, SearchBy, SideName, Verdict
 
+CANDIDATE_COLUMNS = (
+    *("rank", "last", *LABELS),
+    *("side", "mirrored", "distance", "distance_sd"),
+)
+
 
 @dataclass(frozen=True, slots=True)
-class FlareDifference:
+class FlareDifference(Part):
     """The profile distance D and the flare angle's difference, last minus foot."""
 
     distance: float
     delta_deg: float
     parts: tuple[tuple[str, float], ...]
 
-    def to_dict(self) -> Json:
-        """The fields, the parts of the distance by channel."""
-        return part(fields(self) | {"parts": part(dict(self.parts))})
+    def _keys(self) -> Json:
+        return fields(self) | {"parts": part(dict(self.parts))}
 
 
 @dataclass(frozen=True, slots=True)
-class Candidate:
+class Candidate(Part):
     """One last of the answer. ``surfaces`` is of each foot, and empty where nobody asked."""
 
     rank: int
@@ -55,15 +70,14 @@ class Candidate:
     not_judged: tuple[str, ...] = ()
     surfaces: tuple[SurfaceClearance, ...] = ()
 
-    def to_dict(self) -> Json:
-        """The fields but the record; null where nobody asked for the room between surfaces."""
+    def _keys(self) -> Json:
         keys = fields(self, "record", "surfaces")
         clearance, room = measured_part(self.clearance_mm), self.surfaces or None
-        return part(keys | {"clearance_mm": clearance, "surface_clearance": room})
+        return keys | {"clearance_mm": clearance, "surface_clearance": room}
 
 
 @dataclass(frozen=True, slots=True)
-class Match:
+class Match(Document):
     """One customer's answer: one foot, or two with ``--pair``.
 
     ``nearest`` are the lasts that come nearest where none fits. ``size_system`` is the one that
@@ -84,44 +98,23 @@ class Match:
     size_system: str | None = None
     best_verdict: Verdict | None = None
 
-    columns: ClassVar[tuple[str, ...]] = (
-        "path",
-        "foot_side",
-        "by",
-        "rank",
-        "last",
-        "style",
-        "size",
-        "size_system",
-        "width_label",
-        "side",
-        "mirrored",
-        "distance",
-        "distance_sd",
-        "flare_distance",
-        "flare_delta_deg",
+    columns = (
+        *("path", "foot_side", "by", *CANDIDATE_COLUMNS, "flare_distance", "flare_delta_deg"),
         *(f"clearance_{name}_{end}" for name in FIT_NAMES for end in ("mm", "sd_mm")),
-        "foot_verdict",
-        "verdict",
-        "why",
-        "tied_with",
-        "not_judged",
-        "profile",
-        "profile_sha256",
+        *("foot_verdict", "verdict", "why", "tied_with", "not_judged"),
+        *("profile", "profile_sha256"),
     )
 
-    def to_dict(self) -> Json:
-        """``footfit.match/1``: one customer, one foot or two."""
+    schema = "match/1"
+
+    def _keys(self) -> Json:
         count = sum(count for _, count in self.rejected)
-        return document(
-            "match",
-            {
-                **fields(self, "catalogue_lasts", "reference"),
-                "feet": [foot_part(foot) for foot in self.feet],
-                "catalogue": {"lasts": self.catalogue_lasts, "reference": self.reference},
-                "rejected": {"count": count, "by_reason": dict(self.rejected)},
-            },
-        )
+        return {
+            **fields(self, "catalogue_lasts", "reference"),
+            "feet": [foot_part(foot) for foot in self.feet],
+            "catalogue": {"lasts": self.catalogue_lasts, "reference": self.reference},
+            "rejected": {"count": count, "by_reason": dict(self.rejected)},
+        }
 
     def rows(self) -> list[Json]:
         """A table: a row for each candidate and foot."""
@@ -139,16 +132,7 @@ class Match:
             alignment.info.path,
             alignment.side.side,
             self.by,
-            candidate.rank,
-            candidate.last,
-            candidate.style,
-            candidate.size,
-            candidate.size_system,
-            candidate.width_label,
-            candidate.side,
-            candidate.mirrored,
-            candidate.distance,
-            candidate.distance_sd,
+            *(getattr(candidate, name) for name in CANDIDATE_COLUMNS),
             candidate.flare.distance,
             candidate.flare.delta_deg,
             *(end for measured in room for end in (measured.value, measured.sd)),

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from footfit.results.documents import Json, fields, part
+from footfit.results.values import Part
 
 if TYPE_CHECKING:
     from footfit.geometry.numeric.arrays import Floats, Ints
@@ -14,7 +14,7 @@ if TYPE_CHECKING:
 
 
 @dataclass(frozen=True, slots=True)
-class MeshInfo:
+class MeshInfo(Part):
     """What the file was.
 
     ``vertices`` and ``faces`` count what is left after welding and cleaning, ``sha256`` is of
@@ -33,9 +33,10 @@ class MeshInfo:
     units_source: str
     unit_scale: float
 
-    def to_dict(self) -> Json:
-        """What the file was: a part of every document about a mesh."""
-        return part(fields(self, "format", "unit_scale"))
+    not_written = (
+        "format",
+        "unit_scale",
+    )
 
 
 @dataclass(frozen=True, slots=True)

@@ -3,13 +3,12 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, ClassVar
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from footfit.geometry.flare.definition import CHANNELS
-from footfit.results.documents import Json, document, exact, fields, part, rows
-from footfit.results.values import measures_part
+from footfit.results.values import Document, Json, exact, fields, measures_part, part, rows
 
 if TYPE_CHECKING:
     from footfit.geometry.flare.definition import FlareProfile
@@ -37,7 +36,7 @@ def flare_part(flare: FlareProfile) -> Json:
 
 
 @dataclass(frozen=True, slots=True)
-class Profiled:
+class Profiled(Document):
     """A mesh aligned, measured and profiled: what ingest stores and match ranks.
 
     ``suspects`` says what is hardly a foot's, or a last's, of the flare.
@@ -48,33 +47,24 @@ class Profiled:
     measures: tuple[Measure, ...]
     suspects: tuple[Notice, ...] = ()
 
-    columns: ClassVar[tuple[str, ...]] = (
-        "path",
-        "side",
-        "flare_angle_deg",
-        "flare_angle_sd_deg",
-        "class",
-        "definition",
-        "station",
-        "heading_deg",
-        *CHANNELS,
+    columns = (
+        *("path", "side", "flare_angle_deg", "flare_angle_sd_deg", "class", "definition"),
+        *("station", "heading_deg", *CHANNELS),
     )
 
-    def to_dict(self) -> Json:
-        """``footfit.flare/1``."""
+    schema = "flare/1"
+
+    def _keys(self) -> Json:
         alignment = self.aligned.alignment
-        return document(
-            "flare",
-            {
-                "mesh": alignment.info,
-                "kind": alignment.pose.kind,
-                **alignment.side.to_dict(),
-                **flare_part(self.flare),
-                "length_mm": alignment.length_mm,
-                "extent_mm": alignment.extent_mm,
-                "warnings": (*alignment.warnings, *self.suspects),
-            },
-        )
+        return {
+            "mesh": alignment.info,
+            "kind": alignment.pose.kind,
+            **alignment.side.to_dict(),
+            **flare_part(self.flare),
+            "length_mm": alignment.length_mm,
+            "extent_mm": alignment.extent_mm,
+            "warnings": (*alignment.warnings, *self.suspects),
+        }
 
     def rows(self) -> list[Json]:
         """The profile as a table: a row for each station."""
@@ -105,38 +95,30 @@ class Profiled:
 
 
 @dataclass(frozen=True, slots=True)
-class MeasuredScan:
+class MeasuredScan(Document):
     """A mesh aligned and measured; ``suspects`` are values that are hardly a foot's."""
 
     alignment: Alignment
     measures: tuple[Measure, ...]
     suspects: tuple[Notice, ...]
 
-    columns: ClassVar[tuple[str, ...]] = (
-        "path",
-        "side",
-        "kind",
-        "measure",
-        "value_mm",
-        "sd_mm",
-        "reason",
-        "definition",
+    columns = (
+        *("path", "side", "kind", "measure"),
+        *("value_mm", "sd_mm", "reason", "definition"),
     )
 
-    def to_dict(self) -> Json:
-        """``footfit.measure/1``."""
+    schema = "measure/1"
+
+    def _keys(self) -> Json:
         alignment = self.alignment
-        return document(
-            "measure",
-            {
-                "mesh": alignment.info,
-                **alignment.side.to_dict(),
-                "kind": alignment.pose.kind,
-                "measures": measures_part(self.measures),
-                "definitions": {row.name: row.definition for row in self.measures},
-                "warnings": (*alignment.warnings, *self.suspects),
-            },
-        )
+        return {
+            "mesh": alignment.info,
+            **alignment.side.to_dict(),
+            "kind": alignment.pose.kind,
+            "measures": measures_part(self.measures),
+            "definitions": {row.name: row.definition for row in self.measures},
+            "warnings": (*alignment.warnings, *self.suspects),
+        }
 
     def rows(self) -> list[Json]:
         """The measures as a table: a row for each; one without a value has a reason."""
@@ -151,7 +133,7 @@ class MeasuredScan:
 
 
 @dataclass(frozen=True, slots=True)
-class SurfaceCurvature:
+class SurfaceCurvature(Document):
     """Per-vertex curvature of a surface in 1/mm, (n,) each; NaN where it is undefined.
 
     ``k1`` <= ``k2``; convex is positive; ``radius_mm`` 0 is the paper's one ring. ``output``
@@ -170,22 +152,20 @@ class SurfaceCurvature:
     warnings: tuple[Notice, ...]
     output: str | None = None
 
-    def to_dict(self) -> Json:
-        """``footfit.curvature/1``: the spread of each curvature; the file holds every vertex."""
-        return document(
-            "curvature",
-            {
-                "mesh": self.info,
-                "radius_mm": self.radius_mm,
-                "defined_vertices": int(np.count_nonzero(np.isfinite(self.mean))),
-                "k1_per_mm": spread_part(self.k1),
-                "k2_per_mm": spread_part(self.k2),
-                "mean_per_mm": spread_part(self.mean),
-                "gaussian_per_mm2": spread_part(self.gaussian),
-                "output": self.output,
-                "warnings": self.warnings,
-            },
-        )
+    schema = "curvature/1"
+
+    def _keys(self) -> Json:
+        return {
+            "mesh": self.info,
+            "radius_mm": self.radius_mm,
+            "defined_vertices": int(np.count_nonzero(np.isfinite(self.mean))),
+            "k1_per_mm": spread_part(self.k1),
+            "k2_per_mm": spread_part(self.k2),
+            "mean_per_mm": spread_part(self.mean),
+            "gaussian_per_mm2": spread_part(self.gaussian),
+            "output": self.output,
+            "warnings": self.warnings,
+        }
 
 
 def spread_part(values: Floats) -> Json:

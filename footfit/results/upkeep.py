@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from footfit.results.documents import Json, document, fields, part
+from footfit.results.values import Document, Part
 
 
 @dataclass(frozen=True, slots=True)
-class Finding:
+class Finding(Part):
     """One thing in a catalogue that is not as it must be.
 
     ``last`` names the last it is about, if any. ``damage`` False: nothing is lost and a command
@@ -20,13 +20,9 @@ class Finding:
     last: str | None = None
     damage: bool = True
 
-    def to_dict(self) -> Json:
-        """Its fields."""
-        return part(fields(self))
-
 
 @dataclass(frozen=True, slots=True)
-class CheckOutcome:
+class CheckOutcome(Document):
     """What ``check-catalogue`` looked at, and what it found; nothing in a sound catalogue."""
 
     path: str
@@ -34,13 +30,11 @@ class CheckOutcome:
     mesh_copies: int
     findings: tuple[Finding, ...]
 
-    def to_dict(self) -> Json:
-        """``footfit.check-catalogue/1``: everything that is not as it must be."""
-        return document("check-catalogue", fields(self))
+    schema = "check-catalogue/1"
 
 
 @dataclass(frozen=True, slots=True)
-class BackupOutcome:
+class BackupOutcome(Document):
     """A verified copy: where it lies, its size and how many lasts it holds."""
 
     path: str
@@ -48,13 +42,11 @@ class BackupOutcome:
     bytes: int
     lasts: int
 
-    def to_dict(self) -> Json:
-        """``footfit.backup-catalogue/1``."""
-        return document("backup-catalogue", fields(self))
+    schema = "backup-catalogue/1"
 
 
 @dataclass(frozen=True, slots=True)
-class RestoreOutcome:
+class RestoreOutcome(Document):
     """A catalogue as its backup had it; ``kept`` is where the one before lies, if there was one."""
 
     path: str
@@ -62,6 +54,4 @@ class RestoreOutcome:
     lasts: int
     kept: str | None
 
-    def to_dict(self) -> Json:
-        """``footfit.restore-catalogue/1``."""
-        return document("restore-catalogue", fields(self))
+    schema = "restore-catalogue/1"

@@ -10,6 +10,7 @@ from footfit.catalogue.file.opening import FIRST_STEPS
 from footfit.catalogue.store import Catalogue, open_catalogue
 from footfit.errors import BadOption, EmptyCatalogue, NoReference
 from footfit.geometry.measures.measure_table import of_kind
+from footfit.geometry.pose.paper_frame import paper_frame_angle_deg
 from footfit.results import (
     CatalogueFacts,
     LastRecord,
@@ -53,7 +54,15 @@ def last(path: Path, name: str) -> StoredLast:
         There is no last of that name.
     """
     with open_catalogue(path) as catalogue:
-        return StoredLast(catalogue.record(name), _reference(catalogue))
+        record, reference = catalogue.record(name), _reference(catalogue)
+    if record.paper_transform is None:
+        return StoredLast(record, reference)
+    angle_deg = paper_frame_angle_deg(
+        record.paper_transform,
+        record.canonical_transform,
+        mirrored=record.side.side == "left",
+    )
+    return StoredLast(record, reference, angle_deg)
 
 
 def _reference(catalogue: Catalogue) -> str | None:

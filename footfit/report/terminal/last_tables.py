@@ -102,7 +102,7 @@ def show_last_table(last: StoredLast) -> RenderableType:
         ("flare", f"{turned}, definition {visible(flare.definition.version)}{upgraded}"),
         *_measures(record),
         ("reference", "this is the reference last" if labels.name == reference else "no"),
-        ("paper's frame", _paper_words(record)),
+        ("paper's frame", _paper_words(last)),
         ("eigenvalues", eigenvalue_words(record.eigenframe)),
         ("mesh", f"{info.vertices:,} vertices, {info.faces:,} faces, {info.units} in the file"),
         ("content", f"sha256 {info.sha256}"),
@@ -120,8 +120,8 @@ def _measures(record: LastRecord) -> list[tuple[str, str | Text]]:
     ]
 
 
-def _paper_words(record: LastRecord) -> str:
-    angle = record.paper_frame_angle_deg
+def _paper_words(last: StoredLast) -> str:
+    angle = last.paper_frame_angle_deg
     if angle is None:
         return "none: no reference is set"
     return f"turned by {plain(angle)} deg from footfit's"
