@@ -7,25 +7,15 @@ from footfit.version import __version__
 
 if TYPE_CHECKING:
     from footfit import errors, results
-    from footfit.api import (
-        Catalogue,
-        FootfitError,
-        LastLabels,
-        align,
-        compare,
-        curvature,
-        flare,
-        match,
-        measure,
-        mesh_file,
-        open_catalogue,
-        outcomes,
-        page,
-        picture,
-        read,
-        sources,
-        to_trimesh,
-    )
+    from footfit.api.catalogues import Catalogue, match, open_catalogue
+    from footfit.api.files import mesh_file, page, picture, to_trimesh
+    from footfit.api.inputs import sources
+    from footfit.api.scans import align, compare, curvature, flare, measure, outcomes, read
+    from footfit.errors import FootfitError
+    from footfit.results import LastLabels
+
+_HOMES = ("api.scans", "api.files", "api.catalogues", "errors", "results")
+"""Where the names are, the lightest first."""
 
 __all__ = [
     "Catalogue",
@@ -53,8 +43,10 @@ __all__ = [
 
 def __getattr__(name: str) -> object:
     """Import what is asked for when it is asked for: ``import footfit`` alone is quick."""
-    if name not in __all__:
-        raise AttributeError(f"module 'footfit' has no attribute {name!r}")
     if name in ("errors", "results"):
         return import_module(f"footfit.{name}")
-    return getattr(import_module("footfit.api"), name)
+    for home in _HOMES if name in __all__ else ():
+        module = import_module(f"footfit.{home}")
+        if hasattr(module, name):
+            return getattr(module, name)
+    raise AttributeError(f"module 'footfit' has no attribute {name!r}")

@@ -16,7 +16,7 @@ from footfit.cli.signals import LISTENER
 from footfit.errors import BadOption, FootfitError
 
 if TYPE_CHECKING:
-    from footfit.cli.option_groups import Batch, OutputMode, Scale
+    from footfit.cli.options import Batch, OutputMode, Scale
     from footfit.cli.outputs import Outputs
     from footfit.pipeline.batch.runs import Outcome
     from footfit.pipeline.batch.sources import Source
@@ -42,12 +42,12 @@ def answer_scans(
     BadOption, OutputExists, UnreadableFile
         Before any work: an output cannot be written, or there is no mesh.
     """
-    from footfit import api
+    from footfit.api import scans
 
     outputs.refuse(as_json=mode.json)
     sources = sources_of(meshes, reading, split=batch.split)
     outputs.require_one(sources)
-    outcomes = api.outcomes(verb, sources, jobs=batch.jobs, **reading.keywords(), **options)
+    outcomes = scans.outcomes(verb, sources, jobs=batch.jobs, **reading.keywords(), **options)
     raise typer.Exit(answer_outcomes(outcomes, replace(mode, total=len(sources)), outputs))
 
 
@@ -72,6 +72,13 @@ def answer_outcomes(
     return code
 
 
+def answer_result(result: Any, mode: OutputMode, outputs: Outputs) -> None:
+    """Write the files of a single result, and tell it."""
+    outputs.write(result)
+    tell(result, replace(mode, answers=outputs.csv != STDOUT))
+    outputs.write_csv([result])
+
+
 def sources_of(meshes: Sequence[str], reading: Scale, *, split: bool = False) -> list[Source]:
     """The meshes that a command was given, standard input among them.
 
@@ -82,17 +89,17 @@ def sources_of(meshes: Sequence[str], reading: Scale, *, split: bool = False) ->
     UnreadableFile
         A folder or glob without a mesh.
     """
-    from footfit import api
+    from footfit.api import inputs
     from footfit.pipeline.batch.sources import stdin_source
 
     if "-" not in meshes:
-        return api.sources(list(meshes), split=split, **reading.keywords())
+        return inputs.sources(list(meshes), split=split, **reading.keywords())
     if list(meshes) != ["-"]:
         raise BadOption("- reads one mesh from standard input; give it alone")
     if reading.format is None:
         raise BadOption("a mesh on standard input needs --format, for example --format stl")
     source = stdin_source(sys.stdin.buffer, reading.format.value)
-    return api.sources([source], split=split, **reading.keywords())
+    return inputs.sources([source], split=split, **reading.keywords())
 
 
 def tell_outcomes(

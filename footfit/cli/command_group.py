@@ -1,4 +1,4 @@
-"""How commands are found and how help looks: plain text under headings, without rich.
+"""How commands are found, how their options are grouped, and how help looks: without rich.
 
 Rich's help takes longer to import than all the rest of ``footfit -h``. A command's options are
 looked at when the command is used, not when the list of commands is shown.
@@ -6,8 +6,11 @@ looked at when the command is used, not when the list of commands is shown.
 
 from __future__ import annotations
 
+import inspect
 from collections.abc import Callable
-from typing import Any
+from dataclasses import fields, is_dataclass
+from functools import wraps
+from typing import Any, get_type_hints
 
 import typer
 from typer.core import TyperCommand, TyperGroup
@@ -15,6 +18,40 @@ from typer.main import get_command
 
 CommandTable = tuple[tuple[str, Callable[..., None], str], ...]
 """Every command: its name, its function, its heading in the help."""
+
+
+def plain_command(command: Callable[..., None]) -> Callable[..., None]:
+    """``command`` with a parameter for each option of its groups, as Typer reads them.
+
+    A group is a dataclass; its fields that are annotated with a Typer option are options.
+    """
+    hints = get_type_hints(command, include_extras=True)
+    groups: dict[str, Any] = {name: hint for name, hint in hints.items() if is_dataclass(hint)}
+    members = {name: _options_of(group) for name, group in groups.items()}
+    parameters: list[inspect.Parameter] = []
+    for name, parameter in inspect.signature(command).parameters.items():
+        parameters += members.get(name) or [_keyword(name, parameter.default, hints[name])]
+
+    @wraps(command)
+    def with_groups(**given: Any) -> None:
+        for name, group in groups.items():
+            given[name] = group(**{each.name: given.pop(each.name) for each in members[name]})
+        command(**given)
+
+    with_groups.__signature__ = inspect.Signature(parameters)  # type: ignore[attr-defined]
+    with_groups.__annotations__ = {each.name: each.annotation for each in parameters}
+    return with_groups
+
+
+def _options_of(group: Any) -> list[inspect.Parameter]:
+    hints = get_type_hints(group, include_extras=True)
+    members = [field for field in fields(group) if hasattr(hints[field.name], "__metadata__")]
+    return [_keyword(field.name, field.default, hints[field.name]) for field in members]
+
+
+def _keyword(name: str, default: Any, hint: Any) -> inspect.Parameter:
+    kind = inspect.Parameter.KEYWORD_ONLY
+    return inspect.Parameter(name, kind, default=default, annotation=hint)
 
 
 def _write_options(command: Any, context: Any, formatter: Any) -> None:
@@ -53,12 +90,15 @@ class LazyGroup(TyperGroup):
 
     def get_command(self, ctx: Any, cmd_name: str) -> Any:
         """The command of that name, None where there is none."""
-        functions = {name: function for name, function, _ in self.table}
-        if cmd_name not in functions:
+        functions = (function for name, function, _ in self.table if name == cmd_name)
+        function = next(functions, None)
+        if function is None:
             return None
         single = typer.Typer(add_completion=False, rich_markup_mode=None)
         settings = {"help_option_names": ["-h", "--help"]}
-        single.command(cmd_name, cls=PlainCommand, context_settings=settings)(functions[cmd_name])
+        single.command(cmd_name, cls=PlainCommand, context_settings=settings)(
+            plain_command(function)
+        )
         return get_command(single)
 
     def format_options(self, ctx: Any, formatter: Any) -> None:

@@ -1,31 +1,16 @@
-"""The options that commands share, each written once.
+"""The options that commands share, each written once; those that go together are a group.
 
-============  =======================================================
-``Meshes``    files, folders, globs, or ``-`` for stdin
-``Catalogue``  ``--catalogue PATH``
-``Json``      ``--json``
-``Quiet``     ``--quiet``
-``Verbose``   ``--verbose``
-``Units``     ``--units mm|cm|m|in|auto``
-``Known``     ``--known-length MM``
-``Side``      ``--side left|right|auto``
-``Format``    ``--format`` for stdin
-``Split``     ``--split``
-``Jobs``      ``--jobs N``
-``Csv``       ``--csv FILE``
-``Force``     ``--force``
-``LastName``  the name of a last
-============  =======================================================
+A command has a parameter of a group's type; `command_group` shows each option of the group.
 """
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from enum import StrEnum
 from pathlib import Path
-from typing import Annotated
+from typing import Annotated, Any
 
 import typer
-from typer.models import OptionInfo
 
 STDOUT = Path("-")
 """Where a file is asked for: the answer goes to stdout instead."""
@@ -65,91 +50,39 @@ class FormatName(StrEnum):
     threemf = "3mf"
 
 
-def file_to_write(*flags: str, help: str) -> OptionInfo:
-    """An option that names a file to write; what is in it differs from command to command."""
-    option: OptionInfo = typer.Option(
-        *flags, metavar="FILE", show_default=False, rich_help_panel=OUTPUT, help=help
-    )
-    return option
+def option(flag: str, help: str, metavar: str | None = None, *, panel: str | None = None) -> Any:
+    """An option with a value that has no default to show."""
+    return typer.Option(flag, metavar=metavar, show_default=False, rich_help_panel=panel, help=help)
 
 
-def switch(flag: str, *, help: str, panel: str | None = None) -> OptionInfo:
+def switch(flag: str, help: str, *, panel: str | None = None) -> Any:
     """An option without a value: the help shows no type that a reader would try to give it."""
-    option: OptionInfo = typer.Option(flag, metavar="", rich_help_panel=panel, help=help)
-    return option
+    return typer.Option(flag, metavar="", rich_help_panel=panel, help=help)
+
+
+def output_file(flag: str, help: str, *short: str) -> Any:
+    """An option that names a file to write; what is in it differs from command to command."""
+    return typer.Option(
+        *short, flag, metavar="FILE", show_default=False, rich_help_panel=OUTPUT, help=help
+    )
+
+
+def argument(metavar: str, help: str) -> Any:
+    """What a command works on."""
+    return typer.Argument(metavar=metavar, show_default=False, help=help)
 
 
 Meshes = Annotated[
-    list[str],
-    typer.Argument(
-        metavar="MESH",
-        show_default=False,
-        help="Mesh files, folders or globs; - reads one mesh from stdin.",
-    ),
+    list[str], argument("MESH", "Mesh files, folders or globs; - reads one mesh from stdin.")
 ]
+LastName = Annotated[str, argument("LAST", "The last's name; list-lasts shows them.")]
 Catalogue = Annotated[
     Path | None,
-    typer.Option(
+    option(
         "--catalogue",
-        metavar="PATH",
-        show_default=False,
-        rich_help_panel=CATALOGUE,
-        help="The catalogue file. Else FOOTFIT_CATALOGUE, the settings file, your data folder.",
-    ),
-]
-Json = Annotated[
-    bool,
-    switch("--json", panel=ANSWER, help="JSON lines on stdout, one document per mesh."),
-]
-Quiet = Annotated[
-    bool,
-    switch("--quiet", panel=ANSWER, help="No messages, only the answer."),
-]
-Verbose = Annotated[
-    bool,
-    switch("--verbose", panel=ANSWER, help="Show the traceback of a bug."),
-]
-Units = Annotated[
-    UnitName,
-    typer.Option(
-        "--units",
-        rich_help_panel=READING,
-        help="The file's unit; auto takes the one that makes the length 180-340 mm.",
-    ),
-]
-Known = Annotated[
-    float | None,
-    typer.Option(
-        "--known-length",
-        metavar="MM",
-        min=115,
-        max=370,
-        show_default=False,
-        rich_help_panel=READING,
-        help="Scale a scan without a true scale to this heel-to-toe length in mm.",
-    ),
-]
-Side = Annotated[
-    SideChoice,
-    typer.Option(
-        "--side", rich_help_panel=READING, help="The side; auto detects it and says how surely."
-    ),
-]
-Format = Annotated[
-    FormatName | None,
-    typer.Option(
-        "--format",
-        show_default=False,
-        rich_help_panel=READING,
-        help="The format of the mesh on stdin.",
-    ),
-]
-Split = Annotated[
-    bool,
-    switch(
-        "--split",
-        panel=READING,
-        help="Take the feet of one file apart; each is a line of its own (file.stl#1, #2).",
+        "The catalogue file. Else FOOTFIT_CATALOGUE, the settings file, your data folder.",
+        "PATH",
+        panel=CATALOGUE,
     ),
 ]
 Jobs = Annotated[
@@ -163,19 +96,91 @@ Jobs = Annotated[
         help="Processes to work with; the answer is the same for any number.",
     ),
 ]
-Force = Annotated[
-    bool,
-    switch("--force", panel=OUTPUT, help="Replace output files that exist."),
-]
+Force = Annotated[bool, switch("--force", "Replace output files that exist.", panel=OUTPUT)]
 Csv = Annotated[
     Path | None,
-    file_to_write(
-        "--csv", help="Write the answer as CSV; - writes it to stdout instead of the table."
-    ),
+    output_file("--csv", "Write the answer as CSV; - writes it to stdout instead of the table."),
 ]
-LastName = Annotated[
-    str,
-    typer.Argument(
-        metavar="LAST", show_default=False, help="The last's name; list-lasts shows them."
-    ),
-]
+
+
+@dataclass(frozen=True, slots=True)
+class Scale:
+    """How long a mesh is, and what comes on stdin."""
+
+    units: Annotated[
+        UnitName,
+        typer.Option(
+            "--units",
+            rich_help_panel=READING,
+            help="The file's unit; auto takes the one that makes the length 180-340 mm.",
+        ),
+    ] = UnitName.auto
+    known_length: Annotated[
+        float | None,
+        typer.Option(
+            "--known-length",
+            metavar="MM",
+            min=115,
+            max=370,
+            show_default=False,
+            rich_help_panel=READING,
+            help="Scale a scan without a true scale to this heel-to-toe length in mm.",
+        ),
+    ] = None
+    format: Annotated[
+        FormatName | None,
+        option("--format", "The format of the mesh on stdin.", panel=READING),
+    ] = None
+
+    def keywords(self) -> dict[str, Any]:
+        """As the functions of `footfit.api` take them."""
+        return {"units": self.units.value, "known_length_mm": self.known_length}
+
+
+@dataclass(frozen=True, slots=True)
+class Reading(Scale):
+    """How a foot or a last is to be understood."""
+
+    side: Annotated[
+        SideChoice,
+        typer.Option(
+            "--side", rich_help_panel=READING, help="The side; auto detects it and says how surely."
+        ),
+    ] = SideChoice.auto
+
+    def keywords(self) -> dict[str, Any]:
+        """As the functions of `footfit.api` take them."""
+        return {**Scale.keywords(self), "side": self.side.value}
+
+
+@dataclass(frozen=True, slots=True)
+class Batch:
+    """How many meshes are worked on."""
+
+    split: Annotated[
+        bool,
+        switch(
+            "--split",
+            "Take the feet of one file apart; each is a line of its own (file.stl#1, #2).",
+            panel=READING,
+        ),
+    ] = False
+    jobs: Jobs = 1
+
+
+@dataclass(frozen=True, slots=True)
+class OutputMode:
+    """JSON lines or tables, with or without messages.
+
+    ``total`` is how many answers are awaited. ``answers`` False: stdout is taken by a CSV.
+    """
+
+    json: Annotated[
+        bool, switch("--json", "JSON lines on stdout, one document per mesh.", panel=ANSWER)
+    ] = False
+    quiet: Annotated[bool, switch("--quiet", "No messages, only the answer.", panel=ANSWER)] = False
+    verbose: Annotated[bool, switch("--verbose", "Show the traceback of a bug.", panel=ANSWER)] = (
+        False
+    )
+    total: int = 1
+    answers: bool = True

@@ -4,12 +4,8 @@ from __future__ import annotations
 
 import os
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 from footfit.errors import BadOption
-
-if TYPE_CHECKING:
-    from footfit.api import Catalogue
 
 ENVIRONMENT_NAME = "FOOTFIT_CATALOGUE"
 SETTINGS_NAME = "settings.toml"
@@ -65,19 +61,6 @@ def catalogue_path(option: Path | None) -> Path:
     import platformdirs
 
     return Path(platformdirs.user_data_dir("footfit", appauthor=False)) / CATALOGUE_NAME
-
-
-def catalogue_at(option: Path | None) -> Catalogue:
-    """The catalogue to use, for a command to work with.
-
-    Raises
-    ------
-    BadOption
-        The settings file cannot be understood.
-    """
-    from footfit import api
-
-    return api.open_catalogue(catalogue_path(option))
 
 
 def one_blas_thread() -> None:

@@ -9,7 +9,6 @@ from typing import Annotated
 import typer
 
 from footfit.cli import options
-from footfit.cli.option_groups import Batch, OutputMode, Reading, with_groups
 
 
 class MethodName(StrEnum):
@@ -20,19 +19,18 @@ class MethodName(StrEnum):
     paper_literal = "paper-literal"
 
 
-@with_groups
 def align(
     meshes: options.Meshes,
     output: Annotated[
         Path | None,
-        options.file_to_write(
-            "-o", "--output", help="Write the aligned mesh (.stl, .ply, .obj, .off), mm."
+        options.output_file(
+            "--output", "Write the aligned mesh (.stl, .ply, .obj, .off), mm.", "-o"
         ),
     ] = None,
     plot: Annotated[
         Path | None,
-        options.file_to_write(
-            "--plot", help="Draw the mesh and its eigenvectors before and after (.svg, .png)."
+        options.output_file(
+            "--plot", "Draw the mesh and its eigenvectors before and after (.svg, .png)."
         ),
     ] = None,
     method: Annotated[
@@ -42,33 +40,28 @@ def align(
         ),
     ] = MethodName.footfit,
     to: Annotated[
-        str | None,
-        typer.Option(
-            "--to",
-            metavar="LAST",
-            show_default=False,
-            help="Whose OM_E to use, else the reference's.",
-        ),
+        str | None, options.option("--to", "Whose OM_E to use, else the reference's.", "LAST")
     ] = None,
     catalogue: options.Catalogue = None,
     force: options.Force = False,
     *,
-    reading: Reading,
-    batch: Batch,
-    mode: OutputMode,
+    reading: options.Reading,
+    batch: options.Batch,
+    mode: options.OutputMode,
 ) -> None:
     """Align scans: heel to toe along X, sole down, mm.
 
     Example: footfit align foot.stl -o aligned.stl --plot frames.svg
     """
-    from footfit import api
+    from footfit.api import files, scans
+    from footfit.api.catalogues import open_catalogue
     from footfit.cli.answers import answer_scans
     from footfit.cli.outputs import OutputFile, Outputs
-    from footfit.cli.settings import catalogue_at
+    from footfit.cli.settings import catalogue_path
     from footfit.pipeline.export import MESH_KINDS, PICTURE_KINDS
 
-    mesh, picture = (output, MESH_KINDS, api.mesh_file), (plot, PICTURE_KINDS, api.picture)
+    mesh, picture = (output, MESH_KINDS, files.mesh_file), (plot, PICTURE_KINDS, files.picture)
     outputs = Outputs((OutputFile(*mesh), OutputFile(*picture)), force=force)
-    reference = catalogue_at(catalogue).reference(to, method.value)
+    reference = open_catalogue(catalogue_path(catalogue)).reference(to, method.value)
     chosen = {"method": method.value, "reference": reference}
-    answer_scans(api.align, meshes, reading, batch, mode, outputs, **chosen)
+    answer_scans(scans.align, meshes, reading, batch, mode, outputs, **chosen)

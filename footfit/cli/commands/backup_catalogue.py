@@ -5,27 +5,22 @@ from __future__ import annotations
 from pathlib import Path
 from typing import Annotated
 
-import typer
-
 from footfit.cli import options
-from footfit.cli.option_groups import OutputMode, with_groups
 
 
-@with_groups
 def backup_catalogue(
-    file: Annotated[
-        Path, typer.Argument(metavar="FILE", show_default=False, help="The backup to write.")
-    ],
+    file: Annotated[Path, options.argument("FILE", "The backup to write.")],
     catalogue: options.Catalogue = None,
     force: options.Force = False,
     *,
-    mode: OutputMode,
+    mode: options.OutputMode,
 ) -> None:
     """Copy the catalogue, also while others write to it; a damaged one is refused.
 
     Example: footfit backup-catalogue lasts-2026-05-01.footfit
     """
+    from footfit.api.catalogues import open_catalogue
     from footfit.cli.answers import tell
-    from footfit.cli.settings import catalogue_at
+    from footfit.cli.settings import catalogue_path
 
-    tell(catalogue_at(catalogue).backup(file, replace=force), mode)
+    tell(open_catalogue(catalogue_path(catalogue)).backup(file, replace=force), mode)

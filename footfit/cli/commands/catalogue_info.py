@@ -3,20 +3,19 @@
 from __future__ import annotations
 
 from footfit.cli import options
-from footfit.cli.option_groups import OutputMode, with_groups
 
 
-@with_groups
 def catalogue_info(
     catalogue: options.Catalogue = None,
     *,
-    mode: OutputMode,
+    mode: options.OutputMode,
 ) -> None:
     """Say where the catalogue is, what it holds and what it keeps.
 
     Example: footfit catalogue-info
     """
+    from footfit.api.catalogues import open_catalogue
     from footfit.cli.answers import tell
-    from footfit.cli.settings import catalogue_at
+    from footfit.cli.settings import catalogue_path
 
-    tell(catalogue_at(catalogue).info(), mode)
+    tell(open_catalogue(catalogue_path(catalogue)).info(), mode)

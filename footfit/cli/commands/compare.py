@@ -5,86 +5,66 @@ from __future__ import annotations
 from pathlib import Path
 from typing import Annotated
 
-import typer
-
 from footfit.cli import options
-from footfit.cli.option_groups import OutputMode, Reading, with_groups
 
 
-@with_groups
 def compare(
-    foot: Annotated[
-        str,
-        typer.Argument(
-            metavar="FOOT",
-            show_default=False,
-            help="The foot's mesh file; - reads it from stdin.",
-        ),
-    ],
+    foot: Annotated[str, options.argument("FOOT", "The foot's mesh file; - reads it from stdin.")],
     last: Annotated[
-        str,
-        typer.Argument(
-            metavar="LAST",
-            show_default=False,
-            help="A last of the catalogue by name, or a mesh file.",
-        ),
+        str, options.argument("LAST", "A last of the catalogue by name, or a mesh file.")
     ],
     output: Annotated[
         Path | None,
-        options.file_to_write(
-            "-o",
+        options.output_file(
             "--output",
-            help="Write the foot in the last's frame coloured by the room: .ply, or a picture.",
+            "Write the foot in the last's frame coloured by the room: .ply, or a picture.",
+            "-o",
         ),
     ] = None,
     plot: Annotated[
         Path | None,
-        options.file_to_write(
-            "--plot", help="Draw the sections of the foot over the last's (.svg, .png)."
+        options.output_file(
+            "--plot", "Draw the sections of the foot over the last's (.svg, .png)."
         ),
     ] = None,
     html: Annotated[
         Path | None,
-        options.file_to_write(
-            "--html", help="Write a report with a 3D view that opens in any browser."
-        ),
+        options.output_file("--html", "Write a report with a 3D view that opens in any browser."),
     ] = None,
     csv: options.Csv = None,
     catalogue: options.Catalogue = None,
     force: options.Force = False,
     *,
-    reading: Reading,
-    mode: OutputMode,
+    reading: options.Reading,
+    mode: options.OutputMode,
 ) -> None:
     """Lay a foot into a last: the room around it in mm, zone by zone and section by section.
 
     Example: footfit compare foot.stl derby-42 --html report.html
     """
-    from dataclasses import replace
-
-    from footfit import api
-    from footfit.cli.answers import sources_of, tell
+    from footfit.api import files, scans
+    from footfit.api.catalogues import open_catalogue
+    from footfit.cli.answers import answer_result, sources_of
     from footfit.cli.outputs import OutputFile, Outputs
-    from footfit.cli.settings import catalogue_at
+    from footfit.cli.settings import catalogue_path
     from footfit.errors import BadOption
     from footfit.pipeline.export import PICTURE_KINDS
     from footfit.report.pictures.heat_figure import HEAT_KINDS
     from footfit.results import Comparison
 
-    files = (
-        OutputFile(output, HEAT_KINDS, api.mesh_file),
-        OutputFile(plot, PICTURE_KINDS, api.picture),
-        OutputFile(html, (), lambda comparison, _: api.page(comparison)),
+    written = (
+        OutputFile(output, HEAT_KINDS, files.mesh_file),
+        OutputFile(plot, PICTURE_KINDS, files.picture),
+        OutputFile(html, (), lambda comparison, _: files.page(comparison)),
     )
-    outputs = Outputs(files, Comparison, csv, force)
+    outputs = Outputs(written, Comparison, csv, force)
     outputs.refuse(as_json=False)
     sources = sources_of([foot], reading)
     if len(sources) != 1:
         raise BadOption(f"holds {len(sources)} meshes; name one foot", foot)
     if Path(last).is_file():
-        comparison = api.compare(sources[0], last, **reading.keywords())
+        comparison = scans.compare(sources[0], last, **reading.keywords())
     else:
-        comparison = catalogue_at(catalogue).compare(sources[0], last, **reading.keywords())
-    outputs.write(comparison)
-    tell(comparison, replace(mode, answers=csv != options.STDOUT))
-    outputs.write_csv([comparison])
+        lasts = open_catalogue(catalogue_path(catalogue))
+        comparison = lasts.compare(sources[0], last, **reading.keywords())
+    answer_result(comparison, mode, outputs)

@@ -8,26 +8,24 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from footfit.cli import options
-from footfit.cli.option_groups import Batch, OutputMode, Scale, with_groups
 
 if TYPE_CHECKING:
     from footfit.results import SurfaceCurvature
 
 
-@with_groups
 def curvature(
     meshes: options.Meshes,
     output: Annotated[
         Path | None,
-        options.file_to_write(
-            "-o",
+        options.output_file(
             "--output",
-            help="Write k1, k2, mean, gaussian per vertex (.ply coloured by the mean, .npz).",
+            "Write k1, k2, mean, gaussian per vertex (.ply coloured by the mean, .npz).",
+            "-o",
         ),
     ] = None,
     plot: Annotated[
         Path | None,
-        options.file_to_write("--plot", help="Draw the mean curvature on the mesh (.svg, .png)."),
+        options.output_file("--plot", "Draw the mean curvature on the mesh (.svg, .png)."),
     ] = None,
     radius: Annotated[
         float | None,
@@ -42,22 +40,22 @@ def curvature(
     jobs: options.Jobs = 1,
     force: options.Force = False,
     *,
-    scale: Scale,
-    mode: OutputMode,
+    scale: options.Scale,
+    mode: options.OutputMode,
 ) -> None:
     """Concentrated curvature of a surface at every vertex, in 1/mm.
 
     Example: footfit curvature foot.stl -o curvature.ply --plot curvature.png
     """
-    from footfit import api
+    from footfit.api import files
     from footfit.cli.answers import answer_scans
     from footfit.cli.outputs import OutputFile, Outputs
     from footfit.pipeline.export import CURVATURE_KINDS, PICTURE_KINDS
 
-    mesh, picture = (output, CURVATURE_KINDS, api.mesh_file), (plot, PICTURE_KINDS, api.picture)
+    mesh, picture = (output, CURVATURE_KINDS, files.mesh_file), (plot, PICTURE_KINDS, files.picture)
     outputs = Outputs((OutputFile(*mesh), OutputFile(*picture)), force=force)
     chosen = {"radius_mm": radius, "output": None if output is None else str(output)}
-    batch = Batch(jobs=jobs)
+    batch = options.Batch(jobs=jobs)
     answer_scans(curvature_with_output, meshes, scale, batch, mode, outputs, **chosen)
 
 
@@ -65,6 +63,6 @@ def curvature_with_output(mesh: Any, output: str | None, **options: Any) -> Surf
     """The curvature of a mesh, its document naming the file of all values."""
     from dataclasses import replace
 
-    from footfit import api
+    from footfit.api import scans
 
-    return replace(api.curvature(mesh, **options), output=output)
+    return replace(scans.curvature(mesh, **options), output=output)

@@ -8,17 +8,15 @@ from typing import Annotated
 import typer
 
 from footfit.cli import options
-from footfit.cli.option_groups import OutputMode, with_groups
 
 
-@with_groups
 def demo(
     folder: Annotated[
         Path, typer.Argument(metavar="FOLDER", help="Where to put the demo's files.")
     ] = Path("footfit-demo"),
     force: options.Force = False,
     *,
-    mode: OutputMode,
+    mode: options.OutputMode,
 ) -> None:
     """Ingest the sample lasts, match a sample foot, draw it: in FOLDER, away from your catalogue.
 
@@ -26,7 +24,7 @@ def demo(
     """
     from dataclasses import replace
 
-    from footfit import api
+    from footfit.api import files
     from footfit.cli.answers import tell
     from footfit.cli.outputs import write_output
     from footfit.pipeline.demo import demonstrate
@@ -36,14 +34,14 @@ def demo(
     steps = replace(mode, json=False, answers=not mode.json)
     for result in (*shown.ingested, shown.reference, shown.foot.aligned, shown.foot, shown.match):
         tell(result, steps)
-    files: dict[str, bytes | str] = {
-        "aligned.stl": api.mesh_file(shown.foot.aligned, "stl"),
-        "frames.svg": api.picture(shown.foot.aligned),
-        "flare.svg": api.picture(shown.foot),
-        "report.html": api.page(shown.match, shown.catalogue),
+    written: dict[str, bytes | str] = {
+        "aligned.stl": files.mesh_file(shown.foot.aligned, "stl"),
+        "frames.svg": files.picture(shown.foot.aligned),
+        "flare.svg": files.picture(shown.foot),
+        "report.html": files.page(shown.match, shown.catalogue),
     }
-    for name, data in files.items():
+    for name, data in written.items():
         write_output(folder / name, data, force=force)
-    outputs = (str(shown.catalogue), *(str(folder / name) for name in files))
+    outputs = (str(shown.catalogue), *(str(folder / name) for name in written))
     best = shown.match.candidates[0].last if shown.match.candidates else None
     tell(DemoOutcome(str(folder), len(shown.ingested), best, outputs), mode)

@@ -10,7 +10,6 @@ from typing import Annotated, Any
 import typer
 
 from footfit.cli import options
-from footfit.cli.option_groups import OutputMode, Reading, with_groups
 
 LABELS = "What people say of the last"
 
@@ -21,15 +20,10 @@ def _label(flag: str, metavar: str, text: str) -> Any:
     )
 
 
-@with_groups
 def ingest_last(
     paths: Annotated[
         list[str] | None,
-        typer.Argument(
-            metavar="PATH",
-            show_default=False,
-            help="Scans of lasts: files, folders or globs. None: the manifest's.",
-        ),
+        options.argument("PATH", "Scans of lasts: files, folders or globs. None: the manifest's."),
     ] = None,
     name: Annotated[
         str | None, _label("--name", "N", "The last's name, else the file's stem.")
@@ -48,17 +42,16 @@ def ingest_last(
         float | None, _label("--heel-height", "MM", "The heel height, mm.")
     ] = None,
     replace: Annotated[
-        bool, options.switch("--replace", help="Store over a last of the same name.")
+        bool, options.switch("--replace", "Store over a last of the same name.")
     ] = False,
     dry_run: Annotated[
-        bool,
-        options.switch("--dry-run", help="Do all but store; say what would become of each file."),
+        bool, options.switch("--dry-run", "Do all but store; say what would become of each file.")
     ] = False,
     jobs: options.Jobs = 1,
     catalogue: options.Catalogue = None,
     *,
-    reading: Reading,
-    mode: OutputMode,
+    reading: options.Reading,
+    mode: options.OutputMode,
 ) -> None:
     """Read, align, profile and store lasts; each line is printed after its commit.
 
@@ -68,9 +61,10 @@ def ingest_last(
     """
     from dataclasses import replace as changed
 
+    from footfit.api.catalogues import open_catalogue
     from footfit.cli.answers import counted, failures_last, sources_of, tell
     from footfit.cli.console import error_line, say, say_notices
-    from footfit.cli.settings import catalogue_at
+    from footfit.cli.settings import catalogue_path
     from footfit.cli.signals import LISTENER
     from footfit.pipeline.batch.runs import common_code
     from footfit.pipeline.batch.sources import ReadingOptions
@@ -86,7 +80,7 @@ def ingest_last(
     mode = changed(mode, total=len(batch))
     say_notices(unused_rows(batch, rows), str(manifest), quiet=mode.quiet)
     refused: list[int] = []
-    outcomes = catalogue_at(catalogue).ingest_each(
+    outcomes = open_catalogue(catalogue_path(catalogue)).ingest_each(
         batch, replace=replace, dry_run=dry_run, jobs=jobs, hold_signals=LISTENER.hold
     )
     with reader_required(), failures_last(mode) as tell_failure:

@@ -10,7 +10,6 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from footfit.cli import options
-from footfit.cli.option_groups import Batch, OutputMode, Reading, with_groups
 
 if TYPE_CHECKING:
     from footfit.results import Match
@@ -31,7 +30,6 @@ class Least(StrEnum):
     acceptable = "acceptable"
 
 
-@with_groups
 def match(
     feet: options.Meshes,
     by: Annotated[
@@ -50,51 +48,46 @@ def match(
         ),
     ] = "walking",
     pair: Annotated[
-        bool, options.switch("--pair", help="The two scans are one customer's feet.")
+        bool, options.switch("--pair", "The two scans are one customer's feet.")
     ] = False,
     top: Annotated[
         int, typer.Option("--top", metavar="N", min=1, help="How many lasts to show.")
     ] = 5,
     style: Annotated[
-        str | None,
-        typer.Option("--style", metavar="S", show_default=False, help="Only lasts of this style."),
+        str | None, options.option("--style", "Only lasts of this style.", "S")
     ] = None,
     size_system: Annotated[
         str | None,
-        typer.Option(
+        options.option(
             "--size-system",
-            metavar="S",
-            show_default=False,
-            help="Say sizes in eu, uk, us-men, us-women, us-women-fia or mondopoint, and take only "
+            "Say sizes in eu, uk, us-men, us-women, us-women-fia or mondopoint, and take only "
             "lasts labelled in it, if there are any.",
+            "S",
         ),
     ] = None,
     clearance: Annotated[
         bool,
         options.switch(
             "--clearance",
-            help="Lay the feet into each shown last: where it is tight, where loose, in mm.",
+            "Lay the feet into each shown last: where it is tight, where loose, in mm.",
         ),
     ] = False,
     fail_under: Annotated[
         Least | None,
-        typer.Option(
-            "--fail-under",
-            show_default=False,
-            help="Exit 7 where a customer has no last that is at least this.",
+        options.option(
+            "--fail-under", "Exit 7 where a customer has no last that is at least this."
         ),
     ] = None,
     html: Annotated[
-        Path | None,
-        options.file_to_write("--html", help="Write a report that opens in any browser."),
+        Path | None, options.output_file("--html", "Write a report that opens in any browser.")
     ] = None,
     csv: options.Csv = None,
     catalogue: options.Catalogue = None,
     force: options.Force = False,
     *,
-    reading: Reading,
-    batch: Batch,
-    mode: OutputMode,
+    reading: options.Reading,
+    batch: options.Batch,
+    mode: options.OutputMode,
 ) -> None:
     """Rank the lasts of the catalogue for a foot, with reasons.
 
@@ -102,7 +95,7 @@ def match(
     """
     from dataclasses import replace
 
-    from footfit import api
+    from footfit.api import catalogues, files
     from footfit.cli.answers import answer_outcomes, sources_of
     from footfit.cli.outputs import OutputFile, Outputs
     from footfit.cli.settings import catalogue_path
@@ -110,13 +103,13 @@ def match(
 
     refuse_check(by, fail_under)
     path = catalogue_path(catalogue)
-    page = OutputFile(html, ("html", "htm"), lambda answer, _: api.page(answer, path))
+    page = OutputFile(html, ("html", "htm"), lambda answer, _: files.page(answer, path))
     outputs = Outputs((page,), Match, csv, force)
     outputs.refuse(as_json=mode.json)
     sources = sources_of(feet, reading, split=batch.split)
     customers = 1 if pair else len(sources)
     outputs.require_one(range(customers), unless="--pair for one customer's two feet")
-    answers = api.open_catalogue(path).match_each(
+    answers = catalogues.open_catalogue(path).match_each(
         sources,
         pair=pair,
         jobs=batch.jobs,

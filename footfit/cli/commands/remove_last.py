@@ -3,21 +3,20 @@
 from __future__ import annotations
 
 from footfit.cli import options
-from footfit.cli.option_groups import OutputMode, with_groups
 
 
-@with_groups
 def remove_last(
     last: options.LastName,
     catalogue: options.Catalogue = None,
     *,
-    mode: OutputMode,
+    mode: options.OutputMode,
 ) -> None:
     """Remove a last from the catalogue; the reference is refused.
 
     Example: footfit remove-last derby-42
     """
+    from footfit.api.catalogues import open_catalogue
     from footfit.cli.answers import tell
-    from footfit.cli.settings import catalogue_at
+    from footfit.cli.settings import catalogue_path
 
-    tell(catalogue_at(catalogue).remove(last), mode)
+    tell(open_catalogue(catalogue_path(catalogue)).remove(last), mode)

@@ -7,22 +7,21 @@ from typing import Annotated
 import typer
 
 from footfit.cli import options
-from footfit.cli.option_groups import OutputMode, with_groups
 
 
-@with_groups
 def rename_last(
     last: options.LastName,
     new_name: Annotated[str, typer.Argument(metavar="NEW_NAME", help="The name it gets.")],
     catalogue: options.Catalogue = None,
     *,
-    mode: OutputMode,
+    mode: options.OutputMode,
 ) -> None:
     """Give a last another name.
 
     Example: footfit rename-last scan-0042 derby-42
     """
+    from footfit.api.catalogues import open_catalogue
     from footfit.cli.answers import tell
-    from footfit.cli.settings import catalogue_at
+    from footfit.cli.settings import catalogue_path
 
-    tell(catalogue_at(catalogue).rename(last, new_name), mode)
+    tell(open_catalogue(catalogue_path(catalogue)).rename(last, new_name), mode)

@@ -5,26 +5,21 @@ from __future__ import annotations
 from pathlib import Path
 from typing import Annotated
 
-import typer
-
 from footfit.cli import options
-from footfit.cli.option_groups import OutputMode, with_groups
 
 
-@with_groups
 def restore_catalogue(
-    file: Annotated[
-        Path, typer.Argument(metavar="FILE", show_default=False, help="The backup to restore.")
-    ],
+    file: Annotated[Path, options.argument("FILE", "The backup to restore.")],
     catalogue: options.Catalogue = None,
     *,
-    mode: OutputMode,
+    mode: options.OutputMode,
 ) -> None:
     """Make the catalogue what a backup is; the backup is checked first, the one before is kept.
 
     Example: footfit restore-catalogue lasts-2026-05-01.footfit
     """
+    from footfit.api.catalogues import open_catalogue
     from footfit.cli.answers import tell
-    from footfit.cli.settings import catalogue_at
+    from footfit.cli.settings import catalogue_path
 
-    tell(catalogue_at(catalogue).restore(file), mode)
+    tell(open_catalogue(catalogue_path(catalogue)).restore(file), mode)

@@ -3,15 +3,13 @@
 from __future__ import annotations
 
 from footfit.cli import options
-from footfit.cli.option_groups import OutputMode, with_groups
 
 
-@with_groups
 def set_reference(
     last: options.LastName,
     catalogue: options.Catalogue = None,
     *,
-    mode: OutputMode,
+    mode: options.OutputMode,
 ) -> None:
     """Make a last the reference: the paper's OM_E comes from it (Eq. 6).
 
@@ -19,7 +17,8 @@ def set_reference(
 
     Example: footfit set-reference derby-42
     """
+    from footfit.api.catalogues import open_catalogue
     from footfit.cli.answers import tell
-    from footfit.cli.settings import catalogue_at
+    from footfit.cli.settings import catalogue_path
 
-    tell(catalogue_at(catalogue).set_reference(last), mode)
+    tell(open_catalogue(catalogue_path(catalogue)).set_reference(last), mode)

@@ -3,21 +3,20 @@
 from __future__ import annotations
 
 from footfit.cli import options
-from footfit.cli.option_groups import OutputMode, with_groups
 
 
-@with_groups
 def show_last(
     last: options.LastName,
     catalogue: options.Catalogue = None,
     *,
-    mode: OutputMode,
+    mode: options.OutputMode,
 ) -> None:
     """Show one last: labels, frame, flare, measures, and what the paper's frame would cost.
 
     Example: footfit show-last derby-42
     """
+    from footfit.api.catalogues import open_catalogue
     from footfit.cli.answers import tell
-    from footfit.cli.settings import catalogue_at
+    from footfit.cli.settings import catalogue_path
 
-    tell(catalogue_at(catalogue).last(last), mode)
+    tell(open_catalogue(catalogue_path(catalogue)).last(last), mode)

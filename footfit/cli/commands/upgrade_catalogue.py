@@ -3,20 +3,19 @@
 from __future__ import annotations
 
 from footfit.cli import options
-from footfit.cli.option_groups import OutputMode, with_groups
 
 
-@with_groups
 def upgrade_catalogue(
     catalogue: options.Catalogue = None,
     *,
-    mode: OutputMode,
+    mode: options.OutputMode,
 ) -> None:
     """Bring a catalogue to this version's schema and flare definition.
 
     Example: footfit upgrade-catalogue
     """
+    from footfit.api.catalogues import open_catalogue
     from footfit.cli.answers import tell
-    from footfit.cli.settings import catalogue_at
+    from footfit.cli.settings import catalogue_path
 
-    tell(catalogue_at(catalogue).upgrade(), mode)
+    tell(open_catalogue(catalogue_path(catalogue)).upgrade(), mode)
