@@ -13,7 +13,7 @@ from rich.console import RenderableType
 
 from footfit.pipeline.batch.sources import ReadingOptions, Source
 from footfit.pipeline.scan.reading import measured_source
-from footfit.report.terminal.last_tables import list_lasts_table, show_last_table
+from footfit.report.terminal.catalogue_tables import list_lasts_table, show_last_table
 from footfit.report.terminal.match_tables import match_table
 from footfit.report.terminal.scan_tables import align_table, terminal_text
 from footfit.results import Library, Measure, Measured, StoredLast

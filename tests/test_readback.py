@@ -24,11 +24,10 @@ from footfit.pipeline.fit.match import Question, customers
 from footfit.report.csv import csv_text
 from footfit.report.page.compare_page import compare_page
 from footfit.report.page.match_page import match_page
+from footfit.report.terminal.catalogue_tables import list_lasts_table
 from footfit.report.terminal.comparison_tables import compare_table
-from footfit.report.terminal.last_tables import list_lasts_table
 from footfit.report.terminal.match_tables import match_table
-from footfit.report.terminal.measure_tables import measure_table
-from footfit.report.terminal.scan_tables import flare_table, terminal_text
+from footfit.report.terminal.scan_tables import flare_table, measure_table, terminal_text
 from footfit.results import (
     Comparison,
     FootFit,

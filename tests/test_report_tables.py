@@ -11,7 +11,7 @@ from rich.cells import cell_len
 
 from footfit.errors import BadOption
 from footfit.pipeline.fit.match import matched
-from footfit.report.terminal import last_tables, match_tables, scan_tables
+from footfit.report.terminal import catalogue_tables, match_tables, scan_tables
 from footfit.report.terminal.scan_tables import terminal_text
 from footfit.results import (
     DemoOutcome,
@@ -42,17 +42,17 @@ def every_table(name: str = "derby-42"):
             answers.outcome(status="refused", last=None, failure=BadOption(name, name), path=name)
         ),
         scan_tables.curvature_table(answers.curvature(name)),
-        last_tables.list_lasts_table(Library((record,), 1, name)),
-        last_tables.show_last_table(StoredLast(record, name)),
-        last_tables.catalogue_info_table(answers.facts(path=name, styles=((name, 1),))),
-        last_tables.set_reference_line(
+        catalogue_tables.list_lasts_table(Library((record,), 1, name)),
+        catalogue_tables.show_last_table(StoredLast(record, name)),
+        catalogue_tables.catalogue_info_table(answers.facts(path=name, styles=((name, 1),))),
+        catalogue_tables.set_reference_line(
             ReferenceOutcome(replace(answers.reference(), last=name), 3)
         ),
-        last_tables.rename_last_line(RenameOutcome(name, name)),
-        last_tables.remove_last_line(RemoveOutcome(name)),
-        last_tables.export_last_line(ExportOutcome(name, name, 10, 0.1)),
-        last_tables.upgrade_catalogue_line(upgrade),
-        last_tables.demo_table(DemoOutcome(name, 12, name, (name,))),
+        catalogue_tables.rename_last_line(RenameOutcome(name, name)),
+        catalogue_tables.remove_last_line(RemoveOutcome(name)),
+        catalogue_tables.export_last_line(ExportOutcome(name, name, 10, 0.1)),
+        catalogue_tables.upgrade_catalogue_line(upgrade),
+        catalogue_tables.demo_table(DemoOutcome(name, 12, name, (name,))),
     ]
 
 
@@ -124,10 +124,10 @@ def test_where_nothing_fits_the_nearest_are_shown() -> None:
 
 def test_a_label_that_is_off_is_flagged() -> None:
     right, wrong = answers.record("right", 8, 280.0), answers.record("wrong", 8, 253.0)
-    text = terminal_text(last_tables.list_lasts_table(Library((right, wrong), 2, None)))
+    text = terminal_text(catalogue_tables.list_lasts_table(Library((right, wrong), 2, None)))
     assert "! wrong: labelled 4" in text
     assert "! right" not in text
-    shown = [last_tables.show_last_table(StoredLast(last, None)) for last in (wrong, right)]
+    shown = [catalogue_tables.show_last_table(StoredLast(last, None)) for last in (wrong, right)]
     assert ["by its length" in terminal_text(table) for table in shown] == [True, False]
 
 
@@ -169,16 +169,18 @@ def test_the_side_says_who_said_so() -> None:
 
 
 def test_the_list_marks_the_reference() -> None:
-    text = terminal_text(last_tables.list_lasts_table(Library((answers.record(),), 1, "derby-42")))
+    text = terminal_text(
+        catalogue_tables.list_lasts_table(Library((answers.record(),), 1, "derby-42"))
+    )
     assert "derby-42 *" in text
     assert "derby-42 is the reference" in text
-    text = terminal_text(last_tables.list_lasts_table(Library((), 0, None)))
+    text = terminal_text(catalogue_tables.list_lasts_table(Library((), 0, None)))
     assert "0 lasts; no reference is set" in text
 
 
 def test_the_catalogue_keeps_no_feet_and_says_so() -> None:
     assert "a foot is read, matched and forgotten" in terminal_text(
-        last_tables.catalogue_info_table(answers.facts())
+        catalogue_tables.catalogue_info_table(answers.facts())
     )
 
 

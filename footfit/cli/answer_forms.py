@@ -12,12 +12,10 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 from footfit import results
 from footfit.pipeline.scan.settled_unit import unit_notes
 from footfit.report.terminal import (
+    catalogue_tables,
     comparison_tables,
-    last_tables,
     match_tables,
-    measure_tables,
     scan_tables,
-    upkeep_tables,
 )
 from footfit.results import Alignment, Comparison, Match, Notice
 
@@ -69,7 +67,7 @@ FORMS: dict[type, Form] = {
         scan_tables.flare_table, lambda shape: _of_scan(shape.aligned.alignment, shape.suspects)
     ),
     results.MeasuredScan: Form(
-        measure_tables.measure_table, lambda scan: _of_scan(scan.alignment, scan.suspects)
+        scan_tables.measure_table, lambda scan: _of_scan(scan.alignment, scan.suspects)
     ),
     results.SurfaceCurvature: Form(
         scan_tables.curvature_table,
@@ -80,16 +78,18 @@ FORMS: dict[type, Form] = {
     results.IngestOutcome: Form(
         scan_tables.ingest_line, lambda outcome: (outcome.path, (*outcome.notes, *outcome.warnings))
     ),
-    results.Library: Form(last_tables.list_lasts_table, lambda library: (None, library.warnings)),
-    results.StoredLast: Form(last_tables.show_last_table),
-    results.ReferenceOutcome: Form(last_tables.set_reference_line),
-    results.RenameOutcome: Form(last_tables.rename_last_line),
-    results.RemoveOutcome: Form(last_tables.remove_last_line),
-    results.ExportOutcome: Form(last_tables.export_last_line),
-    results.CatalogueFacts: Form(last_tables.catalogue_info_table),
-    results.UpgradeOutcome: Form(last_tables.upgrade_catalogue_line),
-    results.CheckOutcome: Form(upkeep_tables.check_catalogue_table),
-    results.BackupOutcome: Form(upkeep_tables.backup_catalogue_line),
-    results.RestoreOutcome: Form(upkeep_tables.restore_catalogue_table),
-    results.DemoOutcome: Form(last_tables.demo_table),
+    results.Library: Form(
+        catalogue_tables.list_lasts_table, lambda library: (None, library.warnings)
+    ),
+    results.StoredLast: Form(catalogue_tables.show_last_table),
+    results.ReferenceOutcome: Form(catalogue_tables.set_reference_line),
+    results.RenameOutcome: Form(catalogue_tables.rename_last_line),
+    results.RemoveOutcome: Form(catalogue_tables.remove_last_line),
+    results.ExportOutcome: Form(catalogue_tables.export_last_line),
+    results.CatalogueFacts: Form(catalogue_tables.catalogue_info_table),
+    results.UpgradeOutcome: Form(catalogue_tables.upgrade_catalogue_line),
+    results.CheckOutcome: Form(catalogue_tables.check_catalogue_table),
+    results.BackupOutcome: Form(catalogue_tables.backup_catalogue_line),
+    results.RestoreOutcome: Form(catalogue_tables.restore_catalogue_table),
+    results.DemoOutcome: Form(catalogue_tables.demo_table),
 }

@@ -15,7 +15,7 @@ from rich.console import Console, Group
 from rich.table import Table
 from rich.text import Text
 
-from footfit.report.wording.text import length_text, plain, signed, visible
+from footfit.report.wording.text import length_text, measured_text, plain, signed, visible
 from footfit.results.profile import spread_part
 
 if TYPE_CHECKING:
@@ -27,6 +27,7 @@ if TYPE_CHECKING:
         Alignment,
         Eigenframe,
         IngestOutcome,
+        MeasuredScan,
         Profiled,
         SideVerdict,
         SurfaceCurvature,
@@ -187,3 +188,15 @@ def curvature_table(curvature: SurfaceCurvature) -> RenderableType:
         )
         rows.append((name, f"{quantiles} {unit} (5 % / median / 95 %)"))
     return facts(rows, title=curvature.info.path or "standard input")
+
+
+def measure_table(scan: MeasuredScan) -> RenderableType:
+    """One mesh: every measure with its uncertainty, or the reason why there is none."""
+    alignment = scan.alignment
+    rows: list[tuple[str, str | Text]] = [
+        ("side", f"{side_words(alignment.side)}, measured as a {alignment.pose.kind}")
+    ]
+    for measure in scan.measures:
+        words = cell(measured_text(measure.measured, "mm"))
+        rows.append((measure.name.replace("_", " "), words))
+    return facts(rows, title=alignment.info.path or "standard input")
