@@ -177,7 +177,7 @@ def _transform(node: Tree) -> Floats:
         return _numbers(node, "matrix", np.eye(4).ravel()).reshape(4, 4).T  # column by column
     scale = _numbers(node, "scale", np.ones(3))
     turn = _numbers(node, "rotation", np.array([0.0, 0.0, 0.0, 1.0]))
-    with np.errstate(all="ignore"):  # `sound` refuses what is not finite
+    with np.errstate(all="ignore"):  # `checked_mesh` refuses what is not finite
         length = np.linalg.norm(turn) or 1.0
         turned = rotation_matrices(turn[None] / length)[0] * scale
     return transform(turned, _numbers(node, "translation", np.zeros(3)))
@@ -201,7 +201,7 @@ def _corners(
 ) -> tuple[NDArray[Any], NDArray[Any] | range]:
     """The points (n, 3) of one part of a mesh, and the corners (k,) of its triangles, in order.
 
-    Both are looked at in the binary chunk and not copied.
+    Both are views of the binary chunk, so no memory is taken before the counts are checked.
     """
     _check_extensions(primitive.get("extensions", {}))
     mode = primitive.get("mode", _TRIANGLES)
@@ -218,7 +218,9 @@ def _corners(
 
 def _faces(corners: NDArray[Any] | range, mode: int) -> Ints:
     """The triangles (m, 3) that corners in order make."""
-    corners = np.asarray(corners, dtype=np.int64)
+    if isinstance(corners, range):
+        corners = np.arange(len(corners))
+    corners = corners.astype(np.int64)
     if mode == _TRIANGLES:
         return corners.reshape(-1, 3)
     step = np.arange(len(corners) - 2)

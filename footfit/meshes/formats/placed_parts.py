@@ -65,7 +65,7 @@ def placed_nodes(
             )
         key, above = waiting.pop()
         own, children = node(key)
-        with np.errstate(all="ignore"):  # `sound` refuses what is not finite
+        with np.errstate(all="ignore"):  # `checked_mesh` refuses what is not finite
             transform = above @ own
         yield key, transform
         waiting += [(child, transform) for child in reversed(children)]
@@ -112,7 +112,7 @@ def _in_place(part: Part) -> tuple[Floats, Ints]:
     """A part's vertices under its transform, and its faces; a mirrored part is wound back."""
     if np.array_equal(part.transform, np.eye(4)):
         return part.vertices, part.faces
-    with np.errstate(all="ignore"):  # `sound` refuses what is not finite
+    with np.errstate(all="ignore"):  # `checked_mesh` refuses what is not finite
         mirrored = np.linalg.det(part.transform[:3, :3]) < 0.0
         placed = moved_points(part.transform, part.vertices)
     return placed, part.faces[:, ::-1] if mirrored else part.faces
