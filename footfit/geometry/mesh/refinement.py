@@ -8,11 +8,9 @@ import numpy as np
 
 from footfit.geometry.mesh.surface import face_normals
 from footfit.geometry.mesh.topology import (
-    dilated_mask,
     edge_groups,
     half_edges,
     lowest_connected,
-    sorted_keys,
 )
 from footfit.geometry.numeric.arrays import Bools, Floats, Ints, row_dots
 
@@ -73,9 +71,9 @@ def with_flat_facets_split(vertices: Floats, faces: Ints, longest: float) -> tup
     """
     enough = max(SETTINGS.vertices_enough, SETTINGS.growth_most * len(vertices))
     for _ in range(SETTINGS.rounds):
-        if len(vertices) > enough or not _some_to_split(vertices, faces, longest):
+        if len(vertices) > enough:
             break
-        side, pairs, flat = _sides(vertices, faces, SETTINGS.faces_least)
+        side, pairs, flat = _sides(vertices, faces)
         length = np.linalg.norm(vertices[pairs[:, 1]] - vertices[pairs[:, 0]], axis=1)
         chosen = flat & (length > longest)
         if not chosen.any():
@@ -86,45 +84,21 @@ def with_flat_facets_split(vertices: Floats, faces: Ints, longest: float) -> tup
     return vertices, faces
 
 
-def _some_to_split(vertices: Floats, faces: Ints, longest: float) -> bool:
-    """Whether any side longer than ``longest`` lies inside a facet; on most meshes none does.
-
-    Where two faces lie in a plane by chance, the rings around them hold no facet.
-    """
-    corners = [np.take(vertices[:, axis], faces) for axis in range(3)]
-    square = sum(((x[:, [1, 2, 0]] - x) ** 2 for x in corners), start=np.zeros(faces.shape))
-    long = np.flatnonzero(square.ravel() > longest**2)
-    ends = np.stack([faces.ravel()[long], faces[:, [1, 2, 0]].ravel()[long]])
-    order, ordered = sorted_keys(ends.min(axis=0) * len(vertices) + ends.max(axis=0))
-    first = np.flatnonzero(ordered[1:] == ordered[:-1])
-    pairs = faces[long[order[np.stack([first, first + 1])]] // 3]
-    little = _turn_little(*(face_normals(vertices, side) for side in pairs))
-    touched = np.zeros(len(vertices), dtype=bool)
-    touched[pairs[:, little]] = True
-    touched = dilated_mask(touched, faces, SETTINGS.faces_least - 2)
-    around = faces[touched[faces].any(axis=1)]
-    return len(around) > 0 and bool(_sides(vertices, around, SETTINGS.faces_least)[2].any())
-
-
-def _turn_little(normals: Floats, others: Floats) -> Bools:
-    along = row_dots(normals, others)
-    little: Bools = along > np.cos(np.radians(SETTINGS.turn_most_deg))
-    return little
-
-
-def _sides(vertices: Floats, faces: Ints, least: int) -> tuple[Ints, Ints, Bools]:
+def _sides(vertices: Floats, faces: Ints) -> tuple[Ints, Ints, Bools]:
     """The side's number of each half-edge (m, 3), each side's ends (k, 2), and whether it is flat.
 
-    A side is flat where it lies inside a facet of at least ``least`` faces.
+    A side is flat where it lies inside a facet of enough faces.
     """
     order, first, count = edge_groups(faces)
     side = np.empty(len(order), dtype=np.int64)
     side[order] = np.repeat(np.arange(len(first)), count)
     pairs = np.stack([order[first], order[np.minimum(first + 1, len(order) - 1)]], axis=1) // 3
-    normals = face_normals(vertices, faces)
-    flat = (count == 2) & _turn_little(normals[pairs[:, 0]], normals[pairs[:, 1]])
+    normals = face_normals(vertices, faces)[pairs]
+    along = row_dots(normals[:, 0], normals[:, 1])
+    flat = (count == 2) & (along > np.cos(np.radians(SETTINGS.turn_most_deg)))
     facet = lowest_connected(pairs[flat], len(faces))
-    flat &= np.bincount(facet, minlength=len(faces))[facet[pairs[:, 0]]] >= least
+    members = np.bincount(facet, minlength=len(faces))[facet]
+    flat &= members[pairs[:, 0]] >= SETTINGS.faces_least
     return side.reshape(-1, 3), half_edges(faces)[order[first]], flat
 
 
