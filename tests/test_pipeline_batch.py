@@ -71,7 +71,7 @@ def fate_of(source: Source) -> str:
 
 
 FATES = ["a", "slow", "b", "killed", "greedy", "c", "crashes", "hangs", "d"]
-TIGHT = WorkLimits(seconds=1.0, grace_seconds=1.0, address_bytes=1_000_000_000)
+TIGHT = WorkLimits(seconds=2.0, grace_seconds=2.0, address_bytes=1_000_000_000)
 
 
 @pytest.mark.parametrize("jobs", [1, 2])

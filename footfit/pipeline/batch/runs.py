@@ -11,11 +11,11 @@ from footfit.errors import ExitCode, FootfitError
 from footfit.pipeline.batch.work_limits import WORK_LIMITS, WorkLimits, limited
 
 HERE = 0
-"""As ``jobs``: in this process, where a crash takes everything with it."""
+"""As ``jobs``: in this process, where a crash ends the whole batch."""
 
 
 class Item(Protocol):
-    """What a batch is made of: anything that names its file."""
+    """One of a batch: anything that names its file."""
 
     @property
     def path(self) -> str | None:
@@ -28,7 +28,7 @@ T = TypeVar("T")
 
 @dataclass(frozen=True, slots=True)
 class Outcome(Generic[S, T]):
-    """What became of one item: a value, or the error that its line says."""
+    """The result of one item: a value, or an error."""
 
     item: S
     value: T | None
@@ -43,18 +43,18 @@ def outcomes(
 ) -> Iterator[Outcome[S, T]]:
     """Do ``work`` on each item; yield in the items' order, whatever ``jobs``.
 
-    Several items are done by ``jobs`` other processes, also by a single one, so that one that dies
-    costs its own item only; ``work`` must then be picklable (a module's function, or a
-    ``functools.partial`` of one). FootfitErrors become outcomes, and so do time and memory past
-    ``limits`` and a worker's death; any other exception is a bug and is raised.
+    Several items go to ``jobs`` other processes, even if that is one, so that a process that dies
+    costs only its own item. ``work`` must then be picklable: a module's function, or a
+    ``functools.partial`` of one. A FootfitError becomes an outcome, and so does a worker that dies
+    or needs more time or memory than ``limits``. Any other exception is a bug and is raised.
     """
-    held = partial(_outcome, work, limits)
+    limited_work = partial(_outcome, work, limits)
     if jobs == HERE or len(items) < 2:
-        yield from map(held, items)
+        yield from map(limited_work, items)
         return
-    from footfit.pipeline.batch.workers import worked
+    from footfit.pipeline.batch.workers import ordered_answers
 
-    answers = worked(held, items, min(jobs, len(items)), limits)
+    answers = ordered_answers(limited_work, items, min(jobs, len(items)), limits)
     for item, answer in zip(items, answers, strict=True):
         yield answer if isinstance(answer, Outcome) else Outcome(item, None, answer.at(item.path))
 
@@ -68,7 +68,7 @@ def _outcome(work: Callable[[S], T], limits: WorkLimits, item: S) -> Outcome[S, 
 
 
 def common_code(codes: Iterable[int]) -> int:
-    """The failures' common exit code, or 3 where they differ; 0 without failures.
+    """The exit code that all failures have in common, or 3 if they differ; 0 without failures.
 
     Examples
     --------
@@ -76,8 +76,6 @@ def common_code(codes: Iterable[int]) -> int:
     (0, 5, 3)
     """
     different = set(codes)
-    return (
-        different.pop()
-        if len(different) == 1
-        else int(ExitCode.INPUT if different else ExitCode.OK)
-    )
+    if len(different) == 1:
+        return different.pop()
+    return int(ExitCode.INPUT if different else ExitCode.OK)

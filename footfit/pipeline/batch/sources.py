@@ -29,7 +29,7 @@ class Source:
 
 @dataclass(frozen=True, slots=True)
 class ReadingOptions:
-    """How a scan is to be understood; "auto" is decided by its shape and reported."""
+    """How to read a scan; "auto" is decided by its shape and reported."""
 
     units: str = "auto"
     known_length_mm: float | None = None
@@ -37,16 +37,15 @@ class ReadingOptions:
 
 
 def mesh_sources(arguments: Sequence[str]) -> list[Source]:
-    """Expand files, folders (with what is below them) and globs; each file once, in sorted order
-    within its argument.
+    """Files, those in folders (and below) and those of globs, each once, sorted by argument.
 
     Raises
     ------
     BadOption
         An empty argument.
     UnreadableFile
-        The only argument is a folder or a glob that holds no mesh. Beside others it is kept, as
-        what is missing or cannot be looked up is: its own line says so.
+        The only argument is a folder or a glob that holds no mesh. Beside others it is kept, and so
+        is a missing file: its own line in the answer says what is wrong.
 
     Examples
     --------
@@ -54,12 +53,12 @@ def mesh_sources(arguments: Sequence[str]) -> list[Source]:
     ['b.stl', 'a.stl']
     """
     alone = len(arguments) == 1
-    paths = dict.fromkeys(path for one in arguments for path in _expanded(one, alone=alone))
+    paths = dict.fromkeys(path for each in arguments for path in _expanded(each, alone=alone))
     return [Source(path) for path in paths]
 
 
 def stdin_source(stream: BinaryIO, mesh_format: str) -> Source:
-    """One mesh from an open stream, behind the same size guard as a file.
+    """One mesh from an open stream, with the same limit of size as a file.
 
     Raises
     ------
@@ -73,36 +72,33 @@ def stdin_source(stream: BinaryIO, mesh_format: str) -> Source:
 
 
 def _expanded(argument: str, *, alone: bool) -> list[str]:
+    """The paths that one argument stands for; itself if it cannot be looked up."""
     if not argument:
         raise BadOption("an empty path was given (an unset variable?); name a file or folder")
     path = Path(argument)
     try:
         if path.is_dir():
-            found = _mesh_files(path.rglob("*"), path)
+            paths = _mesh_files(path.rglob("*"), path)
         elif GLOB_CHARACTERS & set(argument) and not path.exists():
             anchor, pattern = _anchored(path)
-            found = _mesh_files(anchor.glob(pattern), anchor)
+            paths = _mesh_files(anchor.glob(pattern), anchor)
         else:
             return [argument]
-    except (OSError, ValueError):  # a name too long, a folder closed to us, "**x": as if missing
+    except (OSError, ValueError):  # the name is too long, the folder is closed to us, or "**x"
         return [argument]
-    if not found and not alone:
-        return [argument]
-    if not found:
+    if not paths and alone:
         kinds = ", ".join(suffix[1:] for suffix in MESH_SUFFIXES)
         raise UnreadableFile(f"holds no mesh file ({kinds}); name a file or folder", argument)
-    return found
+    return paths or [argument]
 
 
 def _anchored(path: Path) -> tuple[Path, str]:
     """A glob as its root and the pattern below it."""
-    if path.is_absolute():
-        return Path(path.anchor), str(path.relative_to(path.anchor))
-    return Path(), str(path)
+    return Path(path.anchor), str(path.relative_to(path.anchor))
 
 
 def _mesh_files(paths: Iterable[Path], folder: Path) -> list[str]:
-    """The regular mesh files among ``paths``, sorted; nothing hidden below ``folder``."""
+    """The regular mesh files among ``paths``, sorted; no hidden ones below ``folder``."""
     return sorted(
         str(path)
         for path in paths

@@ -1,4 +1,4 @@
-"""How long, and with how much memory, one file may be worked on."""
+"""How much time and memory the work on one file may take."""
 
 from __future__ import annotations
 
@@ -16,16 +16,16 @@ SLIM = "decimate the mesh first (100,000 faces are plenty)"
 
 @dataclass(frozen=True, slots=True)
 class WorkLimits:
-    """What one file of a batch may take.
+    """What the work on one file of a batch may take.
 
     Attributes
     ----------
     seconds : float
-        Then it has failed: the work is stopped from within.
+        After so long the work is stopped from inside the process, and the file has failed.
     grace_seconds : float
-        So much later a worker that did not stop by itself (it sits in one long call) is killed.
+        So much later a worker that did not stop, because it is in one long call, is killed.
     address_bytes : int
-        How much the process may grow beyond what it has when the work begins.
+        How much the process may grow while it works.
     """
 
     seconds: float = 60.0
@@ -35,18 +35,18 @@ class WorkLimits:
 
 WORK_LIMITS = WorkLimits()
 AGAIN_S = 1.0
-"""After the time is up the alarm rings on: a callback may have swallowed what the first raised."""
+"""After the time is up the alarm repeats: a callback may have caught what the first one raised."""
 
 
 class _OutOfTime(BaseException):
-    """The alarm went off. No reader's ``except Exception`` may take it for a damaged file."""
+    """The time is up. It is no Exception, so that no reader takes it for a damaged file."""
 
 
 @contextmanager
 def limited(limits: WorkLimits = WORK_LIMITS) -> Iterator[None]:
-    """Hold what is done inside to the limits, where the system has a way to (POSIX).
+    """Hold the work inside to the limits, if the system can (POSIX).
 
-    Time is held in the main thread only, since only that one hears the alarm.
+    Time is limited in the main thread only, because only that one receives the alarm.
 
     Raises
     ------
@@ -57,30 +57,30 @@ def limited(limits: WorkLimits = WORK_LIMITS) -> Iterator[None]:
         with _alarm(limits.seconds), _address_space(limits.address_bytes):
             yield
     except _OutOfTime:
-        raise TooSlow(out_of_time(limits)) from None
+        raise TooSlow(too_slow_words(limits)) from None
     except MemoryError as error:
         most = limits.address_bytes / 1e9
         raise TooLarge(f"took more than {most:.2g} GB of memory: {SLIM}") from error
 
 
-def out_of_time(limits: WorkLimits) -> str:
+def too_slow_words(limits: WorkLimits) -> str:
     """What to say of a file that took too long."""
     return f"took longer than {limits.seconds:.2g} s, the most that one file may: {SLIM}"
 
 
 def _ring(_number: int, frame: FrameType | None) -> None:
-    """Stop the work; in the middle of an import, which may swallow it, at the next ring."""
+    """Stop the work. An import may catch the exception, so it is stopped at the next alarm."""
     if frame is None or not frame.f_code.co_filename.startswith("<frozen importlib"):
         raise _OutOfTime
 
 
 @contextmanager
 def _alarm(seconds: float) -> Iterator[None]:
-    """Raise `_OutOfTime` inside after so long; another's alarm is put back afterwards."""
+    """Raise `_OutOfTime` inside after so long; another alarm's handler is put back afterwards."""
     import threading
 
-    heard = threading.current_thread() is threading.main_thread()
-    if not heard or not hasattr(signal, "setitimer"):
+    is_main = threading.current_thread() is threading.main_thread()
+    if not is_main or not hasattr(signal, "setitimer"):
         yield
         return
     before = signal.signal(signal.SIGALRM, _ring)
@@ -94,7 +94,7 @@ def _alarm(seconds: float) -> Iterator[None]:
 
 @contextmanager
 def _address_space(growth_bytes: int) -> Iterator[None]:
-    """Let the process grow by so much; a stricter limit of the user's own stands."""
+    """Let the process grow by so much; a stricter limit that the user has set stays."""
     try:
         import resource
     except ImportError:  # not POSIX
@@ -115,7 +115,7 @@ def _address_space(growth_bytes: int) -> Iterator[None]:
 
 
 def _address_bytes() -> int | None:
-    """How much address space this process has, where /proc tells."""
+    """How much address space this process has; None if there is no /proc."""
     import resource
 
     try:
