@@ -7,15 +7,16 @@ from typing import Literal
 
 from footfit.geometry.numeric.arrays import Floats, Ints
 from footfit.meshes.clean.triangles import welded_mesh
+from footfit.meshes.read import FileMesh
 from footfit.pipeline.scan.align import aligned_scan
-from footfit.pipeline.scan.cleaning import CleanSurface, clean_surface
+from footfit.pipeline.scan.cleaning import scan_of
 from footfit.pipeline.scan.preparation import prepared_scan, right_copy
 from footfit.results import AlignedScan, Alignment, Method, PreparedScan, Reference, Scan
 
 
-def cleaned(vertices: Floats, faces: Ints) -> CleanSurface:
-    """A mesh as it is after reading and cleaning, in its own unit."""
-    return clean_surface(welded_mesh(vertices, faces))
+def cleaned(vertices: Floats, faces: Ints) -> Scan:
+    """A mesh in mm as it is after reading and cleaning."""
+    return scan_of(FileMesh("stl", "0" * 64, "mm", welded_mesh(vertices, faces), ()), None)
 
 
 def aligned(

@@ -18,11 +18,11 @@ FOOT = shapes.ellipsoid((125.0, 50.0, 40.0), subdivisions=3)
 
 
 def codes(mesh):
-    return [notice.code for notice in mesh.notices]
+    return [notice.code for notice in mesh.warnings]
 
 
 def message(mesh, code):
-    (found,) = [notice.message for notice in mesh.notices if notice.code == code]
+    (found,) = [notice.message for notice in mesh.warnings if notice.code == code]
     return found
 
 
@@ -42,17 +42,17 @@ def posed(vertices, faces, seed=1):
 def test_a_clean_mesh_stays_as_it_is():
     vertices, faces = FOOT
     mesh = cleaned(vertices, faces)
-    assert mesh.notices == ()
-    assert mesh.watertight
-    assert np.array_equal(mesh.vertices[mesh.faces], vertices[faces])
+    assert mesh.warnings == ()
+    assert mesh.info.watertight
+    assert np.array_equal(mesh.vertices_mm[mesh.faces], vertices[faces])
     assert np.array_equal(mesh.source_to_vertex, np.arange(len(vertices)))
 
 
 def test_soup_becomes_a_surface():
     vertices, faces = distortions.soup(*FOOT)
     mesh = cleaned(vertices, faces)
-    assert (len(mesh.vertices), mesh.watertight, mesh.notices) == (len(FOOT[0]), True, ())
-    assert np.array_equal(mesh.vertices[mesh.source_to_vertex], vertices)
+    assert (len(mesh.vertices_mm), mesh.info.watertight, mesh.warnings) == (len(FOOT[0]), True, ())
+    assert np.array_equal(mesh.vertices_mm[mesh.source_to_vertex], vertices)
 
 
 def test_corners_rounded_apart_are_joined_and_it_is_said():
@@ -60,9 +60,9 @@ def test_corners_rounded_apart_are_joined_and_it_is_said():
     vertices = vertices + rng().uniform(-2e-5, 2e-5, vertices.shape)
     mesh = cleaned(vertices, faces)
     assert "near_vertices_welded" in codes(mesh)
-    assert len(mesh.vertices) == len(FOOT[0])
-    assert mesh.watertight
-    assert np.abs(mesh.vertices[mesh.source_to_vertex] - vertices).max() < 1e-4
+    assert len(mesh.vertices_mm) == len(FOOT[0])
+    assert mesh.info.watertight
+    assert np.abs(mesh.vertices_mm[mesh.source_to_vertex] - vertices).max() < 1e-4
 
 
 def test_faces_without_area_and_faces_twice_go():
@@ -76,14 +76,14 @@ def test_faces_without_area_and_faces_twice_go():
     assert message(mesh, "duplicates_removed").startswith("2 ")
     assert len(mesh.faces) == len(faces)
     assert mesh.source_to_vertex[-1] == -1
-    assert surface_area(mesh.vertices, mesh.faces) == pytest.approx(surface_area(*FOOT))
+    assert surface_area(mesh.vertices_mm, mesh.faces) == pytest.approx(surface_area(*FOOT))
 
 
 def test_a_face_without_area_that_closes_a_surface_leaves_it_watertight():
     corners = np.array([[0.0, 0, 0], [100, 0, 0], [0, 100, 0], [0, 0, 100], [50, 0, 0]])
     faces = np.array([[0, 2, 1], [1, 2, 3], [2, 0, 3], [0, 4, 3], [4, 1, 3], [0, 1, 4]])
     mesh = cleaned(corners, faces)
-    assert mesh.watertight
+    assert mesh.info.watertight
     assert (len(mesh.faces), codes(mesh)) == (5, ["degenerate_removed"])
 
 
@@ -126,8 +126,8 @@ def test_spikes_are_pressed_back_and_the_surface_stays_closed(scale):
     thrown[tips] += 150.0 * unit(vertices[tips] - vertices.mean(axis=0))
     mesh = cleaned(scale * thrown, faces)
     assert message(mesh, "spikes_pressed").startswith("4 ")
-    assert mesh.watertight
-    off = np.linalg.norm(mesh.vertices / scale - vertices, axis=1)
+    assert mesh.info.watertight
+    off = np.linalg.norm(mesh.vertices_mm / scale - vertices, axis=1)
     assert off.max() < 0.02 * np.ptp(vertices, axis=0).max()
     assert np.count_nonzero(off > 1e-9) == 4
 
@@ -150,7 +150,7 @@ def test_a_surface_in_a_few_pieces_is_kept_whole():
     moved = vertices[faces] + np.where(beyond, 0.5, -0.5)[:, None, :]  # the octants, apart
     mesh = cleaned(moved.reshape(-1, 3), np.arange(3 * len(faces)).reshape(-1, 3))
     assert len(mesh.faces) == len(faces)
-    assert not mesh.watertight
+    assert not mesh.info.watertight
 
 
 def test_a_surface_in_thousands_of_pieces_is_refused():
@@ -201,7 +201,7 @@ def test_winding_becomes_outward_whatever_it_was(seed, share, is_open):
     mixed = np.where(turned[:, None], faces[:, ::-1], faces)
     mesh = cleaned(vertices, mixed)
     assert is_consistently_wound(mesh.faces)
-    assert signed_volume(mesh.vertices, mesh.faces) > 0.0
+    assert signed_volume(mesh.vertices_mm, mesh.faces) > 0.0
     assert ("winding_fixed" in codes(mesh)) == bool(turned.any())
     assert ("open_mesh" in codes(mesh)) == is_open
 
@@ -211,7 +211,7 @@ def test_every_piece_looks_outward():
     scene = distortions.joined(one, (other[0] + [0.0, 150.0, 0.0], other[1]))
     mesh = cleaned(*scene)
     assert message(mesh, "winding_fixed").startswith(f"{len(FOOT[1]):,} ")
-    assert signed_volume(mesh.vertices, mesh.faces) == pytest.approx(2.0 * signed_volume(*FOOT))
+    assert signed_volume(mesh.vertices_mm, mesh.faces) == pytest.approx(2.0 * signed_volume(*FOOT))
 
 
 def test_a_fin_is_said_to_be_non_manifold():
@@ -219,19 +219,19 @@ def test_a_fin_is_said_to_be_non_manifold():
     fin = [[faces[0, 0], faces[0, 1], len(vertices)]]
     mesh = cleaned(np.vstack([vertices, [0.0, 0.0, 90.0]]), np.vstack([faces, fin]))
     assert {"non_manifold", "open_mesh"} <= set(codes(mesh))
-    assert not mesh.watertight
+    assert not mesh.info.watertight
 
 
 def test_watertight_agrees_with_the_topology():
     for vertices, faces in (FOOT, shapes.flat_sheet(), shapes.open_cap(), shapes.torus()):
-        assert cleaned(vertices, faces).watertight == is_closed(faces)
+        assert cleaned(vertices, faces).info.watertight == is_closed(faces)
 
 
 def test_a_stray_unused_vertex_changes_nothing():
     vertices = np.vstack([FOOT[0], [1e9, 1e9, 1e9]])
     mesh = cleaned(vertices, FOOT[1])
     assert len(mesh.faces) == len(FOOT[1])
-    assert np.ptp(mesh.vertices[:, 0]) == pytest.approx(250.0)
+    assert np.ptp(mesh.vertices_mm[:, 0]) == pytest.approx(250.0)
 
 
 def test_nothing_with_an_area_is_refused():
@@ -247,7 +247,7 @@ def test_order_does_not_matter(seed):
     scene = distortions.joined(FOOT, small(2.0, [0, 90.0, 0]))
     one, other = cleaned(*scene), cleaned(*distortions.shuffled(*scene, rng(seed)))
     assert codes(one) == codes(other)
-    assert one.watertight == other.watertight
-    assert surface_area(one.vertices, one.faces) == pytest.approx(
-        surface_area(other.vertices, other.faces), rel=1e-12
+    assert one.info.watertight == other.info.watertight
+    assert surface_area(one.vertices_mm, one.faces) == pytest.approx(
+        surface_area(other.vertices_mm, other.faces), rel=1e-12
     )

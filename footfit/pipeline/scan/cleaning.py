@@ -2,16 +2,14 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 from footfit.errors import EmptyMesh
 from footfit.geometry.mesh.surface import area_vectors
 from footfit.geometry.mesh.topology import edge_groups, face_components
 from footfit.geometry.mesh.welding import without_unused_vertices
-from footfit.geometry.numeric.arrays import Floats, Ints, row_lengths
+from footfit.geometry.numeric.arrays import Ints, row_lengths
 from footfit.geometry.pose.facing import outward_faces
 from footfit.geometry.pose.loose_pieces import KeptPieces, kept_pieces
-from footfit.meshes.clean.triangles import WeldedMesh, counted
+from footfit.meshes.clean.triangles import counted
 from footfit.meshes.read import FileMesh
 from footfit.meshes.units import settled_units
 from footfit.results import MeshInfo, Notice, Scan
@@ -21,26 +19,14 @@ SLIVER = 1e-12
 PLATE_REMOVED = Notice("plate_removed", "a floor plate was taken off")
 
 
-@dataclass(frozen=True, slots=True)
-class CleanSurface:
-    """A surface in the file's numbers, without specks, its faces outward.
+def scan_of(
+    file: FileMesh, path: str | None, units: str = "auto", known_length_mm: float | None = None
+) -> Scan:
+    """A file's mesh as a scan in mm: the pieces that matter, faces outward, none without an area.
 
-    ``source_to_vertex`` (vertices of the file,) is the row of ``vertices`` that each became, -1
-    where it was dropped. ``watertight``: every edge lies in exactly two faces (counted before
-    faces without an area go, since those close a surface too).
-    """
-
-    vertices: Floats
-    faces: Ints
-    source_to_vertex: Ints
-    watertight: bool
-    notices: tuple[Notice, ...]
-
-
-def clean_surface(mesh: WeldedMesh) -> CleanSurface:
-    """Keep the pieces that matter, turn the faces outward, drop what has no area.
-
-    Of a surface of any kind: whether there is a foot in it is not asked here.
+    The surface may be of any kind: whether there is a foot in it is not asked here. A unit that is
+    detected is provisional. ``watertight`` is counted before faces without an area are dropped,
+    because those close a surface too.
 
     Raises
     ------
@@ -48,8 +34,12 @@ def clean_surface(mesh: WeldedMesh) -> CleanSurface:
         No face has an area.
     DamagedMesh
         The surface is in far too many pieces.
+    UnknownUnits
+        As :func:`footfit.meshes.units.settled_units` does.
+    BadOption
+        ``units`` or ``known_length_mm`` cannot be carried out.
     """
-    vertices, faces = mesh.vertices, mesh.faces
+    vertices, faces = file.mesh.vertices, file.mesh.faces
     vectors = area_vectors(vertices, faces)
     areas = row_lengths(vectors)
     flat = areas <= SLIVER * areas.mean() if len(areas) else areas == 0.0
@@ -61,47 +51,32 @@ def clean_surface(mesh: WeldedMesh) -> CleanSurface:
         faces, vectors = faces[kept.faces], vectors[kept.faces]
         labels, flat = labels[kept.faces], flat[kept.faces]
     faces, turned = outward_faces(vertices, faces, vectors, labels)
-    removed = mesh.collapsed + int(flat.sum())
     open_notices = _open_notices(faces)
-    notices = (
-        *mesh.notices,
-        *_piece_notices(kept),
-        *turned_notices(turned),
-        *counted("degenerate_removed", removed, "faces without an area were removed"),
-        *open_notices,
-    )
+    removed = file.mesh.collapsed + int(flat.sum())
     vertices, faces, number = without_unused_vertices(vertices, faces[~flat])
-    return CleanSurface(vertices, faces, number[mesh.source_to_vertex], not open_notices, notices)
-
-
-def scan_of(
-    file: FileMesh, path: str | None, units: str = "auto", known_length_mm: float | None = None
-) -> Scan:
-    """A file's mesh as a scan in mm; the unit, where it is detected, is provisional.
-
-    Raises
-    ------
-    EmptyMesh, DamagedMesh, UnknownUnits
-        As :func:`clean_surface` and :func:`footfit.meshes.units.settled_units` do.
-    BadOption
-        ``units`` or ``known_length_mm`` cannot be carried out.
-    """
-    surface = clean_surface(file.mesh)
-    unit = settled_units(surface.vertices, units, known_length_mm, file.unit)
+    unit = settled_units(vertices, units, known_length_mm, file.unit)
     info = MeshInfo(
         path=path,
         sha256=file.sha256,
         format=file.format,
-        vertices=len(surface.vertices),
-        faces=len(surface.faces),
-        watertight=surface.watertight,
+        vertices=len(vertices),
+        faces=len(faces),
+        watertight=not open_notices,
         units=unit.name,
         units_source=unit.source,
         unit_scale=unit.scale,
     )
-    notices = file.notices + surface.notices + unit.warnings
-    scaled = surface.vertices * unit.scale
-    return Scan(info, scaled, surface.faces, notices, surface.source_to_vertex)
+    notices = (
+        *file.notices,
+        *file.mesh.notices,
+        *_piece_notices(kept),
+        *turned_notices(turned),
+        *counted("degenerate_removed", removed, "faces without an area were removed"),
+        *open_notices,
+        *unit.warnings,
+    )
+    source_to_vertex = number[file.mesh.source_to_vertex]
+    return Scan(info, vertices * unit.scale, faces, notices, source_to_vertex)
 
 
 def _piece_notices(kept: KeptPieces) -> tuple[Notice, ...]:
@@ -121,7 +96,7 @@ def turned_notices(count: int) -> tuple[Notice, ...]:
 
 
 def _open_notices(faces: Ints) -> tuple[Notice, ...]:
-    """What to say where not every edge has exactly two faces."""
+    """What to say if not every edge has exactly two faces."""
     counts = edge_groups(faces)[2]
     rims, crowded = int((counts == 1).sum()), int((counts - 2).clip(0).sum())
     return (

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 import numpy as np
 
 from footfit.errors import BadOption
@@ -13,15 +11,8 @@ from footfit.geometry.mesh.topology import edges
 from footfit.geometry.pose.extents import principal_extents
 from footfit.results import Notice, Scan, SurfaceCurvature
 
-
-@dataclass(frozen=True, slots=True)
-class CurvatureDefaults:
-    """``radius_per_extent``: the scale where none is given, over the longest principal extent."""
-
-    radius_per_extent: float = 0.06
-
-
-DEFAULTS = CurvatureDefaults()
+RADIUS_PER_EXTENT = 0.06
+"""The scale if none is given, over the longest principal extent."""
 
 
 def surface_curvature(scan: Scan, radius_mm: float | None = None) -> SurfaceCurvature:
@@ -42,7 +33,7 @@ def surface_curvature(scan: Scan, radius_mm: float | None = None) -> SurfaceCurv
     """
     vertices, faces = scan.vertices_mm, scan.faces
     if radius_mm is None:
-        radius_mm = DEFAULTS.radius_per_extent * float(principal_extents(vertices)[0][0])
+        radius_mm = RADIUS_PER_EXTENT * float(principal_extents(vertices)[0][0])
     if not 0.0 <= radius_mm < np.inf:
         raise BadOption("the radius must be 0 (one ring) or a length in mm, such as --radius 15")
     if radius_mm > 0.0:
@@ -65,33 +56,26 @@ def surface_curvature(scan: Scan, radius_mm: float | None = None) -> SurfaceCurv
 
 
 def _notices(scan: Scan, radius_mm: float, undefined: int) -> tuple[Notice, ...]:
-    notices = []
+    """A radius that is too short or too long for the mesh, and vertices without a value."""
     pairs = scan.vertices_mm[edges(scan.faces)]
     edge_mm = float(np.median(np.linalg.norm(pairs[:, 1] - pairs[:, 0], axis=1)))
-    if 0.0 < radius_mm < edge_mm:
-        notices.append(
-            Notice(
-                "radius_below_edges",
-                f"the radius of {radius_mm:.3g} mm is below the median edge of {edge_mm:.3g} mm: "
-                "the curvature is that of the nearest ring; take a larger --radius",
-            )
-        )
     longest_mm = longest_radius(scan.vertices_mm, scan.faces)
-    if radius_mm > longest_mm:
-        notices.append(
-            Notice(
-                "radius_cut",
-                f"the radius of {radius_mm:.3g} mm spans more edges than pooling follows: the "
-                f"curvature is that of about {longest_mm:.3g} mm; take a smaller --radius or a "
-                "coarser mesh",
-            )
-        )
-    if undefined:
-        notices.append(
-            Notice(
-                "curvature_undefined",
-                f"{undefined} of {len(scan.vertices_mm)} vertices have no curvature "
-                "(a boundary at radius 0, or no surface around them): their value is empty",
-            )
-        )
-    return tuple(notices)
+    radius = f"the radius of {radius_mm:.3g} mm"
+    short = (
+        f"{radius} is below the median edge of {edge_mm:.3g} mm, so the curvature is that of the"
+        " nearest ring: take a larger --radius"
+    )
+    long = (
+        f"{radius} spans more edges than pooling follows, so the curvature is that of about"
+        f" {longest_mm:.3g} mm: take a smaller --radius or a coarser mesh"
+    )
+    none = (
+        f"{undefined} of {len(scan.vertices_mm)} vertices have no curvature (a boundary at radius 0"
+        ", or no surface around them): their value is empty"
+    )
+    notices = (
+        (0.0 < radius_mm < edge_mm, Notice("radius_below_edges", short)),
+        (radius_mm > longest_mm, Notice("radius_cut", long)),
+        (undefined > 0, Notice("curvature_undefined", none)),
+    )
+    return tuple(notice for applies, notice in notices if applies)

@@ -1,4 +1,4 @@
-"""The unit of a scan, settled by the length that the alignment finds, and how it is said."""
+"""The unit of a scan, settled by its length along X, and the notices about it."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ from dataclasses import dataclass, replace
 
 from footfit.errors import ImplausibleSize, UnknownUnits
 from footfit.geometry.pose.pose_search import Windows
-from footfit.meshes.units import UNIT_NAMES, UNIT_SCALES
+from footfit.meshes.units import UNIT_NAMES, UNIT_SCALES, UNIT_SETTINGS
 from footfit.results import MeshInfo, Notice, Scan
 
 
@@ -14,10 +14,10 @@ from footfit.results import MeshInfo, Notice, Scan
 class LengthSettings:
     """Which lengths along X are plausible, in mm.
 
-    ``window_slack``: by what part the rough pose's length may be off.
+    ``window_slack``: how far the rough pose's length may be off, as a share.
     """
 
-    usual_mm: tuple[float, float] = (180.0, 340.0)
+    usual_mm: tuple[float, float] = UNIT_SETTINGS.length_mm
     possible_mm: tuple[float, float] = (115.0, 370.0)
     window_slack: float = 0.15
 
@@ -26,7 +26,7 @@ LENGTHS = LengthSettings()
 
 
 def length_windows(info: MeshInfo, known_length_mm: float | None) -> Windows:
-    """Lengths that are plausible, in the scan's provisional mm; none where the scale is unknown."""
+    """Plausible lengths, in the scan's provisional mm; none if the scale is unknown."""
     if known_length_mm is not None or info.units_source == "known-length":
         return ()
     low, high = LENGTHS.possible_mm
@@ -39,9 +39,9 @@ def length_windows(info: MeshInfo, known_length_mm: float | None) -> Windows:
 
 
 def info_with_unit(info: MeshInfo, length: float, known_length_mm: float | None) -> MeshInfo:
-    """The info with the unit that the aligned length (provisional mm) confirms.
+    """The info with the unit that a length in provisional mm confirms.
 
-    ``length`` is the extent along X, or the measured length where it is known.
+    ``length`` is the extent along X, or the measured length if that is known.
 
     Raises
     ------
@@ -70,7 +70,7 @@ def info_with_unit(info: MeshInfo, length: float, known_length_mm: float | None)
 
 
 def read_notices(scan: Scan, info: MeshInfo, length_mm: float | None) -> list[Notice]:
-    """What the reader said; the unit as the aligned length settled it, in place of its guess."""
+    """The scan's warnings, with the unit that is settled in place of the one that was guessed."""
     kept = [notice for notice in scan.warnings if notice.code != "units_detected"]
     if info.units_source != "detected" or info.units == "mm":
         return kept
