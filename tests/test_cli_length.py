@@ -12,7 +12,8 @@ import pytest
 from rich.console import RenderableType
 
 from footfit.pipeline.batch.sources import ReadingOptions, Source
-from footfit.pipeline.scan.reading import measured_source
+from footfit.pipeline.scan.measure import measured_scan
+from footfit.pipeline.scan.reading import aligned_source
 from footfit.report.terminal.catalogue_tables import list_lasts_table, show_last_table
 from footfit.report.terminal.match_tables import match_table
 from footfit.report.terminal.scan_tables import align_table, terminal_text
@@ -27,7 +28,9 @@ FOOT, LAST = SAMPLES / "feet" / "mh008_R.stl", SAMPLES / "lasts" / "derby-41.stl
 @pytest.fixture(scope="module")
 def lengths_mm() -> dict[str, float]:
     """The measure ``length`` of the two shapes."""
-    scans = [measured_source(Source(str(path)), ReadingOptions()) for path in (FOOT, LAST)]
+    scans = [
+        measured_scan(aligned_source(Source(str(path)), ReadingOptions())) for path in (FOOT, LAST)
+    ]
     lengths = [m.measured.value or 0.0 for scan in scans for m in scan.measures[:1]]
     return dict(zip(("foot", "last"), lengths, strict=True))
 

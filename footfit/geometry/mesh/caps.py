@@ -72,17 +72,6 @@ class Facets:
         return Facets(self.middles[near], self.vectors[near])
 
 
-@dataclass(frozen=True, slots=True)
-class Cap:
-    """The inner vertices (k, 3) of a cap, and its triangles (t, 3).
-
-    An index below the rim's length is the rim's vertex, a higher one an inner vertex.
-    """
-
-    points: Floats
-    triangles: Ints
-
-
 def extent_of(rim: Floats) -> float:
     """Twice the distance of a rim's farthest point (k, 3) from the rim's middle."""
     return 2.0 * float(_lengths(rim - rim.mean(axis=0)).max())
@@ -96,8 +85,8 @@ def farthest_of(rim: Floats) -> int:
     return int(_lengths(rim - rim.mean(axis=0)).argmax())
 
 
-def cap(rim: Floats, facets: Facets, ring: float) -> Cap | None:
-    """A cap for a rim.
+def cap(rim: Floats, facets: Facets, ring: float) -> tuple[Floats, Ints] | None:
+    """A cap for a rim; None if the rim is the outer edge of a patch.
 
     Parameters
     ----------
@@ -111,8 +100,10 @@ def cap(rim: Floats, facets: Facets, ring: float) -> Cap | None:
 
     Returns
     -------
-    Cap or None
-        None if the rim is the outer edge of a patch.
+    points : (k, 3)
+        The inner vertices.
+    triangles : (t, 3)
+        An index below the rim's length is a vertex of the rim, a higher one an inner vertex.
     """
     extent = extent_of(rim)
     turn, waves = _rim_waves(rim)
@@ -129,7 +120,7 @@ def cap(rim: Floats, facets: Facets, ring: float) -> Cap | None:
     radial = radial + b * share[:, None, None] ** (_ORDERS[:, None] + 2.0)
     spin = np.exp(1j * np.outer(angles, _WAVE_NUMBERS))
     points = np.einsum("kn,knc->kc", spin, radial).real
-    return Cap(points, _triangles(turn, counts))
+    return points, _triangles(turn, counts)
 
 
 def _even(count: int) -> Floats:

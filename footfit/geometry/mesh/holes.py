@@ -84,11 +84,11 @@ def closed_mesh(vertices: Floats, faces: Ints, length: float) -> ClosedMesh:
         patch = cap(vertices[rim], facets, HOLES.ring * length) if is_hole else None
         if patch is None:
             continue
-        numbers = np.append(rim, np.arange(len(patch.points)) + count)
-        points.append(patch.points)
-        triangles.append(numbers[patch.triangles])
+        inner, corners = patch
+        points.append(inner)
+        triangles.append(np.append(rim, np.arange(len(inner)) + count)[corners])
         closed.append(extent_of(vertices[rim]))
-        count += len(patch.points)
+        count += len(inner)
     return ClosedMesh(np.concatenate(points), np.concatenate(triangles), rims, tuple(closed))
 
 

@@ -15,52 +15,29 @@ from footfit.geometry.pose.extents import principal_extents
 
 @dataclass(frozen=True, slots=True)
 class PlateSettings:
-    """Everything numeric of a floor plate.
+    """Everything numeric of a floor plate; distances over the mesh's size, if nothing else is said.
 
-    Attributes
-    ----------
-    thickness, foot_thickness : float
-        Beside a piece thicker than ``foot_thickness`` (relative to its longest extent) one
-        thinner than ``thickness`` may be a plate.
-    cover : float
-        A plate reaches this far along both its directions, relative to the foot on it (the lid of
-        a leg does not).
-    side, sinking : float
-        The share of the foot's vertices that lie on one side of the plate, those not counted that
-        have sunk in by less than ``sinking`` of the plate's extent: a sole is noisy.
-    least_share : float
-        Of the largest piece's area: a smaller piece is no plate.
-    most_pieces : int
-        A scan with more pieces of comparable size is no foot on a plate.
-    flat : float
-        Of a scan known to hold a foot: a piece thinner than this is no part of the foot.
-    rounds, scale : int, float
-        Of the plane through a mesh's boundary, by Cauchy weights, over the mesh's size.
-    near, boundary_share, parallel, area_share : float
-        So near this plane, over the size, lies so much of the boundary, and facing it by this
-        cosine so much of the area, where a plate has grown to the foot.
-    beyond_share : float
-        Of a plate that reaches beyond the foot; of a sole with holes: none.
-    cut : float
-        What lies nearer to the plane than this, over the size, goes with the plate.
+    The first part is about plates that are a piece of their own, in a surface of any kind.
     """
 
-    thickness: float = 0.025
-    foot_thickness: float = 0.12
-    cover: float = 0.80
-    side: float = 0.95
-    sinking: float = 0.01
-    least_share: float = 0.10
-    most_pieces: int = 16
-    flat: float = 0.04
-    rounds: int = 12
+    thickness: float = 0.025  # over its longest extent: a plate is thinner
+    foot_thickness: float = 0.12  # and what stands on it is thicker
+    cover: float = (
+        0.80  # of the foot on it: a plate reaches this far both ways, a leg's lid does not
+    )
+    side: float = 0.95  # of the foot's vertices lie on one side of the plate
+    sinking: float = 0.01  # of its extent: a vertex that has sunk in less counts, soles are noisy
+    least_share: float = 0.10  # of the largest piece's area: a smaller piece is no plate
+    most_pieces: int = 16  # a scan with more pieces of this area is no foot on a plate
+    flat: float = 0.04  # thickness over length: beside a foot, a thinner piece is no part of it
+    rounds: int = 12  # of the plane through the boundary of a foot with a plate grown to it
     scale: float = 0.01
-    near: float = 0.015
-    boundary_share: float = 0.60
-    parallel: float = 0.95
-    area_share: float = 0.10
-    beyond_share: float = 0.10
-    cut: float = 0.02
+    near: float = 0.015  # so near this plane lie
+    boundary_share: float = 0.60  # so much of the boundary
+    area_share: float = 0.10  # and so much of the area,
+    parallel: float = 0.95  # which faces the plane by this cosine
+    beyond_share: float = 0.10  # of a plate reaches beyond the foot; of a sole with holes: none
+    cut: float = 0.02  # what lies nearer to the plane goes with the plate
 
 
 PLATE = PlateSettings()

@@ -42,7 +42,7 @@ class CanonicalFrame:
     """The frame: canonical = rotation @ p + shift, in the unit of p.
 
     ``length`` is the extent along X below ``length_height``; ``sole`` is False if there is no sole
-    and the frame rests on the rim; ``tilt_deg`` is how far the sole plane turned the given pose.
+    and the frame rests on the rim.
     """
 
     rotation: Floats
@@ -50,7 +50,6 @@ class CanonicalFrame:
     length: float
     support: float
     sole: bool
-    tilt_deg: float
 
 
 def canonical_frame(sample: SurfaceSample, length: float) -> CanonicalFrame:
@@ -74,7 +73,7 @@ def canonical_frame(sample: SurfaceSample, length: float) -> CanonicalFrame:
         turned = turned_sample(sample, rotation)
         length = length_of(turned.points, plane.offset, length)
     shift = origin_shift(turned, plane.offset, length, sole)
-    return CanonicalFrame(rotation, shift, length, held, sole, tilt_deg)
+    return CanonicalFrame(rotation, shift, length, held, sole)
 
 
 def turned_sample(sample: SurfaceSample, rotation: Floats) -> SurfaceSample:

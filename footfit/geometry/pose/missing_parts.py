@@ -48,9 +48,9 @@ def missing_part(sample: SurfaceSample, rims: list[Floats], length: float) -> Mi
         The mesh's boundary loops, canonical; none for a closed mesh.
     length : float
     """
-    end = _missing_end(sample, rims, length)
-    if end is not None:
-        return end
+    for name, end in _ends(sample, length):
+        if _is_cut_off(sample, rims, end, length):
+            return name
     if float(sample.points[:, 2].max()) < ENDS.least_height * length:
         return "upper part"
     half = any(_is_half(rim, length) for rim in rims)
@@ -59,31 +59,11 @@ def missing_part(sample: SurfaceSample, rims: list[Floats], length: float) -> Mi
     return None
 
 
-def _missing_end(
-    sample: SurfaceSample, rims: list[Floats], length: float
-) -> Literal["heel", "toes"] | None:
-    """The end that was cut off; a leg's own cut is higher up."""
-    below = ENDS.height * length
-    flat = sample.points[:, 2] < below
-    flat &= np.abs(sample.normals[:, 0]) > ENDS.facing
-    reach = ENDS.reach * length
-    for name, end in _ends(sample, below):
-        at_end = flat & (np.abs(sample.points[:, 0] - end) < reach)
-        if sample.areas[at_end].sum() > ENDS.flat_area * length**2:
-            return name
-        near = [rim[(np.abs(rim[:, 0] - end) < reach) & (rim[:, 2] < below)] for rim in rims]
-        if any(_is_open(part, length) for part in near):
-            return name
-        if _open_area(rims, end, length) > ENDS.open_area * length**2:
-            return name
-    return None
-
-
 def doubtful_end(
     sample: SurfaceSample, rims: list[Floats], length: float
 ) -> Literal["heel", "toes"] | None:
     """The end of a canonical shape that is open over so much that its length may be short."""
-    for name, end in _ends(sample, ENDS.height * length):
+    for name, end in _ends(sample, length):
         if _open_area(rims, end, length) > ENDS.doubtful_area * length**2:
             return name
         if any(_is_oblique(rim, end, length) for rim in rims):
@@ -99,11 +79,27 @@ def _is_oblique(rim: Floats, end: float, length: float) -> bool:
 
 
 def _ends(
-    sample: SurfaceSample, below: float
+    sample: SurfaceSample, length: float
 ) -> tuple[tuple[Literal["heel"], float], tuple[Literal["toes"], float]]:
-    """The rearmost and the foremost x of what lies lower than ``below``."""
-    x = sample.points[sample.points[:, 2] < below, 0]
+    """The rearmost and the foremost x below the height at which a leg is cut."""
+    x = sample.points[sample.points[:, 2] < ENDS.height * length, 0]
     return ("heel", float(x.min())), ("toes", float(x.max()))
+
+
+def _is_cut_off(sample: SurfaceSample, rims: list[Floats], end: float, length: float) -> bool:
+    """Whether the end at x = ``end`` is a flat face, or open as wide and as high as an end is."""
+    below, reach = ENDS.height * length, ENDS.reach * length
+    flat = (sample.points[:, 2] < below) & (np.abs(sample.normals[:, 0]) > ENDS.facing)
+    flat &= np.abs(sample.points[:, 0] - end) < reach
+    if sample.areas[flat].sum() > ENDS.flat_area * length**2:
+        return True
+    for rim in rims:
+        part = rim[(np.abs(rim[:, 0] - end) < reach) & (rim[:, 2] < below)]
+        if len(part):
+            _, width, height = np.ptp(part, axis=0)
+            if width > ENDS.rim_width * length and height > ENDS.rim_height * length:
+                return True
+    return _open_area(rims, end, length) > ENDS.open_area * length**2
 
 
 def _open_area(rims: list[Floats], end: float, length: float) -> float:
@@ -141,11 +137,3 @@ def _vector_area(loop: Floats) -> Floats:
     """The area (3,) that a closed polygon encloses, seen along each axis."""
     away = loop - loop.mean(axis=0)
     return np.asarray(0.5 * np.cross(away, np.roll(away, -1, axis=0)).sum(axis=0))
-
-
-def _is_open(rim: Floats, length: float) -> bool:
-    """Whether a loop's part near an end is as large as the end: a hole in the heel is not."""
-    if len(rim) == 0:
-        return False
-    _, width, height = np.ptp(rim, axis=0)
-    return bool(width > ENDS.rim_width * length and height > ENDS.rim_height * length)

@@ -16,68 +16,29 @@ from footfit.geometry.numeric.arrays import Bools, Floats, Ints
 class PieceSettings:
     """What of a scan belongs to the foot or last: every number of the preparation.
 
-    A share is one of the largest piece's area, a distance one of its size, where nothing else is
-    said.
-
-    Attributes
-    ----------
-    large : float
-        In a surface of any kind a piece with this share stays, wherever it lies.
-    patch, patch_gap : float
-        A smaller piece stays from this share on if its box comes within ``patch_gap`` (of the
-        diagonal) of the largest piece's box: it is a patch of a cracked scan.
-    specks : float
-        Where all specks together hold more than this share of the whole area, the scan is in
-        pieces: then only what stands off by ``patch_gap`` from all that stays is removed.
-    most_pieces, most_specks : int
-        More pieces than this that stay are not a surface. More pieces than ``most_specks`` are
-        not one either, where the specks hold more than ``specks``.
-    speck : float
-        A foot or last is looked for among the pieces from this share on.
-    comparable, most_comparable : float, int
-        From this share on a piece may be a foot of its own; so many are looked at one by one.
-    apart : float
-        Two pieces stand beside each other if the middles of their boxes are farther apart.
-    gap : float
-        A piece farther off than this is something else than the foot.
-    gap_few, gap_many : int
-        How many points of the other piece and of the foot the gap is measured with.
-    inside_out : float
-        Faces that look outward by less than this, or inward, may be inside out.
-    own_centre : float
-        Outside is judged from a piece's own middle from this share on; a smaller open patch is
-        judged from the whole's.
-    wide_open : float
-        An opening wider than this is named when a shape is refused.
-    sheet : float
-        The length of the sum of the area vectors over the area: a sheet has more. A foot that is
-        cut at the leg has 0.1.
-    shell, flat_shell : float
-        Between these two, by the same ratio, a foot may lack its sole.
-    upward : float
-        The least cosine with Z of where the faces of such a foot look on the whole.
+    Areas are over that of the largest piece, distances over its size, if nothing else is said.
     """
 
-    large: float = 0.10
-    patch: float = 0.005
-    patch_gap: float = 0.02
-    specks: float = 0.10
-    most_pieces: int = 100
-    most_specks: int = 1000
-    speck: float = 0.01
-    comparable: float = 0.25
-    most_comparable: int = 8
-    apart: float = 0.25
-    gap: float = 0.06
-    gap_few: int = 150
-    gap_many: int = 1500
-    inside_out: float = 0.20
-    own_centre: float = 0.10
-    wide_open: float = 0.30
-    sheet: float = 0.40
-    shell: float = 0.20
-    flat_shell: float = 0.60
-    upward: float = 0.80
+    large: float = 0.10  # in any surface, a piece of this area stays wherever it lies
+    patch: float = 0.005  # so does one of this area if its box is near: of a cracked scan
+    patch_gap: float = 0.02  # so near, over the diagonal
+    specks: float = 0.10  # of the whole area: if all specks hold more, the scan is in pieces
+    most_pieces: int = 100  # more pieces that stay are not a surface
+    most_specks: int = 1000  # nor are more pieces than this in all, if the scan is in pieces
+    speck: float = 0.01  # a foot or last is looked for among the pieces from this area on
+    comparable: float = 0.25  # from this area on a piece may be a foot of its own
+    most_comparable: int = 8  # so many are looked at one by one
+    apart: float = 0.25  # between the boxes' middles: more, and two pieces stand side by side
+    gap: float = 0.06  # a piece farther off is something else than the foot
+    gap_few: int = 150  # points of the other piece that the gap is measured with
+    gap_many: int = 1500  # and points of the foot
+    inside_out: float = 0.20  # faces that look outward by less than this may be inside out
+    own_centre: float = 0.10  # a smaller open patch is judged from the middle of the whole
+    wide_open: float = 0.30  # an opening wider than this is named when a shape is refused
+    sheet: float = 0.40  # |sum of area vectors| over the area; a foot cut at the leg has 0.1
+    shell: float = 0.20  # from here on, by the same ratio, a foot may lack its sole
+    flat_shell: float = 0.60  # the most that a foot without sole has; a sheet has more
+    upward: float = 0.80  # cosine with Z of where the faces of such a foot look on the whole
 
 
 PIECES = PieceSettings()

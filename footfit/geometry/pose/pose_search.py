@@ -108,38 +108,16 @@ def rough_pose(
         Empty: any length.
     settings : PoseSearchSettings
     """
-    pose = _pose_as_it_is(vertices, faces, templates, windows, settings)
+    search = _Search(templates, windows, settings)
+    pose = search.pose_of(vertices, faces)
     height = (vertices @ pose.rotation[2] + pose.shift[2]) / pose.length
     if height.max() < settings.long_leg:
         return pose
     low = height[faces].max(axis=1) < settings.crop
     if not low.any():
         return pose
-    without_leg = _pose_as_it_is(vertices, faces[low], templates, windows, settings)
+    without_leg = search.pose_of(vertices, faces[low])
     return min(pose, without_leg, key=lambda each: (not each.accepted, each.cost))
-
-
-def _pose_as_it_is(
-    vertices: Floats,
-    faces: Ints,
-    templates: tuple[Template, ...],
-    windows: Windows,
-    settings: PoseSearchSettings,
-) -> RoughPose:
-    """The pose of a mesh with its leg, searched more finely if the first search leaves a doubt."""
-    corners = vertices[faces].reshape(-1, 3)
-    # About the middle of the box float32 loses nothing, wherever the origin is.
-    centre = 0.5 * (corners.min(axis=0) + corners.max(axis=0))
-    search = _Search.of(vertices - centre, faces, templates, windows, settings)
-    candidates = search.candidates(settings.rotations)
-    pose = _cheapest(candidates, settings)
-    if pose.cost > settings.retry_cost or pose.margin < settings.retry_margin:
-        candidates += search.candidates(settings.more_rotations)
-        candidates += search.rivals(candidates)
-    elif pose.margin == settings.margin_without_rival:
-        candidates += search.rivals(candidates)
-    pose = _cheapest(candidates, settings)
-    return replace(pose, shift=pose.shift - pose.rotation @ centre)
 
 
 @dataclass(frozen=True, slots=True)
@@ -169,58 +147,66 @@ class _Candidate:
         return np.asarray(MIRROR @ rotation @ MIRROR) if self.cloud.mirrored else rotation
 
 
+def _clouds(vertices: Floats, faces: Ints, settings: PoseSearchSettings) -> tuple[_Cloud, _Cloud]:
+    """A mesh about its middle, as it is and mirrored."""
+    sample = even_sample(vertices, faces, settings.sample_points)
+    few = farthest_points(sample.points, settings.few_points)
+    points, normals = sample.points.astype(np.float32), sample.normals.astype(np.float32)
+    flip = MIRROR.astype(np.float32)
+    mirrored, looking = points @ flip, normals @ flip
+    return (
+        _Cloud(points[few], normals[few], points, normals, mirrored=False),
+        _Cloud(mirrored[few], looking[few], mirrored, looking, mirrored=True),
+    )
+
+
 @dataclass(frozen=True, slots=True)
 class _Search:
-    """What a search looks at: a mesh as it is and mirrored, the templates, plausible lengths."""
+    """What a search is made with: the templates, plausible lengths, settings."""
 
-    clouds: tuple[_Cloud, _Cloud]
     templates: tuple[Template, ...]
     windows: Windows
     settings: PoseSearchSettings
 
-    @classmethod
-    def of(
-        cls,
-        vertices: Floats,
-        faces: Ints,
-        templates: tuple[Template, ...],
-        windows: Windows,
-        settings: PoseSearchSettings,
-    ) -> _Search:
-        """The search for the pose of a mesh about its middle.
+    def pose_of(self, vertices: Floats, faces: Ints) -> RoughPose:
+        """The pose of a mesh with its leg, searched more finely if a doubt is left.
 
         Lengths that would make nearly all of the mesh leg are not plausible.
         """
-        sample = even_sample(vertices, faces, settings.sample_points)
-        few = farthest_points(sample.points, settings.few_points)
-        points, normals = sample.points.astype(np.float32), sample.normals.astype(np.float32)
-        flip = MIRROR.astype(np.float32)
-        clouds = (
-            _Cloud(points[few], normals[few], points, normals, mirrored=False),
-            _Cloud(
-                (points @ flip)[few], (normals @ flip)[few], points @ flip, normals @ flip, True
-            ),
-        )
+        settings = self.settings
+        corners = vertices[faces].reshape(-1, 3)
+        # About the middle of the box float32 loses nothing, wherever the origin is.
+        centre = 0.5 * (corners.min(axis=0) + corners.max(axis=0))
+        clouds = _clouds(vertices - centre, faces, settings)
         least = 1.001 * FIT.least_length * size_of(clouds[0].few)
-        limits = tuple((max(low, least), high) for low, high in windows or ((0.0, np.inf),))
-        return cls(clouds, templates, limits, settings)
+        limits = tuple((max(low, least), high) for low, high in self.windows or ((0.0, np.inf),))
+        limited = replace(self, windows=limits)
+        candidates = limited.candidates(clouds, settings.rotations)
+        pose = _cheapest(candidates, settings)
+        doubt = pose.cost > settings.retry_cost or pose.margin < settings.retry_margin
+        if doubt:
+            candidates += limited.candidates(clouds, settings.more_rotations)
+        if doubt or pose.margin == settings.margin_without_rival:
+            candidates += limited.rivals(candidates)
+            pose = _cheapest(candidates, settings)
+        return replace(pose, shift=pose.shift - pose.rotation @ centre)
 
-    def candidates(self, count: int) -> list[_Candidate]:
+    def candidates(self, clouds: tuple[_Cloud, _Cloud], count: int) -> list[_Candidate]:
         """The best few poses per template over both mirrors, fitted with all points."""
         rotations = super_fibonacci(count).astype(np.float32)
         result = []
         for template in self.templates:
-            start = self._coarse(template, rotations)
+            start = self._coarse(clouds[0], template, rotations)
             starts = start, mirror_image(start, template.middle_y)
             batches = [
                 self._fitted(cloud, template, poses)
-                for cloud, poses in zip(self.clouds, starts, strict=True)
+                for cloud, poses in zip(clouds, starts, strict=True)
             ]
             poses = joined(*(poses for poses, _ in batches))
             costs = np.concatenate([costs for _, costs in batches])
             cloud_of = np.repeat([0, 1], [len(costs) for _, costs in batches])
             for place in np.argsort(costs, kind="stable")[: self.settings.kept_poses]:
-                cloud = self.clouds[cloud_of[place]]
+                cloud = clouds[cloud_of[place]]
                 result.append(self._finished(poses.at(np.array([place])), cloud, template))
         return result
 
@@ -254,12 +240,12 @@ class _Search:
         costs += np.where(plausible, 0.0, FIT.implausible_cost)
         return costs
 
-    def _coarse(self, template: Template, rotations: Singles) -> Poses:
+    def _coarse(self, cloud: _Cloud, template: Template, rotations: Singles) -> Poses:
         """The cheapest of all rotations, length and shift taken from the mesh's low part.
 
         Of the mesh as it is only: a left foot lies on a right template well enough to start from.
         """
-        cloud, few = self.clouds[0], self.settings.coarse_points
+        few = self.settings.coarse_points
         poses = levelled(rotations, cloud.few, template.middle_y)
         costs = self._costs(poses, cloud.few[:few], cloud.few_normals[:few], template)
         return poses.at(np.argsort(costs, kind="stable")[: self.settings.kept_coarse])

@@ -15,11 +15,9 @@ from footfit.pipeline.batch.sources import ReadingOptions, Source
 from footfit.pipeline.scan.align import aligned_scan
 from footfit.pipeline.scan.cleaning import scan_of
 from footfit.pipeline.scan.flare import profiled_scan
-from footfit.pipeline.scan.measure import measured_scan
 from footfit.pipeline.scan.preparation import prepared_scan
 from footfit.results import (
     AlignedScan,
-    MeasuredScan,
     Method,
     PreparedScan,
     Profiled,
@@ -89,8 +87,3 @@ def aligned_source(
 def profiled_source(source: Source, reading: ReadingOptions) -> Profiled:
     """Read, align, measure and profile one mesh."""
     return profiled_scan(aligned_source(source, reading))
-
-
-def measured_source(source: Source, reading: ReadingOptions) -> MeasuredScan:
-    """Read, align and measure one mesh."""
-    return measured_scan(aligned_source(source, reading))
