@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from footfit.geometry.mesh.surface import area_vectors, unit
-from footfit.geometry.numeric.arrays import Floats, Ints
+from footfit.geometry.numeric.arrays import Floats, Ints, row_dots, row_lengths
 
 Waves = NDArray[np.complex128]
 _TURN = 2.0 * np.pi
@@ -67,14 +67,14 @@ class Facets:
     def near(self, centre: Floats, reach: float, most: int) -> Facets:
         """Those within ``reach`` of a point, thinned to about ``most``."""
         away = self.middles - centre
-        near = np.flatnonzero(np.einsum("ij,ij->i", away, away) < reach**2)
+        near = np.flatnonzero(row_dots(away, away) < reach**2)
         near = near[:: max(1, len(near) // most)]
         return Facets(self.middles[near], self.vectors[near])
 
 
 def extent_of(rim: Floats) -> float:
     """Twice the distance of a rim's farthest point (k, 3) from the rim's middle."""
-    return 2.0 * float(_lengths(rim - rim.mean(axis=0)).max())
+    return 2.0 * float(row_lengths(rim - rim.mean(axis=0)).max())
 
 
 def farthest_of(rim: Floats) -> int:
@@ -82,7 +82,7 @@ def farthest_of(rim: Floats) -> int:
 
     A cap that starts there is the same in any order of vertices and, mirrored, in a mirror.
     """
-    return int(_lengths(rim - rim.mean(axis=0)).argmax())
+    return int(row_lengths(rim - rim.mean(axis=0)).argmax())
 
 
 def cap(rim: Floats, facets: Facets, ring: float) -> tuple[Floats, Ints] | None:
@@ -154,25 +154,21 @@ def _slope_waves(waves: Waves, near: Facets, reach: float) -> Waves | None:
     flat = (spin @ (_ORDERS[:, None] * waves)).real
     squares = ((place[:, None, :] - near.middles) ** 2).sum(axis=2)
     weight = np.exp(-squares / (0.5 * reach**2))
-    area = weight * np.sqrt(np.einsum("ij,ij->i", near.vectors, near.vectors))
+    area = weight * row_lengths(near.vectors)
     outside = area @ near.middles - area.sum(axis=1)[:, None] * place
     outward = place - waves[CAPS.harmonics].real
     if _mean_cosine(outside, outward) < CAPS.patch_cosine:
         return None
     normal = unit(weight @ near.vectors)
-    along = flat - normal * np.einsum("ij,ij->i", normal, flat)[:, None]
-    longer = _lengths(flat) / np.maximum(_lengths(along), np.finfo(np.float64).tiny)
+    along = flat - normal * row_dots(normal, flat)[:, None]
+    longer = row_lengths(flat) / np.maximum(row_lengths(along), np.finfo(np.float64).tiny)
     return _waves(along * np.minimum(longer, CAPS.stretch_most)[:, None])
 
 
 def _mean_cosine(rows: Floats, others: Floats) -> float:
     """The cosine between rows of (k, 3), averaged by the product of their lengths."""
-    total = float((_lengths(rows) * _lengths(others)).sum())
+    total = float((row_lengths(rows) * row_lengths(others)).sum())
     return float(np.einsum("ij,ij->", rows, others)) / total if total > 0.0 else -1.0
-
-
-def _lengths(rows: Floats) -> Floats:
-    return np.asarray(np.sqrt(np.einsum("ij,ij->i", rows, rows)))
 
 
 # ---------------------------------------------------------------- triangles

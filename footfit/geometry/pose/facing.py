@@ -8,7 +8,7 @@ import numpy as np
 
 from footfit.geometry.mesh.surface import area_vectors, unit
 from footfit.geometry.mesh.topology import consistent_faces, rows_differ
-from footfit.geometry.numeric.arrays import Floats, Ints
+from footfit.geometry.numeric.arrays import Floats, Ints, row_dots, row_lengths
 from footfit.geometry.pose.pieces import PIECES
 
 
@@ -29,10 +29,10 @@ class Facing:
 def facing(vertices: Floats, faces: Ints) -> Facing:
     """Where the faces of a mesh look, on the whole."""
     vectors = area_vectors(vertices, faces)
-    areas = np.sqrt(np.einsum("ij,ij->i", vectors, vectors))
+    areas = row_lengths(vectors)
     away = vertices[faces].mean(axis=1)
     away -= areas @ away / areas.sum()
-    distance = float(areas @ np.sqrt(np.einsum("ij,ij->i", away, away)))
+    distance = float(areas @ row_lengths(away))
     outward = float(np.einsum("ij,ij->", away, vectors))
     total = vectors.sum(axis=0)
     return Facing(
@@ -68,10 +68,10 @@ def outward_faces(vertices: Floats, faces: Ints, vectors: Floats, labels: Ints) 
     """
     turned = rows_differ(consistent_faces(faces), faces)
     signs = np.where(turned, -1.0, 1.0)
-    area = np.sqrt(np.einsum("ij,ij->i", vectors, vectors))
+    area = row_lengths(vectors)
     centres = (vertices[faces[:, 0]] + vertices[faces[:, 1]] + vertices[faces[:, 2]]) / 3.0
     middles = _middles(centres, area, labels)
-    outwardness = signs * np.einsum("ij,ij->i", centres - middles[labels], vectors)
+    outwardness = signs * row_dots(centres - middles[labels], vectors)
     inward = np.bincount(labels, weights=outwardness) < 0.0
     turned ^= inward[labels]
     outward = np.where(turned[:, None], faces[:, [0, 2, 1]], faces)

@@ -58,15 +58,6 @@ class Poses:
         return Poses(self.rotation[index], self.shift[index], self.scale[index])
 
 
-def joined(*batches: Poses) -> Poses:
-    """Several batches as one."""
-    return Poses(
-        np.concatenate([b.rotation for b in batches]),
-        np.concatenate([b.shift for b in batches]),
-        np.concatenate([b.scale for b in batches]),
-    )
-
-
 def moved(poses: Poses, points: Singles) -> Singles:
     """Points (n, 3) under each pose, (k, n, 3)."""
     turned = points @ poses.rotation.transpose(0, 2, 1)

@@ -18,7 +18,6 @@ from footfit.geometry.pose.icp import (
     Poses,
     forward_costs,
     icp_steps,
-    joined,
     levelled,
     reverse_cost,
     size_of,
@@ -198,16 +197,14 @@ class _Search:
         for template in self.templates:
             start = self._coarse(clouds[0], template, rotations)
             starts = start, mirror_image(start, template.middle_y)
-            batches = [
-                self._fitted(cloud, template, poses)
+            fitted = [
+                (cost, pose, cloud)
                 for cloud, poses in zip(clouds, starts, strict=True)
+                for cost, pose in self._fitted(cloud, template, poses)
             ]
-            poses = joined(*(poses for poses, _ in batches))
-            costs = np.concatenate([costs for _, costs in batches])
-            cloud_of = np.repeat([0, 1], [len(costs) for _, costs in batches])
-            for place in np.argsort(costs, kind="stable")[: self.settings.kept_poses]:
-                cloud = clouds[cloud_of[place]]
-                result.append(self._finished(poses.at(np.array([place])), cloud, template))
+            fitted.sort(key=lambda each: each[0])
+            best = fitted[: self.settings.kept_poses]
+            result += [self._finished(pose, cloud, template) for _, pose, cloud in best]
         return result
 
     def rivals(self, candidates: list[_Candidate]) -> list[_Candidate]:
@@ -250,8 +247,8 @@ class _Search:
         costs = self._costs(poses, cloud.few[:few], cloud.few_normals[:few], template)
         return poses.at(np.argsort(costs, kind="stable")[: self.settings.kept_coarse])
 
-    def _fitted(self, cloud: _Cloud, template: Template, poses: Poses) -> tuple[Poses, Singles]:
-        """Poses of one cloud on one template after ICP, in two halves, and their costs."""
+    def _fitted(self, cloud: _Cloud, template: Template, poses: Poses) -> list[tuple[float, Poses]]:
+        """The best poses of one cloud on one template after ICP in two halves, with their costs."""
         points, normals = cloud.few, cloud.few_normals
         costs = np.zeros(len(poses.scale), dtype=np.float32)
         for steps, kept in self.settings.icp_rounds:
@@ -259,10 +256,9 @@ class _Search:
             costs = self._costs(poses, points, normals, template)
             best = np.argsort(costs, kind="stable")[:kept]
             poses, costs = poses.at(best), costs[best]
-        apart = self._apart(poses, costs)
-        return poses.at(apart), costs[apart]
+        return [(float(costs[i]), poses.at(np.array([i]))) for i in self._apart(poses, costs)]
 
-    def _apart(self, poses: Poses, costs: Singles) -> Ints:
+    def _apart(self, poses: Poses, costs: Singles) -> list[int]:
         """Indices of the cheapest poses that differ by over ``apart_deg`` from a cheaper one."""
         traces = np.einsum("aij,bij->ab", poses.rotation, poses.rotation)
         near = traces > 1 + 2 * np.cos(np.radians(self.settings.apart_deg))
@@ -270,7 +266,7 @@ class _Search:
         for place in np.argsort(costs, kind="stable"):
             if len(kept) < self.settings.kept_poses and not near[place, kept].any():
                 kept.append(int(place))
-        return np.array(kept, dtype=np.int64)
+        return kept
 
     def _finished(self, pose: Poses, cloud: _Cloud, template: Template) -> _Candidate:
         """One pose fitted with all points, and its cost both ways."""

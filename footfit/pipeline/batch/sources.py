@@ -80,8 +80,8 @@ def _expanded(argument: str, *, alone: bool) -> list[str]:
         if path.is_dir():
             paths = _mesh_files(path.rglob("*"), path)
         elif GLOB_CHARACTERS & set(argument) and not path.exists():
-            anchor, pattern = _anchored(path)
-            paths = _mesh_files(anchor.glob(pattern), anchor)
+            anchor = Path(path.anchor)
+            paths = _mesh_files(anchor.glob(str(path.relative_to(anchor))), anchor)
         else:
             return [argument]
     except (OSError, ValueError):  # the name is too long, the folder is closed to us, or "**x"
@@ -90,11 +90,6 @@ def _expanded(argument: str, *, alone: bool) -> list[str]:
         kinds = ", ".join(suffix[1:] for suffix in MESH_SUFFIXES)
         raise UnreadableFile(f"holds no mesh file ({kinds}); name a file or folder", argument)
     return paths or [argument]
-
-
-def _anchored(path: Path) -> tuple[Path, str]:
-    """A glob as its root and the pattern below it."""
-    return Path(path.anchor), str(path.relative_to(path.anchor))
 
 
 def _mesh_files(paths: Iterable[Path], folder: Path) -> list[str]:

@@ -11,14 +11,7 @@ from footfit.geometry.mesh.moments import (
 )
 from footfit.geometry.numeric.arrays import Floats
 from footfit.geometry.pose import paper_frame
-from footfit.results import (
-    AlignedScan,
-    Alignment,
-    Eigenframe,
-    Method,
-    PreparedScan,
-    Reference,
-)
+from footfit.results import AlignedScan, Alignment, Eigenframe, Method, PreparedScan, Reference
 
 
 def aligned_scan(
@@ -39,16 +32,17 @@ def aligned_scan(
     NoReference
         If a paper method is asked for without a reference.
     """
-    _require_reference(method, reference)
-    canonical, info = prepared.canonical_transform, prepared.info
+    if method != "footfit" and reference is None:
+        raise NoReference(
+            f"method {method} needs a reference last; ingest one or run footfit set-reference LAST"
+        )
     own, printed = _eigenframes(prepared, method)
-    left = prepared.side.side == "left"
     alignment = Alignment(
-        info=info,
+        info=prepared.info,
         method=method,
         side=prepared.side,
-        transform=_transform(method, canonical, own, info.unit_scale, reference, left=left),
-        canonical_transform=canonical,
+        transform=_transform(prepared, method, own, reference),
+        canonical_transform=prepared.canonical_transform,
         eigenframe=own,
         printed_frame=printed,
         pose=prepared.pose,
@@ -79,28 +73,22 @@ def _paired(centroid_mm: Floats, rows: Floats, moment_mm2: Floats) -> Eigenframe
     return Eigenframe(centroid_mm, rows, moments_along(moment_mm2, rows))
 
 
-def _require_reference(method: Method, reference: Reference | None) -> None:
-    if method != "footfit" and reference is None:
-        raise NoReference(
-            f"method {method} needs a reference last; ingest one or run footfit set-reference LAST"
-        )
-
-
 def _transform(
-    method: Method,
-    canonical: Floats,
-    frame: Eigenframe,
-    unit_scale: float,
-    reference: Reference | None,
-    *,
-    left: bool,
+    prepared: PreparedScan, method: Method, frame: Eigenframe, reference: Reference | None
 ) -> Floats:
-    """The transform of the method, never a mirror, though Eq. 1-8 see a left shape mirrored."""
+    """The transform of the method; it never mirrors, though Eq. 1-8 see a left shape mirrored."""
     if method == "footfit" or reference is None:
-        return canonical
+        return prepared.canonical_transform
+    left = prepared.side.side == "left"
     P_c, R = frame.centroid_mm, frame.eigenvectors
     if left:
         P_c, R = paper_frame.mirrored_frame(P_c, R)
-    literal, onto = method == "paper-literal", (reference.om_e, reference.centroid_mm)
-    moved = paper_frame.paper_transform(P_c, R, *onto, unit_scale, literal=literal)
-    return paper_frame.unmirrored(moved, mirrored=left)
+    of_right = paper_frame.paper_transform(
+        P_c,
+        R,
+        reference.om_e,
+        reference.centroid_mm,
+        prepared.info.unit_scale,
+        literal=method == "paper-literal",
+    )
+    return paper_frame.unmirrored(of_right, mirrored=left)
