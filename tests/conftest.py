@@ -53,7 +53,7 @@ def footfit(
 ) -> Footfit:
     """Run ``footfit ARGS`` in this process, with no catalogue of the user's in reach."""
     from footfit.cli.app import application
-    from footfit.cli.boundary import guarded
+    from footfit.cli.boundary import run_guarded
 
     home = tmp_path_factory.mktemp("home")
     monkeypatch.setenv("HOME", str(home))
@@ -64,7 +64,7 @@ def footfit(
         capsysbinary.readouterr()
         words = [str(argument) for argument in arguments]
         monkeypatch.setattr(sys, "argv", ["footfit", *words])
-        code = guarded(application(), words)
+        code = run_guarded(application(), words)
         out, err = capsysbinary.readouterr()
         return Run(code, out.decode(), err.decode())
 

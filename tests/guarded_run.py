@@ -39,14 +39,14 @@ def main(log: str, arguments: list[str]) -> int:
 
         resource.setrlimit(resource.RLIMIT_AS, (int(most), int(most)))
     from footfit.cli.app import application
-    from footfit.cli.boundary import guarded
+    from footfit.cli.boundary import run_guarded
     from footfit.pipeline.batch import runs
 
     apart = runs.outcomes
     runs.outcomes = lambda work, items, _jobs: apart(work, items, runs.HERE)
 
     sys.argv = ["footfit", *arguments]
-    code = guarded(application(), arguments)
+    code = run_guarded(application(), arguments)
     noted = json.dumps({kind: sorted(names) for kind, names in touched.items()})
     Path(log).write_text(noted, encoding="utf-8", errors="backslashreplace")
     return code

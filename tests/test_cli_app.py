@@ -11,7 +11,7 @@ import pytest
 
 from footfit import __version__
 from footfit.cli.app import COMMANDS, application
-from footfit.cli.boundary import guarded
+from footfit.cli.boundary import run_guarded
 from tests.conftest import Footfit
 
 HEAVY = ("numpy", "scipy", "trimesh", "sqlalchemy", "alembic", "matplotlib", "jinja2", "rich")
@@ -21,8 +21,8 @@ def modules_after(*arguments: str) -> set[str]:
     """The top-level modules that a run of the command line imports, in a process of its own."""
     code = (
         "import sys; from footfit.cli.app import application;"
-        "from footfit.cli.boundary import guarded;"
-        f"guarded(application(), {list(arguments)!r});"
+        "from footfit.cli.boundary import run_guarded;"
+        f"run_guarded(application(), {list(arguments)!r});"
         "print('\\n' + ' '.join(sorted({m.split('.')[0] for m in sys.modules})))"
     )
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
@@ -92,7 +92,7 @@ def test_a_bug_is_exit_1_and_shows_its_traceback_only_on_request(
     def broken(**_: object) -> None:
         raise RuntimeError("broken")
 
-    assert guarded(broken, ["--verbose"] if verbose else []) == 1
+    assert run_guarded(broken, ["--verbose"] if verbose else []) == 1
     err = capsysbinary.readouterr().err.decode()
     assert ("Traceback" in err) == verbose
     assert "please report it" in err.splitlines()[-1]

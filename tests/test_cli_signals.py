@@ -15,7 +15,7 @@ from footfit.cli.signals import LISTENER, Stopped
 number, steps = int(sys.argv[1]), []
 signal.signal(number, signal.SIG_DFL)  # a job in the background starts with SIGINT ignored
 try:
-    with LISTENER.listening():
+    with LISTENER.listen():
         LISTENER.heed()
         before = signal.pthread_sigmask(signal.SIG_BLOCK, {number})
         try:

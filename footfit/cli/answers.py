@@ -1,4 +1,4 @@
-"""How a batch is answered: each mesh as it comes, warnings beside, one exit code at the end."""
+"""How a command answers: each mesh as it comes, warnings on stderr, one exit code at the end."""
 
 from __future__ import annotations
 
@@ -33,14 +33,14 @@ def answer_scans(
     outputs: Outputs,
     **options: Any,
 ) -> None:
-    """Do a verb of `footfit.api` with each mesh, answer each as it comes, and exit.
+    """Run a verb of `footfit.api` on each mesh, answer each one as it comes, and exit.
 
     Raises
     ------
     Exit
-        With the failures' common code.
+        Always; with the exit code that the failures share.
     BadOption, OutputExists, UnreadableFile
-        Before any work: an output cannot be written, or there is no mesh.
+        Before any work, if an output cannot be written or there is no mesh.
     """
     from footfit.api import scans
 
@@ -57,37 +57,54 @@ def answer_outcomes(
     outputs: Outputs,
     then: Callable[[T], object] | None = None,
 ) -> int:
-    """Tell each outcome as it comes, write the files, do ``then``; return the exit code."""
-    kept: list[T] = []
+    """Answer each outcome as it comes, write its files, and call ``then``; return the exit code.
 
-    def written(result: T) -> None:
-        outputs.write(result)
-        if outputs.csv is not None:
-            kept.append(result)
-        if then is not None:
-            then(result)
+    One bad mesh does not stop the others: it has a line of its own, and it sets the exit code.
+    """
+    from footfit.pipeline.batch.runs import common_code
 
-    code = tell_outcomes(outcomes, replace(mode, answers=outputs.csv != STDOUT), written)
-    outputs.write_csv(kept)
-    return code
+    mode = replace(mode, answers=outputs.csv != STDOUT)
+    errors: list[FootfitError] = []
+    tables: list[T] = []
+    with failures_last(mode) as say_failure:
+        for outcome in watched_items(outcomes, mode):
+            result = outcome.value
+            if result is None:
+                assert outcome.error is not None
+                errors.append(outcome.error)
+                line = error_line(outcome.error, as_json=mode.json)
+                if mode.json and mode.answers:
+                    answer(line)
+                say_failure(line)
+                continue
+            tell(result, mode)
+            outputs.write(result)
+            if outputs.csv is not None:
+                tables.append(result)
+            if then is not None:
+                then(result)
+    if errors and mode.total > 1:
+        say(f"{len(errors)} of {mode.total} meshes failed", quiet=mode.quiet or mode.json)
+    outputs.write_csv(tables)
+    return common_code(int(error.exit) for error in errors)
 
 
 def answer_result(result: Any, mode: OutputMode, outputs: Outputs) -> None:
-    """Write the files of a single result, and tell it."""
+    """Write the files of a single result, and tell the result."""
     outputs.write(result)
     tell(result, replace(mode, answers=outputs.csv != STDOUT))
     outputs.write_csv([result])
 
 
 def sources_of(meshes: Sequence[str], reading: Scale, *, split: bool = False) -> list[Source]:
-    """The meshes that a command was given, standard input among them.
+    """The meshes that a command is given; ``-`` stands for standard input.
 
     Raises
     ------
     BadOption
-        ``-`` beside other meshes, or without ``--format``.
+        ``-`` stands beside other meshes, or ``--format`` is missing.
     UnreadableFile
-        A folder or glob without a mesh.
+        A folder or glob holds no mesh.
     """
     from footfit.api import inputs
     from footfit.pipeline.batch.sources import stdin_source
@@ -102,35 +119,8 @@ def sources_of(meshes: Sequence[str], reading: Scale, *, split: bool = False) ->
     return inputs.sources([source], split=split, **reading.keywords())
 
 
-def tell_outcomes(
-    outcomes: Iterable[Outcome[Any, T]], mode: OutputMode, then: Callable[[T], object]
-) -> int:
-    """Tell each outcome as it comes, and do ``then`` with its value; return the exit code.
-
-    One bad mesh stops nothing: its line says so, and the code at the end is the failures'.
-    """
-    from footfit.pipeline.batch.runs import common_code
-
-    errors: list[FootfitError] = []
-    with failures_last(mode) as tell_failure:
-        for outcome in counted(outcomes, mode):
-            if outcome.value is None:
-                assert outcome.error is not None
-                errors.append(outcome.error)
-                line = error_line(outcome.error, as_json=mode.json)
-                if mode.json and mode.answers:
-                    answer(line)
-                tell_failure(line)
-                continue
-            tell(outcome.value, mode)
-            then(outcome.value)
-    if errors and mode.total > 1:
-        say(f"{len(errors)} of {mode.total} meshes failed", quiet=mode.quiet or mode.json)
-    return common_code(int(error.exit) for error in errors)
-
-
 def tell(value: Any, mode: OutputMode) -> None:
-    """One result: its notices on stderr, itself on stdout."""
+    """Write the notices of a result to stderr, and the result to stdout."""
     from footfit.cli.answer_forms import FORMS
 
     form = FORMS[type(value)]
@@ -148,8 +138,9 @@ def tell(value: Any, mode: OutputMode) -> None:
 
 @contextmanager
 def failures_last(mode: OutputMode) -> Iterator[Callable[[str], None]]:
-    """Say failures as they come; with --json after everything else, so that stderr's last line is
-    one, whatever warnings the later meshes have.
+    """Give what says a failure: at once, and with --json after all other messages.
+
+    A script that reads JSON finds the error in the last line of stderr.
     """
     lines: list[str] = []
     try:
@@ -159,19 +150,17 @@ def failures_last(mode: OutputMode) -> Iterator[Callable[[str], None]]:
             say(line)
 
 
-def counted(items: Iterable[T], mode: OutputMode) -> Iterator[T]:
-    """``items``, counted for who interrupts them, and behind a progress bar where a person
-    watches several meshes go by.
-    """
+def watched_items(items: Iterable[T], mode: OutputMode) -> Iterator[T]:
+    """The items, with a count for an interruption, and a progress bar if a person watches."""
     LISTENER.total = mode.total
-    shown = mode.total > 1 and not (mode.quiet or mode.json) and sys.stderr.isatty()
-    for item in _behind_a_bar(items, mode.total) if shown else items:
+    watched = mode.total > 1 and not (mode.quiet or mode.json) and sys.stderr.isatty()
+    for item in _with_a_bar(items, mode.total) if watched else items:
         yield item
         LISTENER.done += 1
 
 
-def _behind_a_bar(items: Iterable[T], total: int) -> Iterator[T]:
-    """The bar is taken down while an item is dealt with: its answer has the screen to itself."""
+def _with_a_bar(items: Iterable[T], total: int) -> Iterator[T]:
+    """The items with a progress bar, which is hidden while an item is answered."""
     from rich.console import Console
     from rich.progress import BarColumn, MofNCompleteColumn, Progress, TimeRemainingColumn
 

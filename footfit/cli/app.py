@@ -7,7 +7,7 @@ from typing import Annotated
 
 import typer
 
-from footfit.cli.boundary import guarded
+from footfit.cli.boundary import run_guarded
 from footfit.cli.command_group import LazyGroup
 from footfit.cli.commands.align import align
 from footfit.cli.commands.backup_catalogue import backup_catalogue
@@ -28,7 +28,7 @@ from footfit.cli.commands.restore_catalogue import restore_catalogue
 from footfit.cli.commands.set_reference import set_reference
 from footfit.cli.commands.show_last import show_last
 from footfit.cli.commands.upgrade_catalogue import upgrade_catalogue
-from footfit.cli.settings import one_blas_thread
+from footfit.cli.settings import use_one_blas_thread
 from footfit.version import __version__
 
 PAPER, FIT = "The paper's commands", "Fit"
@@ -72,7 +72,7 @@ def _root(
 ) -> None:
     """Which shoe last fits this foot, and why?
 
-    Scans of feet and lasts in, ranked lasts with reasons out. New here? footfit demo
+    footfit reads scans of feet and lasts, and ranks lasts with reasons. New here? Try footfit demo.
     """
 
 
@@ -97,5 +97,5 @@ def application() -> typer.Typer:
 
 def main() -> None:
     """Run the command line and exit with its code."""
-    one_blas_thread()
-    sys.exit(guarded(application(), sys.argv[1:]))
+    use_one_blas_thread()
+    sys.exit(run_guarded(application(), sys.argv[1:]))

@@ -14,11 +14,11 @@ from footfit.errors import BadOption, ExitCode, FootfitError
 REPORT_TO = "please report it with the command that you typed (docs/exit-codes.md says how)"
 
 
-def guarded(application: Callable[..., Any], arguments: Sequence[str]) -> int:
-    """Run the application on ``arguments``; return the exit code, having said what went wrong."""
-    with LISTENER.listening():
+def run_guarded(application: Callable[..., Any], arguments: Sequence[str]) -> int:
+    """Run the application on ``arguments``, say what goes wrong, and return the exit code."""
+    with LISTENER.listen():
         try:
-            code = _answered(application, arguments)
+            code = _run(application, arguments)
             LISTENER.put_off()
             return code
         except Stopped as stopped:
@@ -26,7 +26,7 @@ def guarded(application: Callable[..., Any], arguments: Sequence[str]) -> int:
             return int(CODES[stopped.number])
 
 
-def _answered(application: Callable[..., Any], arguments: Sequence[str]) -> int:
+def _run(application: Callable[..., Any], arguments: Sequence[str]) -> int:
     as_json, verbose = "--json" in arguments, "--verbose" in arguments
     LISTENER.heed()
     try:
@@ -34,16 +34,16 @@ def _answered(application: Callable[..., Any], arguments: Sequence[str]) -> int:
     except FootfitError as error:
         say(error_line(error, as_json=as_json))
         return int(error.exit)
-    except ReaderGone:  # keep the interpreter from complaining at its exit
+    except ReaderGone:  # else Python complains when it flushes stdout at its end
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
         return int(ExitCode.OK)
-    except Exception as error:  # noqa: BLE001 - the boundary: nothing may pass it as a traceback
-        return _unexpected(error, as_json=as_json, verbose=verbose)
+    except Exception as error:  # noqa: BLE001 - no traceback may reach the user
+        return _say_unexpected(error, as_json=as_json, verbose=verbose)
     return code if isinstance(code, int) else int(ExitCode.OK)
 
 
-def _unexpected(error: Exception, *, as_json: bool, verbose: bool) -> int:
-    """A usage error of the command-line library, or a bug."""
+def _say_unexpected(error: Exception, *, as_json: bool, verbose: bool) -> int:
+    """Say a usage error of the command-line library, or a bug; return the exit code."""
     words = getattr(error, "format_message", None)
     if words is not None and getattr(error, "exit_code", None) == int(ExitCode.USAGE):
         context = getattr(error, "ctx", None)

@@ -22,18 +22,18 @@ PLAIN_WIDTH = 80
 
 
 class ReaderGone(Exception):
-    """Nobody reads stdout any more (``| head``). No OSError: of one Typer makes an exit 1."""
+    """Nobody reads stdout any more (``| head``). Not an OSError, which Typer turns into exit 1."""
 
 
 def answer(text: str) -> None:
-    """Write to stdout as UTF-8, whatever the locale says.
+    """Write to stdout as UTF-8, whatever the locale is.
 
     Raises
     ------
     BadOption
-        The disk that stdout goes to takes no more.
+        The disk behind stdout is full.
     ReaderGone
-        Nobody reads it.
+        Nobody reads stdout.
     """
     data = text if text.endswith("\n") else text + "\n"
     try:
@@ -46,7 +46,7 @@ def answer(text: str) -> None:
 
 
 def show(renderable: RenderableType) -> None:
-    """Write a table to stdout, coloured only for a terminal that wants it."""
+    """Write a table to stdout, in colour if a terminal shows it and NO_COLOR is not set."""
     from footfit.report.terminal.scan_tables import terminal_text
 
     colour = sys.stdout.isatty() and not os.environ.get("NO_COLOR")
@@ -55,23 +55,23 @@ def show(renderable: RenderableType) -> None:
 
 
 def say(message: str, *, quiet: bool = False) -> None:
-    """One line on stderr, unless ``quiet``."""
+    """Write one line to stderr, unless ``quiet``."""
     if not quiet:
         data = visible(message) + "\n"
-        with suppress(OSError):  # a full disk or a reader gone: there is nobody else to tell
+        with suppress(OSError):  # the disk is full or nobody reads: there is no other place for it
             sys.stderr.buffer.write(data.encode("utf-8", "backslashreplace"))
             sys.stderr.flush()
 
 
 def say_notices(notices: Iterable[Notice], path: str | None, *, quiet: bool) -> None:
-    """Each warning as one line that names its file."""
+    """Write each notice as one line that names its file."""
     where = f"{path}: " if path else ""
     for notice in notices:
         say(f"{where}{notice.message}", quiet=quiet)
 
 
 def error_line(error: FootfitError, *, as_json: bool) -> str:
-    """The one line that an error is: words, or the ``footfit.error/1`` document."""
+    """An error as one line: words, or the ``footfit.error/1`` document."""
     if as_json:
         return json_line(error.to_dict())
     where = f"{error.path}: " if error.path else ""

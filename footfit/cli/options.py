@@ -1,4 +1,4 @@
-"""The options that commands share, each written once; those that go together are a group.
+"""The options that commands share, each written once. Options that go together form a group.
 
 A command has a parameter of a group's type; `command_group` shows each option of the group.
 """
@@ -32,7 +32,7 @@ class UnitName(StrEnum):
 
 
 class SideChoice(StrEnum):
-    """The side of the body, or let the shape tell."""
+    """The side of the body; ``auto`` goes by the shape."""
 
     auto = "auto"
     left = "left"
@@ -56,31 +56,32 @@ def option(flag: str, help: str, metavar: str | None = None, *, panel: str | Non
 
 
 def switch(flag: str, help: str, *, panel: str | None = None) -> Any:
-    """An option without a value: the help shows no type that a reader would try to give it."""
+    """An option without a value; the help shows no type, which a reader would try to give."""
     return typer.Option(flag, metavar="", rich_help_panel=panel, help=help)
 
 
 def output_file(flag: str, help: str, *short: str) -> Any:
-    """An option that names a file to write; what is in it differs from command to command."""
+    """An option that names a file to write; its content differs from command to command."""
     return typer.Option(
         *short, flag, metavar="FILE", show_default=False, rich_help_panel=OUTPUT, help=help
     )
 
 
 def argument(metavar: str, help: str) -> Any:
-    """What a command works on."""
+    """What a command works on, given without a flag."""
     return typer.Argument(metavar=metavar, show_default=False, help=help)
 
 
 Meshes = Annotated[
-    list[str], argument("MESH", "Mesh files, folders or globs; - reads one mesh from stdin.")
+    list[str],
+    argument("MESH", "Give mesh files, folders or globs, or - to read one mesh from stdin."),
 ]
-LastName = Annotated[str, argument("LAST", "The last's name; list-lasts shows them.")]
+LastName = Annotated[str, argument("LAST", "Give the name of a last; list-lasts shows the names.")]
 Catalogue = Annotated[
     Path | None,
     option(
         "--catalogue",
-        "The catalogue file. Else FOOTFIT_CATALOGUE, the settings file, your data folder.",
+        "Use this file. Else FOOTFIT_CATALOGUE, the settings file or your data folder.",
         "PATH",
         panel=CATALOGUE,
     ),
@@ -93,7 +94,7 @@ Jobs = Annotated[
         metavar="N",
         min=1,
         rich_help_panel=READING,
-        help="Processes to work with; the answer is the same for any number.",
+        help="Work with this many processes. The answer is the same for any number.",
     ),
 ]
 Force = Annotated[bool, switch("--force", "Replace output files that exist.", panel=OUTPUT)]
@@ -112,7 +113,7 @@ class Scale:
         typer.Option(
             "--units",
             rich_help_panel=READING,
-            help="The file's unit; auto takes the one that makes the length 180-340 mm.",
+            help="Set the unit of the file; auto takes the one that makes the length 180-340 mm.",
         ),
     ] = UnitName.auto
     known_length: Annotated[
@@ -129,11 +130,11 @@ class Scale:
     ] = None
     format: Annotated[
         FormatName | None,
-        option("--format", "The format of the mesh on stdin.", panel=READING),
+        option("--format", "Set the format of the mesh on stdin.", panel=READING),
     ] = None
 
     def keywords(self) -> dict[str, Any]:
-        """As the functions of `footfit.api` take them."""
+        """The options as the functions of `footfit.api` take them."""
         return {"units": self.units.value, "known_length_mm": self.known_length}
 
 
@@ -144,12 +145,14 @@ class Reading(Scale):
     side: Annotated[
         SideChoice,
         typer.Option(
-            "--side", rich_help_panel=READING, help="The side; auto detects it and says how surely."
+            "--side",
+            rich_help_panel=READING,
+            help="Set the side; auto detects it, and says how sure it is.",
         ),
     ] = SideChoice.auto
 
     def keywords(self) -> dict[str, Any]:
-        """As the functions of `footfit.api` take them."""
+        """The options as the functions of `footfit.api` take them."""
         return {**Scale.keywords(self), "side": self.side.value}
 
 
@@ -161,7 +164,7 @@ class Batch:
         bool,
         switch(
             "--split",
-            "Take the feet of one file apart; each is a line of its own (file.stl#1, #2).",
+            "Take the feet of one file apart; each has a line of its own (file.stl#1, #2).",
             panel=READING,
         ),
     ] = False
@@ -172,13 +175,15 @@ class Batch:
 class OutputMode:
     """JSON lines or tables, with or without messages.
 
-    ``total`` is how many answers are awaited. ``answers`` False: stdout is taken by a CSV.
+    ``total`` is how many answers are expected. ``answers`` is False if a CSV goes to stdout.
     """
 
     json: Annotated[
-        bool, switch("--json", "JSON lines on stdout, one document per mesh.", panel=ANSWER)
+        bool, switch("--json", "Write JSON lines to stdout, one document per mesh.", panel=ANSWER)
     ] = False
-    quiet: Annotated[bool, switch("--quiet", "No messages, only the answer.", panel=ANSWER)] = False
+    quiet: Annotated[
+        bool, switch("--quiet", "Print the answer only, and no messages.", panel=ANSWER)
+    ] = False
     verbose: Annotated[bool, switch("--verbose", "Show the traceback of a bug.", panel=ANSWER)] = (
         False
     )

@@ -1,4 +1,4 @@
-"""Output files: written beside and renamed, never over an existing one unasked."""
+"""Output files: written under another name and renamed; a file is only replaced with --force."""
 
 from __future__ import annotations
 
@@ -17,10 +17,10 @@ from footfit.pipeline.export import file_kind
 
 @dataclass(frozen=True, slots=True)
 class OutputFile:
-    """A file to write of one result, if there is a ``path``.
+    """A file to write for one result, if there is a ``path``.
 
-    ``content`` makes it of the result and the path's suffix, which is one of ``kinds``. Without
-    ``kinds`` every name is taken, and there is one form.
+    ``content`` makes it from the result and the suffix of the path, which is one of ``kinds``.
+    Without ``kinds`` the file has one form, and any name.
     """
 
     path: Path | None
@@ -30,7 +30,7 @@ class OutputFile:
 
 @dataclass(frozen=True, slots=True)
 class Outputs:
-    """All files that a command writes: some of a single result, and a CSV of every ``table``."""
+    """The files that a command writes: ``files`` for a single result, a CSV for all tables."""
 
     files: tuple[OutputFile, ...] = ()
     table: type[Any] | None = None
@@ -38,12 +38,12 @@ class Outputs:
     force: bool = False
 
     def refuse(self, *, as_json: bool) -> None:
-        """Stop before any work where a file could not be written at its end.
+        """Stop before any work if a file could not be written at the end.
 
         Raises
         ------
         OutputExists, BadOption
-            As `refuse_existing`; also ``--csv -`` together with ``--json``.
+            As `refuse_existing`; also if ``--csv -`` and ``--json`` are given together.
         """
         for file in self.files:
             refuse_existing(file.path, force=self.force, kinds=file.kinds)
@@ -53,12 +53,12 @@ class Outputs:
             refuse_existing(self.csv, force=self.force)
 
     def require_one(self, meshes: Sized, unless: str = "") -> None:
-        """Refuse a file of one result for several meshes; ``unless`` names another way out.
+        """Refuse one file for several meshes; ``unless`` names another solution.
 
         Raises
         ------
         BadOption
-            Several meshes would be written over one another.
+            The meshes would be written over one another.
         """
         named = [str(file.path) for file in self.files if file.path is not None]
         if named and len(meshes) != 1:
@@ -86,22 +86,22 @@ class Outputs:
 
 
 def refuse_existing(path: Path | None, *, force: bool, kinds: tuple[str, ...] = ()) -> None:
-    """Stop before any work where an output could not be written at its end.
+    """Stop before any work if an output could not be written at the end.
 
-    ``kinds`` are the suffixes that the output may have; without any it may have any.
+    ``kinds`` are the suffixes that the output may have; without ``kinds`` it may have any.
 
     Raises
     ------
     OutputExists
-        The file is there and ``force`` is not given.
+        The file exists and ``force`` is not given.
     BadOption
-        The folder does not exist, the path is a folder or no path, the suffix is another.
+        The folder does not exist, the path is a folder or not valid, or the suffix is wrong.
     """
     if path is None:
         return
     try:
         _refuse(path, force=force)
-    except OSError as error:  # a name too long, a folder closed to us
+    except OSError as error:  # such as a name that is too long
         raise BadOption(f"cannot be written: {error.strerror}", str(path)) from error
     if kinds:
         file_kind(path, kinds)
@@ -122,7 +122,7 @@ def write_output(path: Path, data: bytes | str, *, force: bool) -> None:
     Raises
     ------
     OutputExists, BadOption
-        As `refuse_existing`; also where the system refuses the write.
+        As `refuse_existing`; also if the system refuses to write.
     """
     refuse_existing(path, force=force)
     content = data.encode("utf-8") if isinstance(data, str) else data

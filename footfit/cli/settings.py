@@ -25,7 +25,7 @@ def settings_catalogue(path: Path) -> Path | None:
     Raises
     ------
     BadOption
-        The file is no TOML, or the value is no text.
+        The file is not TOML, or the value is not text.
     """
     import tomllib
 
@@ -34,7 +34,7 @@ def settings_catalogue(path: Path) -> Path | None:
     try:
         value = tomllib.loads(path.read_text(encoding="utf-8")).get("catalogue")
     except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
-        raise BadOption(f"is not valid TOML ({error}); mend or remove it", str(path)) from error
+        raise BadOption(f"is not valid TOML ({error}); correct or remove it", str(path)) from error
     if value is None:
         return None
     if not isinstance(value, str) or not value:
@@ -48,26 +48,26 @@ def catalogue_path(option: Path | None) -> Path:
     Raises
     ------
     BadOption
-        The settings file cannot be understood.
+        The settings file is not valid.
     """
     if option is not None:
         return option
     named = os.environ.get(ENVIRONMENT_NAME)
     if named:
         return Path(named).expanduser()
-    settled = settings_catalogue(settings_path())
-    if settled is not None:
-        return settled
+    from_settings = settings_catalogue(settings_path())
+    if from_settings is not None:
+        return from_settings
     import platformdirs
 
     return Path(platformdirs.user_data_dir("footfit", appauthor=False)) / CATALOGUE_NAME
 
 
-def one_blas_thread() -> None:
-    """Hold BLAS to one thread, before NumPy is imported.
+def use_one_blas_thread() -> None:
+    """Give BLAS one thread, before NumPy is imported.
 
-    The sums of a threaded BLAS depend on the number of threads; with one, the same input gives
-    the same bytes whatever ``--jobs`` and whatever the machine's cores.
+    The sums of a threaded BLAS depend on the number of threads. With one thread the same input
+    gives the same bytes, whatever ``--jobs`` is and however many cores the machine has.
     """
     for name in ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS"):
         os.environ[name] = "1"

@@ -88,7 +88,7 @@ def _behind_the_boundary(
     script: Script, place: Path, said: Path, file_bytes: int | None = None
 ) -> Child:
     def work(acknowledge: Callable[[], None]) -> int:
-        from footfit.cli.boundary import guarded
+        from footfit.cli.boundary import run_guarded
 
         handle = os.open(said, os.O_WRONLY | os.O_CREAT | os.O_TRUNC)
         os.dup2(handle, 2)
@@ -100,7 +100,7 @@ def _behind_the_boundary(
             for _step in script.work(place, 0):
                 acknowledge()
 
-        return guarded(steps, [])
+        return run_guarded(steps, [])
 
     return forked(work)
 

@@ -119,7 +119,7 @@ def _failing(
     script: Script, place: Path, call: str, idle_calls: int, acknowledge: Callable[[], None]
 ) -> int:
     """A script behind footfit's own boundary, after so many idle calls."""
-    from footfit.cli.boundary import guarded
+    from footfit.cli.boundary import run_guarded
 
     said = os.open(place.with_name(f"{place.name}.said"), os.O_WRONLY | os.O_CREAT)
     os.dup2(said, 2)
@@ -131,7 +131,7 @@ def _failing(
         for _step in script.work(place, 0):
             acknowledge()
 
-    return guarded(work, [])
+    return run_guarded(work, [])
 
 
 def _idle(function: Callable[..., object], *arguments: object) -> Callable[[], None]:

@@ -1,1 +1,1 @@
-"""One file a command: it parses, calls one pipeline function and hands the result to report."""
+"""One file for each command: it parses options, calls one function of the library and answers."""

@@ -1,4 +1,4 @@
-"""``footfit align``: one comparable frame for any scan."""
+"""``footfit align``: any scan in the canonical frame."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from footfit.cli import options
 
 
 class MethodName(StrEnum):
-    """How to align: footfit's own way, or the paper's, read consistently or literally."""
+    """How to align: by footfit's method, or by the paper's, corrected or as printed."""
 
     footfit = "footfit"
     paper = "paper"
@@ -24,7 +24,7 @@ def align(
     output: Annotated[
         Path | None,
         options.output_file(
-            "--output", "Write the aligned mesh (.stl, .ply, .obj, .off), mm.", "-o"
+            "--output", "Write the aligned mesh in mm (.stl, .ply, .obj, .off).", "-o"
         ),
     ] = None,
     plot: Annotated[
@@ -36,11 +36,15 @@ def align(
     method: Annotated[
         MethodName,
         typer.Option(
-            "--method", help="footfit settles the pose by shape; the others are as printed."
+            "--method",
+            help="Align by the shape (footfit), or by the equations of the paper.",
         ),
     ] = MethodName.footfit,
     to: Annotated[
-        str | None, options.option("--to", "Whose OM_E to use, else the reference's.", "LAST")
+        str | None,
+        options.option(
+            "--to", "Use the OM_E of this last; without it that of the reference last.", "LAST"
+        ),
     ] = None,
     catalogue: options.Catalogue = None,
     force: options.Force = False,
@@ -49,7 +53,7 @@ def align(
     batch: options.Batch,
     mode: options.OutputMode,
 ) -> None:
-    """Align scans: heel to toe along X, sole down, mm.
+    """Turn scans into one frame: heel to toe along X, sole down, in mm.
 
     Example: footfit align foot.stl -o aligned.stl --plot frames.svg
     """

@@ -1,4 +1,4 @@
-"""``footfit backup-catalogue``: a whole, verified copy while others go on working."""
+"""``footfit backup-catalogue``: a whole, checked copy, while others go on working."""
 
 from __future__ import annotations
 
@@ -9,13 +9,15 @@ from footfit.cli import options
 
 
 def backup_catalogue(
-    file: Annotated[Path, options.argument("FILE", "The backup to write.")],
+    file: Annotated[Path, options.argument("FILE", "Name the backup to write.")],
     catalogue: options.Catalogue = None,
     force: options.Force = False,
     *,
     mode: options.OutputMode,
 ) -> None:
-    """Copy the catalogue, also while others write to it; a damaged one is refused.
+    """Copy the catalogue and check the copy, also while others write to it.
+
+    A damaged catalogue is refused.
 
     Example: footfit backup-catalogue lasts-2026-05-01.footfit
     """

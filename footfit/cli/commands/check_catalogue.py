@@ -1,4 +1,4 @@
-"""``footfit check-catalogue``: is everything as it was stored?"""
+"""``footfit check-catalogue``: is every value as it was stored?"""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ def check_catalogue(
     *,
     mode: options.OutputMode,
 ) -> None:
-    """Look for every value that is not as it was stored; exit 7 with a list of them.
+    """Check that every value is as it was stored. If not, list the faults and exit with 7.
 
     Example: footfit check-catalogue
     """

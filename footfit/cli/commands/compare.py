@@ -1,4 +1,4 @@
-"""``footfit compare``: one foot in one last, section by section and surface against surface."""
+"""``footfit compare``: one foot in one last, by zone and by section."""
 
 from __future__ import annotations
 
@@ -9,27 +9,30 @@ from footfit.cli import options
 
 
 def compare(
-    foot: Annotated[str, options.argument("FOOT", "The foot's mesh file; - reads it from stdin.")],
+    foot: Annotated[
+        str, options.argument("FOOT", "Give the mesh file of the foot, or - to read it from stdin.")
+    ],
     last: Annotated[
-        str, options.argument("LAST", "A last of the catalogue by name, or a mesh file.")
+        str,
+        options.argument("LAST", "Give a last by its name in the catalogue, or by its mesh file."),
     ],
     output: Annotated[
         Path | None,
         options.output_file(
             "--output",
-            "Write the foot in the last's frame coloured by the room: .ply, or a picture.",
+            "Write the foot in the last's frame, coloured by the clearance (.ply, .svg, .png).",
             "-o",
         ),
     ] = None,
     plot: Annotated[
         Path | None,
         options.output_file(
-            "--plot", "Draw the sections of the foot over the last's (.svg, .png)."
+            "--plot", "Draw the sections of the foot over those of the last (.svg, .png)."
         ),
     ] = None,
     html: Annotated[
         Path | None,
-        options.output_file("--html", "Write a report with a 3D view that opens in any browser."),
+        options.output_file("--html", "Write a page with a 3D view that opens in any browser."),
     ] = None,
     csv: options.Csv = None,
     catalogue: options.Catalogue = None,
@@ -38,7 +41,7 @@ def compare(
     reading: options.Reading,
     mode: options.OutputMode,
 ) -> None:
-    """Lay a foot into a last: the room around it in mm, zone by zone and section by section.
+    """Put a foot into a last and measure the clearance in mm, zone by zone and section by section.
 
     Example: footfit compare foot.stl derby-42 --html report.html
     """

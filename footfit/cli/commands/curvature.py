@@ -1,4 +1,4 @@
-"""``footfit curvature``: the concentrated curvature of a surface, per vertex."""
+"""``footfit curvature``: the concentrated curvature of a surface at every vertex."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ def curvature(
         Path | None,
         options.output_file(
             "--output",
-            "Write k1, k2, mean, gaussian per vertex (.ply coloured by the mean, .npz).",
+            "Write k1, k2, mean and gaussian of each vertex (.ply coloured by the mean, .npz).",
             "-o",
         ),
     ] = None,
@@ -34,7 +34,7 @@ def curvature(
             metavar="MM",
             min=0,
             show_default=False,
-            help="The scale in mm; 0 is the paper's one ring. Else 6 % of the longest extent.",
+            help="Set the scale in mm; 0 is the paper's one ring. Else 6 % of the longest extent.",
         ),
     ] = None,
     jobs: options.Jobs = 1,
@@ -43,7 +43,7 @@ def curvature(
     scale: options.Scale,
     mode: options.OutputMode,
 ) -> None:
-    """Concentrated curvature of a surface at every vertex, in 1/mm.
+    """Measure the concentrated curvature of a surface at every vertex, in 1/mm.
 
     Example: footfit curvature foot.stl -o curvature.ply --plot curvature.png
     """
@@ -60,7 +60,7 @@ def curvature(
 
 
 def curvature_with_output(mesh: Any, output: str | None, **options: Any) -> SurfaceCurvature:
-    """The curvature of a mesh, its document naming the file of all values."""
+    """The curvature of a mesh; its document names the file that holds all values."""
     from dataclasses import replace
 
     from footfit.api import scans

@@ -1,4 +1,4 @@
-"""``footfit demo``: the whole path on the sample data, in a folder of its own."""
+"""``footfit demo``: every step on the sample data, in a folder of its own."""
 
 from __future__ import annotations
 
@@ -12,13 +12,13 @@ from footfit.cli import options
 
 def demo(
     folder: Annotated[
-        Path, typer.Argument(metavar="FOLDER", help="Where to put the demo's files.")
+        Path, typer.Argument(metavar="FOLDER", help="Choose the folder for the files of the demo.")
     ] = Path("footfit-demo"),
     force: options.Force = False,
     *,
     mode: options.OutputMode,
 ) -> None:
-    """Ingest the sample lasts, match a sample foot, draw it: in FOLDER, away from your catalogue.
+    """Ingest the sample lasts, match a sample foot and draw it, in a folder of its own.
 
     Example: footfit demo
     """

@@ -1,4 +1,4 @@
-"""``footfit export-last``: a last out of the catalogue, as a mesh or as data."""
+"""``footfit export-last``: a last of the catalogue as a mesh or as data."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ def export_last(
     output: Annotated[
         Path,
         options.output_file(
-            "--output", "The file: .stl, .ply, .obj, .off for the mesh, .json for the record.", "-o"
+            "--output", "Write the mesh (.stl, .ply, .obj, .off), or the record (.json).", "-o"
         ),
     ],
     catalogue: options.Catalogue = None,
@@ -21,7 +21,7 @@ def export_last(
     *,
     mode: options.OutputMode,
 ) -> None:
-    """Write a last's mesh (canonical frame, mm) or its record to a file.
+    """Write the mesh of a last (canonical frame, mm) or its record to a file.
 
     Example: footfit export-last derby-42 -o derby-42.stl
     """

@@ -1,4 +1,4 @@
-"""``footfit flare``: the curvature of the bottom, and the angle it makes."""
+"""``footfit flare``: the flare profile and the flare angle."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ def flare(
     batch: options.Batch,
     mode: options.OutputMode,
 ) -> None:
-    """Profile the flare of feet or lasts: + is inflare, in degrees.
+    """Measure the flare of feet or lasts in degrees; + is inflare.
 
     Example: footfit flare foot.stl --plot flare.svg
     """

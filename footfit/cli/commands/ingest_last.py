@@ -23,29 +23,40 @@ def _label(flag: str, metavar: str, text: str) -> Any:
 def ingest_last(
     paths: Annotated[
         list[str] | None,
-        options.argument("PATH", "Scans of lasts: files, folders or globs. None: the manifest's."),
+        options.argument(
+            "PATH",
+            "Give scans of lasts: files, folders or globs. Else the manifest names them.",
+        ),
     ] = None,
     name: Annotated[
-        str | None, _label("--name", "N", "The last's name, else the file's stem.")
+        str | None, _label("--name", "N", "Name the last. Without it the name comes from the file.")
     ] = None,
     manifest: Annotated[
         Path | None,
-        _label("--manifest", "CSV", "Labels per file: path, name, style, size, size_system, ..."),
+        _label(
+            "--manifest",
+            "CSV",
+            "Give a CSV with labels for each file: path, name, style, size, size_system, ...",
+        ),
     ] = None,
-    style: Annotated[str | None, _label("--style", "S", "The style, such as derby.")] = None,
-    size: Annotated[str | None, _label("--size", "42", "The size as marked on the last.")] = None,
+    style: Annotated[str | None, _label("--style", "S", "Set the style, such as derby.")] = None,
+    size: Annotated[
+        str | None, _label("--size", "42", "Set the size as it is marked on the last.")
+    ] = None,
     size_system: Annotated[
-        str | None, _label("--size-system", "eu", "What the size counts in.")
+        str | None, _label("--size-system", "eu", "Set the system of the size, such as eu or uk.")
     ] = None,
-    width_label: Annotated[str | None, _label("--width-label", "G", "The width as marked.")] = None,
+    width_label: Annotated[
+        str | None, _label("--width-label", "G", "Set the width as it is marked.")
+    ] = None,
     heel_height: Annotated[
-        float | None, _label("--heel-height", "MM", "The heel height, mm.")
+        float | None, _label("--heel-height", "MM", "Set the heel height in mm.")
     ] = None,
     replace: Annotated[
-        bool, options.switch("--replace", "Store over a last of the same name.")
+        bool, options.switch("--replace", "Replace a stored last of the same name.")
     ] = False,
     dry_run: Annotated[
-        bool, options.switch("--dry-run", "Do all but store; say what would become of each file.")
+        bool, options.switch("--dry-run", "Store nothing; say what would be stored.")
     ] = False,
     jobs: options.Jobs = 1,
     catalogue: options.Catalogue = None,
@@ -53,16 +64,16 @@ def ingest_last(
     reading: options.Reading,
     mode: options.OutputMode,
 ) -> None:
-    """Read, align, profile and store lasts; each line is printed after its commit.
+    """Read, align, measure and store lasts. A printed line means that the last is stored.
 
-    Running it again stores nothing twice.
+    You can run it again: it stores nothing twice.
 
     Example: footfit ingest-last lasts/ --manifest lasts.csv --jobs 2
     """
     from dataclasses import replace as changed
 
     from footfit.api.catalogues import open_catalogue
-    from footfit.cli.answers import counted, failures_last, sources_of, tell
+    from footfit.cli.answers import failures_last, sources_of, tell, watched_items
     from footfit.cli.console import error_line, say, say_notices
     from footfit.cli.settings import catalogue_path
     from footfit.cli.signals import LISTENER
@@ -84,7 +95,7 @@ def ingest_last(
         batch, replace=replace, dry_run=dry_run, jobs=jobs, hold_signals=LISTENER.hold
     )
     with reader_required(), failures_last(mode) as tell_failure:
-        for outcome in counted(outcomes, mode):
+        for outcome in watched_items(outcomes, mode):
             tell(outcome, mode)
             if outcome.failure is not None:
                 refused.append(int(outcome.failure.exit))
@@ -96,7 +107,7 @@ def ingest_last(
 
 @contextmanager
 def reader_required() -> Iterator[None]:
-    """Say it where nobody reads the answers any more: the batch is not done, and 0 would say so.
+    """Fail if nobody reads the answers any more: the batch is not done, so exit 0 would be wrong.
 
     Raises
     ------
@@ -109,5 +120,7 @@ def reader_required() -> Iterator[None]:
     try:
         yield
     except ReaderGone as error:
-        words = "nobody reads the answers any more; what was stored is whole, run it again"
+        words = (
+            "nobody reads the answers any more; what is stored is complete: run the command again"
+        )
         raise BadOption(words) from error

@@ -1,4 +1,4 @@
-"""``footfit list-lasts``: the library at a glance."""
+"""``footfit list-lasts``: the lasts of the catalogue."""
 
 from __future__ import annotations
 

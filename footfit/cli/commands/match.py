@@ -36,7 +36,7 @@ def match(
         ByName,
         typer.Option(
             "--by",
-            help="fit: length, then zones. flare: the paper's search. shape: find a scanned last.",
+            help="Rank by fit, by flare (the paper's search), or by shape (find a scanned last).",
         ),
     ] = ByName.fit,
     profile: Annotated[
@@ -44,24 +44,24 @@ def match(
         typer.Option(
             "--profile",
             metavar="NAME|FILE.toml",
-            help="What is fitted: walking, dress, sport, child, safety, or a profile of your own.",
+            help="Choose what is fitted: walking, dress, sport, child, safety, or your own profile.",
         ),
     ] = "walking",
     pair: Annotated[
-        bool, options.switch("--pair", "The two scans are one customer's feet.")
+        bool, options.switch("--pair", "Take the two scans as the feet of one customer.")
     ] = False,
     top: Annotated[
-        int, typer.Option("--top", metavar="N", min=1, help="How many lasts to show.")
+        int, typer.Option("--top", metavar="N", min=1, help="Show this many lasts.")
     ] = 5,
     style: Annotated[
-        str | None, options.option("--style", "Only lasts of this style.", "S")
+        str | None, options.option("--style", "Rank only lasts of this style.", "S")
     ] = None,
     size_system: Annotated[
         str | None,
         options.option(
             "--size-system",
-            "Say sizes in eu, uk, us-men, us-women, us-women-fia or mondopoint, and take only "
-            "lasts labelled in it, if there are any.",
+            "Give sizes in eu, uk, us-men, us-women, us-women-fia or mondopoint. If lasts are "
+            "labelled in this system, rank only those.",
             "S",
         ),
     ] = None,
@@ -69,17 +69,17 @@ def match(
         bool,
         options.switch(
             "--clearance",
-            "Lay the feet into each shown last: where it is tight, where loose, in mm.",
+            "Put the feet into each shown last, and say in mm where it is tight or loose.",
         ),
     ] = False,
     fail_under: Annotated[
         Least | None,
         options.option(
-            "--fail-under", "Exit 7 where a customer has no last that is at least this."
+            "--fail-under", "Exit with 7 if a customer has no last that is at least this."
         ),
     ] = None,
     html: Annotated[
-        Path | None, options.output_file("--html", "Write a report that opens in any browser.")
+        Path | None, options.output_file("--html", "Write a page that opens in any browser.")
     ] = None,
     csv: options.Csv = None,
     catalogue: options.Catalogue = None,
@@ -129,7 +129,7 @@ def match(
 
 
 def refuse_check(by: ByName, least: Least | None) -> None:
-    """Refuse a check of what is not judged.
+    """Refuse to check a search that gives no verdict.
 
     Raises
     ------
@@ -143,12 +143,12 @@ def refuse_check(by: ByName, least: Least | None) -> None:
 
 
 def checked_code(matches: Sequence[Match], least: Least, code: int, *, as_json: bool) -> int:
-    """The exit code after the answers were held to the verdict asked for.
+    """The exit code after each answer is compared with the verdict that is asked for.
 
     Raises
     ------
     CheckFailed
-        A customer has no last that is at least ``least``, and nothing else went wrong.
+        A customer has no last that is at least ``least``, and nothing else failed.
     """
     from footfit.cli.console import error_line, say
     from footfit.errors import CheckFailed

@@ -1,4 +1,4 @@
-"""``footfit remove-last``: a last out of the catalogue."""
+"""``footfit remove-last``: remove a last from the catalogue."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ def remove_last(
     *,
     mode: options.OutputMode,
 ) -> None:
-    """Remove a last from the catalogue; the reference is refused.
+    """Remove a last from the catalogue. The reference last cannot be removed.
 
     Example: footfit remove-last derby-42
     """

@@ -11,7 +11,7 @@ from footfit.cli import options
 
 def rename_last(
     last: options.LastName,
-    new_name: Annotated[str, typer.Argument(metavar="NEW_NAME", help="The name it gets.")],
+    new_name: Annotated[str, typer.Argument(metavar="NEW_NAME", help="Give the new name.")],
     catalogue: options.Catalogue = None,
     *,
     mode: options.OutputMode,

@@ -9,12 +9,12 @@ from footfit.cli import options
 
 
 def restore_catalogue(
-    file: Annotated[Path, options.argument("FILE", "The backup to restore.")],
+    file: Annotated[Path, options.argument("FILE", "Name the backup to restore.")],
     catalogue: options.Catalogue = None,
     *,
     mode: options.OutputMode,
 ) -> None:
-    """Make the catalogue what a backup is; the backup is checked first, the one before is kept.
+    """Put a backup in the place of the catalogue. It is checked first; the old file is kept.
 
     Example: footfit restore-catalogue lasts-2026-05-01.footfit
     """

@@ -13,7 +13,7 @@ def set_reference(
 ) -> None:
     """Make a last the reference: the paper's OM_E comes from it (Eq. 6).
 
-    Every stored frame is re-expressed in one transaction; no mesh file is needed.
+    Every stored frame is rewritten in one transaction. No mesh file is needed.
 
     Example: footfit set-reference derby-42
     """

@@ -10,7 +10,7 @@ def upgrade_catalogue(
     *,
     mode: options.OutputMode,
 ) -> None:
-    """Bring a catalogue to this version's schema and flare definition.
+    """Bring an older catalogue to the schema and the definitions of this version.
 
     Example: footfit upgrade-catalogue
     """
