@@ -36,7 +36,7 @@ from footfit.results import (
     StoredLast,
     UpgradeOutcome,
 )
-from footfit.results.values import exact, part, rounded
+from footfit.results.values import exact, json_number, part
 from tests import answers
 from tests.comparisons import comparison
 
@@ -263,7 +263,7 @@ def test_a_number_is_rounded_by_the_unit_that_its_key_names() -> None:
 @given(st.floats(-1e9, 1e9) | st.sampled_from([math.nan, math.inf, -math.inf]), st.integers(0, 6))
 @settings(deadline=None, max_examples=200)
 def test_rounding_keeps_the_number_and_nulls_the_rest(value: float, digits: int) -> None:
-    result = rounded(value, digits)
+    result = json_number(value, digits)
     if not math.isfinite(value):
         assert result is None
     else:

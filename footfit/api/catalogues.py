@@ -1,4 +1,4 @@
-"""A catalogue of lasts in a ``with`` block: ingest, look at, match, compare, keep in order."""
+"""A catalogue of lasts in a ``with`` block: ingest lasts, list them, match and compare feet."""
 
 from __future__ import annotations
 
@@ -50,10 +50,10 @@ def match(feet: Feet, catalogue: FilePath, **question: Unpack[MatchKeywords]) ->
 
 
 class Catalogue:
-    """A catalogue of lasts. Its methods raise NoCatalogue or another CatalogueUnusable where the
-    file is not there, or cannot be used.
+    """A catalogue of lasts. Its methods raise NoCatalogue if there is no file, and
+    CatalogueUnusable if the file cannot be used.
 
-    The lasts that a match needs are read once, and again after this object changed some.
+    The lasts for a match are read once, and again after this object has changed a last.
     """
 
     def __init__(self, path: Path) -> None:
@@ -76,9 +76,9 @@ class Catalogue:
         NoCandidate, EmptyCatalogue
             No last passes the filters, or there is none.
         BadOption
-            There is no such profile or size system; more than two feet.
+            There is no such profile or size system, or there are more than two feet.
         InputError, GeometryRefused
-            As `flare`; HalfScan where the length of a foot is not known.
+            As `flare`; HalfScan if the length of a foot is not known.
         """
         from footfit.pipeline.fit.compare import with_surface_clearance
         from footfit.pipeline.fit.match import matched
@@ -106,7 +106,7 @@ class Catalogue:
         Raises
         ------
         BadOption
-            A pair of other than two feet; there is no such profile or size system.
+            A pair does not have two feet; there is no such profile or size system.
         """
         from footfit.pipeline.fit.match import customers
 
@@ -124,7 +124,7 @@ class Catalogue:
         UnknownLast
             There is no last of that name.
         InputError, GeometryRefused
-            As `flare`; or the foot cannot be laid into the last.
+            As `flare`; or the foot cannot be placed in the last.
         """
         from footfit.pipeline.fit.compare import compared, stored_last
 
@@ -161,23 +161,23 @@ class Catalogue:
         labels: results.LastLabels = NO_LABELS,
         **options: Unpack[IngestKeywords],
     ) -> tuple[results.IngestOutcome, ...]:
-        """Read, align, measure and store lasts; what became of each file.
+        """Read, align, measure and store lasts; return the outcome of each file.
 
         Parameters
         ----------
         lasts : mesh or list of meshes, optional
-            Files, folders and globs too; without any, the files that the manifest names.
+            Files, folders and globs too. Without any, the manifest names the files.
         manifest : path, optional
             A CSV file with the labels of each last; docs/catalogue.md lists its columns.
         labels : LastLabels, optional
-            What the manifest does not say; its ``name`` only for a single last.
+            Labels that the manifest does not give; a ``name`` only for a single last.
         **options
             See `IngestKeywords`.
 
         Raises
         ------
         BadOption, BadManifest
-            There is nothing to ingest, one name for several files, or a wrong manifest.
+            There is nothing to ingest, one name for several files, or the manifest is not valid.
         """
         from footfit.pipeline.library.ingest import entries
         from footfit.pipeline.library.manifest import read_manifest
@@ -202,7 +202,7 @@ class Catalogue:
         jobs: int = HERE,
         hold_signals: HoldSignals = nullcontext,
     ) -> Iterator[results.IngestOutcome]:
-        """What became of each entry of ``pipeline.library.ingest``, after it is stored.
+        """Store entries of ``pipeline.library.ingest``; yield the outcome of each after its commit.
 
         ``hold_signals`` is a block that begins before a last is stored and ends when the next
         outcome is asked for.
@@ -215,13 +215,13 @@ class Catalogue:
         )
 
     def lasts(self) -> results.Library:
-        """Every sound last, by name; its ``warnings`` name those that are damaged."""
+        """Every intact last, by name; ``warnings`` name the damaged ones."""
         from footfit.pipeline.library import lasts
 
         return lasts.list_lasts(self.path)
 
     def last(self, name: str) -> results.StoredLast:
-        """All that is stored of one last but its mesh; raises UnknownLast."""
+        """All that is stored of one last, except its mesh; raises UnknownLast."""
         from footfit.pipeline.library import lasts
 
         return lasts.last(self.path, name)
@@ -278,7 +278,7 @@ class Catalogue:
         return lasts.summary(self.path)
 
     def check(self) -> results.CheckOutcome:
-        """Everything that is not as it was stored; changes nothing."""
+        """Everything that is not as it was stored. Nothing is changed."""
         from footfit.pipeline.library import check
 
         return check.check(self.path)
@@ -297,7 +297,7 @@ class Catalogue:
         return backup.restore(self.path, Path(file))
 
     def upgrade(self) -> results.UpgradeOutcome:
-        """Bring an older catalogue to this version; a copy of it is kept beside it."""
+        """Bring an older catalogue to this version, and keep a copy of the old file."""
         from footfit.pipeline.library import upgrade
 
         self._chosen.clear()

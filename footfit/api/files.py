@@ -47,8 +47,8 @@ def picture(result: Any, kind: str = "svg") -> bytes:
 def mesh_file(result: Any, kind: str) -> bytes:
     """The mesh of a result as a file in mm: "stl", "ply", "obj" or "off".
 
-    What `curvature` gave is a "ply" (coloured) or an "npz" with the values of every vertex; what
-    `compare` gave is a "ply" coloured by the clearance, or a picture of it.
+    The result of `curvature` becomes a coloured "ply", or an "npz" with the values of every vertex.
+    The result of `compare` becomes a "ply" coloured by the clearance, or a picture of it.
 
     Raises
     ------
@@ -90,7 +90,7 @@ def to_trimesh(result: results.Scan | results.AlignedScan | results.Profiled) ->
 
 
 def page(result: results.Match | results.Comparison, catalogue: FilePath | None = None) -> str:
-    """A match or a comparison as one HTML page; with its ``catalogue`` a match draws the lasts.
+    """A match or a comparison as one HTML page; a match with its ``catalogue`` draws the lasts.
 
     Raises
     ------

@@ -37,7 +37,7 @@ class ScaleKeywords(TypedDict, total=False):
 
 
 class ReadingKeywords(ScaleKeywords, total=False):
-    """How a foot or a last is to be understood; "auto" is decided by its shape."""
+    """How a foot or a last is to be understood; the shape decides "auto"."""
 
     side: Literal["auto", "left", "right"]
 
@@ -46,7 +46,7 @@ class MatchKeywords(ReadingKeywords, total=False):
     """What is asked of a catalogue, and how the feet are to be understood.
 
     ``profile`` is the name or the file of a fit profile, ``top`` how many lasts to show (0: all).
-    ``style`` and ``size_system`` filter the lasts; ``clearance`` lays the feet into those shown.
+    ``style`` and ``size_system`` filter the lasts; ``clearance`` puts the feet into those shown.
     """
 
     by: SearchBy
@@ -58,7 +58,7 @@ class MatchKeywords(ReadingKeywords, total=False):
 
 
 class IngestKeywords(ReadingKeywords, total=False):
-    """How lasts are stored: over one of the same name, not at all, on how many processes."""
+    """How lasts are stored: over one of the same name, only as a trial, by how many processes."""
 
     replace: bool
     dry_run: bool
@@ -79,7 +79,7 @@ def sources(meshes: Meshes, *, split: bool = False, **reading: Any) -> list[Sour
     Raises
     ------
     UnreadableFile
-        The only argument is a folder or a glob without a mesh.
+        The only argument is a folder or a glob, and it holds no mesh.
     """
     given: list[Any] = list(meshes) if isinstance(meshes, list) else [meshes]
     names = [mesh for mesh in given if isinstance(mesh, str | os.PathLike)]
@@ -100,7 +100,7 @@ def source_of(mesh: Mesh, scale: Mapping[str, Any]) -> Source:
     Raises
     ------
     InputError
-        Arrays that are no mesh, or whose unit is not known.
+        The arrays are not a mesh, or their unit is not known.
     """
     match mesh:
         case Source():
@@ -121,6 +121,6 @@ def source_of(mesh: Mesh, scale: Mapping[str, Any]) -> Source:
 
 
 def reading_options(options: Mapping[str, Any]) -> ReadingOptions:
-    """What `ScaleKeywords` and `ReadingKeywords` say, without the rest."""
+    """The keywords of `ReadingKeywords`, without any others."""
     names = ("units", "known_length_mm", "side")
     return ReadingOptions(**{name: options[name] for name in names if name in options})

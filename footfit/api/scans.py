@@ -1,4 +1,4 @@
-"""What can be asked of scans: read, align, flare, curvature, measure, compare; one or many."""
+"""What the library does with scans, one or many: read, align, flare, measure, compare ..."""
 
 from __future__ import annotations
 
@@ -81,7 +81,7 @@ def flare(shape: Shape, **reading: Unpack[ReadingKeywords]) -> Profiled:
     Raises
     ------
     InputError, GeometryRefused
-        As `align`; also SideUndecided where the shape does not tell left from right.
+        As `align`; also SideUndecided if the shape does not show left or right.
     """
     return profiled_shape(shape, reading)
 
@@ -96,7 +96,7 @@ def measure(shape: Shape, **reading: Unpack[ReadingKeywords]) -> MeasuredScan:
     """
     from footfit.pipeline.scan.measure import measured_scan
 
-    return measured_scan(_aligned(shape, reading))
+    return measured_scan(_aligned_shape(shape, reading))
 
 
 def curvature(
@@ -122,7 +122,7 @@ def compare(foot: Shape, last: Mesh, **reading: Unpack[ReadingKeywords]) -> Comp
     Raises
     ------
     InputError, GeometryRefused
-        As `flare`, of either; or the foot cannot be laid into the last.
+        As `flare`, for either; or the foot cannot be placed in the last.
     """
     from footfit.pipeline.fit.compare import compared, scanned_last
 
@@ -132,19 +132,19 @@ def compare(foot: Shape, last: Mesh, **reading: Unpack[ReadingKeywords]) -> Comp
 def outcomes(
     verb: Callable[..., T], meshes: Meshes, *, jobs: int = runs.HERE, **options: Any
 ) -> Iterator[runs.Outcome[Source, T]]:
-    """Do ``verb`` with each of many meshes: ``outcomes(measure, "feet/", jobs=2)``.
+    """Call ``verb`` with each of many meshes: ``outcomes(measure, "feet/", jobs=2)``.
 
-    One that fails stops nothing. Each outcome has a ``value``, or the ``error`` that says why not;
-    its ``item`` names the file. They come in the order of the meshes, whatever ``jobs``.
+    A mesh that fails does not stop the others. Each outcome has a ``value``, or the ``error`` that
+    says why there is none; its ``item`` names the file. They come in the order of the meshes.
 
     Parameters
     ----------
     verb : callable
-        A function that takes a mesh, such as `measure`; with ``jobs`` one of a module.
+        A function that takes a mesh, such as `measure`; with ``jobs`` it must be in a module.
     meshes : mesh or list of meshes
         Files, folders and globs too; see `sources`.
     jobs : int
-        Processes to work with; 0 works in this one.
+        How many processes work; 0 works in this process.
     **options
         For ``verb``.
     """
@@ -155,10 +155,10 @@ def profiled_shape(shape: Shape, reading: Mapping[str, Any]) -> Profiled:
     """A shape as a match takes it; ``reading`` may hold other keys too."""
     from footfit.pipeline.scan.flare import profiled_scan
 
-    return shape if isinstance(shape, Profiled) else profiled_scan(_aligned(shape, reading))
+    return shape if isinstance(shape, Profiled) else profiled_scan(_aligned_shape(shape, reading))
 
 
-def _aligned(shape: Shape, reading: Mapping[str, Any]) -> AlignedScan:
+def _aligned_shape(shape: Shape, reading: Mapping[str, Any]) -> AlignedScan:
     if isinstance(shape, Profiled):
         return shape.aligned
     if isinstance(shape, AlignedScan):

@@ -1,7 +1,7 @@
-"""How each result is shown to a person: as a table, and with which notices beside it.
+"""How a person sees each result: its table, and the notices beside it.
 
 A command that returns a new type of result adds a line to `FORMS`. Command bodies import this
-module when they run: ``-h`` opens none of the report layer.
+module when they run, so that ``-h`` imports nothing of the report layer.
 """
 
 from __future__ import annotations
@@ -31,7 +31,7 @@ def _none(_result: object) -> Notices:
 
 
 def _of_scan(alignment: Alignment, more: Iterable[Notice] = ()) -> Notices:
-    """A guess at mm, which is no warning, and the warnings."""
+    """The notes on the unit, which are no warnings, and the warnings."""
     notes = unit_notes(alignment.info, alignment.length_mm)
     return alignment.info.path, (*notes, *alignment.warnings, *more)
 
@@ -43,7 +43,7 @@ def _of_comparison(comparison: Comparison) -> Notices:
 
 
 def _of_match(match: Match) -> Notices:
-    """A match's warnings, those of each foot first and naming its file."""
+    """The notices of each foot, with the name of its file, and the warnings of the match."""
     feet = [
         Notice(notice.code, f"{path or '-'}: {notice.message}")
         for path, notices in (_of_scan(foot.aligned.alignment) for foot in match.feet)
@@ -53,7 +53,7 @@ def _of_match(match: Match) -> Notices:
 
 
 class Form(NamedTuple):
-    """How one type of result is shown."""
+    """The table and the notices of one type of result."""
 
     table: Callable[[Any], RenderableType]
     notices: Callable[[Any], Notices] = _none

@@ -1,7 +1,7 @@
-"""How commands are found, how their options are grouped, and how help looks: without rich.
+"""Commands: how they are found, how options are grouped, and plain help without rich.
 
-Rich's help takes longer to import than all the rest of ``footfit -h``. A command's options are
-looked at when the command is used, not when the list of commands is shown.
+The help of rich takes longer to import than all the rest of ``footfit -h``. The options of a
+command are read when the command is used, not when the list of commands is shown.
 """
 
 from __future__ import annotations
@@ -80,7 +80,7 @@ class PlainCommand(TyperCommand):
 
 
 class LazyGroup(TyperGroup):
-    """The commands of `table`, each made when it is asked for."""
+    """The commands of `table`, each built when it is used."""
 
     table: CommandTable = ()
 

@@ -1,1 +1,1 @@
-"""Results in, text or bytes out: tables, JSON, CSV, HTML, pictures. Opens no file."""
+"""Takes results, gives text or bytes: tables, JSON, CSV, HTML, pictures. Opens no file."""

@@ -1,4 +1,4 @@
-"""Results as CSV for spreadsheets; no cell of it is taken for a formula."""
+"""Results as CSV for spreadsheets; a spreadsheet takes no cell for a formula."""
 
 from __future__ import annotations
 
@@ -28,9 +28,9 @@ class Table(Protocol):
 
 
 def csv_text(kind: type[Table], tables: Iterable[Table]) -> str:
-    """Tables of one kind as CSV under one head: a comma between cells, quotes where needed.
+    """Tables of one kind as CSV under one head: commas between cells, quotes if needed.
 
-    Control characters in a text, line ends among them, are shown as their escapes: a row is a line.
+    Control characters in a text are shown as escapes, line ends too. So each row is one line.
     """
     target = io.StringIO()
     writer = csv.writer(target, lineterminator="\n")
@@ -40,7 +40,7 @@ def csv_text(kind: type[Table], tables: Iterable[Table]) -> str:
 
 
 def harmless(text: str) -> str:
-    """``text`` as a spreadsheet shows it and never runs it; what is a number stays one.
+    """``text`` so that a spreadsheet shows it and never runs it; a number stays a number.
 
     Examples
     --------

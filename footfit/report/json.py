@@ -1,4 +1,4 @@
-"""A document as one line of JSON; opens neither NumPy nor rich, so that an error is quick."""
+"""A document as one line of JSON; imports neither NumPy nor rich, so that an error is quick."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ def json_line(document: Mapping[str, Any]) -> str:
     Raises
     ------
     ValueError
-        A number is not finite: the documents of this package never hold one.
+        A number is not finite. The documents of this package hold only finite numbers.
 
     Examples
     --------

@@ -1,7 +1,7 @@
 """What passes between the layers: frozen dataclasses of plain, picklable values.
 
-A length ends in ``_mm``, an angle in ``_deg``; arrays are float64 unless said. Array fields
-are never written to after construction.
+A length ends in ``_mm``, an angle in ``_deg``; arrays are float64 unless a docstring
+says otherwise. Nobody writes to the array of a result.
 """
 
 from footfit.results.alignment import AlignedScan as AlignedScan

@@ -17,10 +17,10 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, slots=True)
 class SideVerdict:
-    """Left or right, how surely, and who said so.
+    """Left or right, how sure it is, and where it comes from.
 
     ``score`` is the mirror-odd score S of the detection, + for a right shape; ``source`` is
-    "given" or "detected". ``side`` is None only where it is undecided.
+    "given" or "detected". ``side`` is None only if it is undecided.
     """
 
     side: SideName | None
@@ -29,7 +29,7 @@ class SideVerdict:
     source: str
 
     def to_dict(self) -> Json:
-        """Three keys that stand in the document itself."""
+        """Three keys, which a document has at its top level."""
         score = part({"word": self.confidence, "score": self.score})
         return {"side": self.side, "side_confidence": score, "side_source": self.source}
 
@@ -54,12 +54,12 @@ class PoseQuality(Part):
 
 @dataclass(frozen=True, slots=True)
 class Eigenframe(Part):
-    """The paper's frame of one mesh (Eq. 1-5), signs and order settled by the canonical frame.
+    """The paper's frame of one mesh (Eq. 1-5), with signs and order of the canonical frame.
 
     ``centroid_mm`` (3,) in the file's axes; ``eigenvectors`` (3, 3) as rows in the file's
     axes, a rotation, each nearest to X, Y, Z in turn; ``eigenvalues_mm2`` (3,) paired with the
-    rows, so not always descending. A left shape is mirrored before Eq. 1 where it is compared
-    (``paper_transform``); the frame itself is of the mesh as it is.
+    rows, so not always descending. A left shape is mirrored before Eq. 1 if it is compared
+    (``paper_transform``); this frame is of the mesh as it is.
     """
 
     centroid_mm: Floats
@@ -77,7 +77,7 @@ class Reference(Part):
     """The reference last: its name, OM_E (Eq. 6) and its P_c (Eq. 1) in its canonical frame.
 
     ``om_e`` (3, 3) has the eigenvectors as columns in the canonical frame. Both come from the
-    last's printed frame: only so does Eq. 8 put the reference on itself.
+    last's printed frame. With another frame Eq. 8 would not put the reference on itself.
     """
 
     last: str
@@ -148,7 +148,7 @@ class Alignment(Document):
     ``printed_frame`` is by Eq. 1-4 as printed and settled, whatever the method. ``reference`` is
     the last whose OM_E was used, None for method "footfit" without one.
 
-    ``length`` is the measure of that name: the length that people read, without a value where an
+    ``length`` is the measure of that name: the length that people read; it has no value if an
     end was not scanned. ``extent_mm`` is how far the mesh reaches along X below the leg, vertex to
     vertex: definitions are scaled by it.
     """
@@ -168,7 +168,7 @@ class Alignment(Document):
 
     @property
     def length_mm(self) -> float | None:
-        """The measured length; None where an end was not scanned."""
+        """The measured length; None if an end was not scanned."""
         return self.length.value
 
     schema = "align/2"

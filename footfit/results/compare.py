@@ -1,11 +1,11 @@
-"""One foot in one last: surface against surface, section by section."""
+"""One foot in one last: the clearance by zone, and the differences by section."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from footfit.results.values import Document, Json, Part, fields, part, rounded, rows
+from footfit.results.values import Document, Json, Part, fields, json_number, part, rows
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
@@ -19,18 +19,18 @@ if TYPE_CHECKING:
 
 
 def zone_part(zone: ZoneClearance) -> Json:
-    """The room in one zone; null where nothing of it is compared."""
+    """The clearance in one zone; null if no part of it is compared."""
     return part(fields(zone, "zone"))
 
 
 def zones_part(zones: Iterable[ZoneClearance]) -> Json:
-    """The room in each zone, by the zone's name."""
+    """The clearance in each zone, by its name."""
     return {zone.zone: zone_part(zone) for zone in zones}
 
 
 @dataclass(frozen=True, slots=True)
 class SizeDifference(Part):
-    """One size of one section in mm: of the foot, of the last, and last minus foot."""
+    """One size of one section in mm: of the foot, of the last, and their difference."""
 
     name: str
     foot: Measured
@@ -80,8 +80,8 @@ class Comparison(Document):
     """A foot in a last, both as right shapes in the last's frame, mm.
 
     ``vertices_mm`` (n, 3) and ``faces`` (m, 3) are the foot in its place, ``clearance_mm`` (n,) its
-    clearance at each vertex, NaN where the shoe does not reach; ``last_vertices_mm`` and
-    ``last_faces`` are the last. ``mirrored``: the last is of the other side than the foot.
+    clearance at each vertex, NaN where no shoe covers the foot; ``last_vertices_mm`` and
+    ``last_faces`` are the last. ``mirrored``: the last is of the other side.
     """
 
     foot: Profiled
@@ -104,7 +104,7 @@ class Comparison(Document):
 
     @property
     def longer_mm(self) -> float | None:
-        """How much longer the last is than the foot; None where one length is not known."""
+        """How much longer the last is than the foot; None if one length is not known."""
         return _longer_mm(self.foot.length_mm, self.last.length_mm)
 
     @property
@@ -137,9 +137,10 @@ class Comparison(Document):
         values: list[tuple[object, ...]] = []
         for section in self.sections:
             for size in section.sizes:
-                room, both = size.difference, (rounded(size.foot.value), rounded(size.last.value))
                 place = (*start, "section", section.station, size.name, "mm")
-                values.append((*place, *both, rounded(room.value), rounded(room.sd), room.reason))
+                foot, last, longer = (m.to_dict() for m in (size.foot, size.last, size.difference))
+                ends = (foot["value"], last["value"], longer["value"], longer["sd"])
+                values.append((*place, *ends, size.difference.reason))
         for zone in self.zones:
             for name, value in zone_part(zone).items():
                 quantity, unit = name.rsplit("_", 1)
@@ -154,4 +155,4 @@ def _longer_mm(foot_mm: float | None, last_mm: float | None) -> float | None:
 
 def _lengths_part(foot_mm: float | None, last_mm: float | None) -> Json:
     lengths = {"foot": foot_mm, "last": last_mm, "difference": _longer_mm(foot_mm, last_mm)}
-    return {name: rounded(value) for name, value in lengths.items()}
+    return {name: json_number(value) for name, value in lengths.items()}

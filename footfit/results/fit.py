@@ -1,4 +1,4 @@
-"""What a fit profile asks of each zone, and how a foot fares in a last."""
+"""What a fit profile asks of each zone, and how a foot fits a last."""
 
 from __future__ import annotations
 
@@ -13,12 +13,13 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, slots=True)
 class ZoneRule:
-    """What a fit profile asks of one zone, in the zone's unit; a clearance is last minus foot.
+    """What a fit profile asks of one zone, in the unit of the zone.
 
-    ``good`` holds ``target``, ``acceptable`` holds ``good``, ``poor`` holds ``acceptable``; what is
-    outside of ``poor`` is a reject, None never is one. ``weight`` counts in the distance; 0 shows
-    the zone and judges nothing by it. Without a ``required`` zone no last is good. ``cavity`` is
-    what lining, insole and counter take from the last, and is taken off first.
+    The range ``good`` contains ``target``, ``acceptable`` contains ``good``, ``poor`` contains
+    ``acceptable``. Outside of ``poor`` the last is rejected; if ``poor`` is None it never is.
+    ``weight`` counts in the distance; a zone of weight 0 is shown and judges nothing. Without a
+    ``required`` zone no last is good. ``cavity`` is the space that lining, insole and counter take;
+    it is subtracted first.
     """
 
     zone: str
@@ -37,10 +38,10 @@ class ZoneRule:
 
 @dataclass(frozen=True, slots=True)
 class FitProfile:
-    """What kind of shoe is fitted: a rule for each zone, in the order in which they are judged.
+    """The kind of shoe that is fitted: a rule for each zone, in the order of judging.
 
-    ``sha256`` is of the values, not of the file: a comment changes nothing. Two distances that
-    differ by at most ``tie_sds`` standard deviations of their difference are a tie.
+    ``sha256`` is of the values, not of the file, so a comment does not change it. Two distances
+    that differ by at most ``tie_sds`` standard deviations of their difference are a tie.
     """
 
     name: str
@@ -60,10 +61,10 @@ class FitProfile:
 class ZoneFit(Part):
     """One foot in one zone of a last.
 
-    ``clearance`` is in ``unit``, ``target`` what the profile asks, ``score`` 0 at the target and
-    1 at the edge of good, - tight and + loose. ``verdict`` and ``score`` are None where the
-    clearance is not measured. ``counts`` False: another foot of the pair governs this zone, or
-    its weight is 0.
+    ``clearance`` is in ``unit``, and ``target`` is what the profile asks. ``score`` is 0 at the
+    target and 1 at the edge of good; - is tight and + is loose. ``verdict`` and ``score`` are None
+    if the clearance is not measured. ``counts`` is False if the other foot of the pair governs this
+    zone, or if its weight is 0.
     """
 
     zone: str

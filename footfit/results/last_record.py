@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, slots=True)
 class LastLabels:
-    """What people say of a last; kept as given and never trusted over its geometry."""
+    """What people say of a last. It is kept as given; the geometry has the last word."""
 
     name: str
     style: str | None = None
@@ -37,7 +37,7 @@ class LastRecord:
 
     ``eigenframe`` is of the exact moments, ``printed_frame`` by Eq. 1-4 as printed.
     ``paper_transform`` (4, 4) takes the file's coordinates (mirrored in its first axis for a
-    left last) to the reference's frame by the paper's Eq. 8, from the printed frames; None while
+    left last) to the reference's frame by the paper's Eq. 8, from the printed frames; None if
     there is no reference.
     ``extent_mm`` is how far the mesh reaches along X; definitions are scaled by it.
     ``upgraded_from`` names the older flare definition that this profile replaces.
@@ -59,7 +59,7 @@ class LastRecord:
 
     @property
     def length(self) -> Measured:
-        """The measured length, which people read; it has no value where an end was not scanned."""
+        """The measured length, which people read; it has no value if an end was not scanned."""
         rows = (row.measured for row in self.measures if row.name == "length")
         return next(rows, Measured(None, reason="the catalogue holds no length of this last"))
 
@@ -70,11 +70,11 @@ class LastRecord:
 
     @property
     def label_check(self) -> sizes.LabelCheck | None:
-        """The label held against the length; None where the label says no number."""
+        """The label compared with the length; None if the label gives no number."""
         return sizes.label_check(self.labels.size, self.labels.size_system, self.length_mm)
 
     def entry(self, reference: str | None) -> Json:
-        """One line of the library: the labels as given, the geometry as measured."""
+        """One line of the library: labels as given, geometry as measured."""
         labels = fields(self.labels)
         return part(
             {

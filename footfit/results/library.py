@@ -1,4 +1,4 @@
-"""What became of the catalogue as a whole: ingest, facts, upgrade, demo."""
+"""The lasts of a catalogue, and the outcomes of the commands that change it."""
 
 from __future__ import annotations
 
@@ -19,10 +19,10 @@ NO_FEET = 0
 
 @dataclass(frozen=True, slots=True)
 class IngestOutcome(Document):
-    """What became of one file: ``status`` is added, unchanged, replaced or refused.
+    """The outcome of one file: ``status`` is added, unchanged, replaced or refused.
 
     ``path`` is None for standard input. ``failure`` says why a file was refused. ``notes`` are
-    for people, and warn of nothing. ``dry_run``: it is what would become of it, nothing was stored.
+    for people and are no warnings. ``dry_run``: this would be the outcome; nothing was stored.
     """
 
     path: str | None
@@ -50,9 +50,9 @@ class IngestOutcome(Document):
 
 @dataclass(frozen=True, slots=True)
 class CatalogueFacts(Document):
-    """What ``catalogue-info`` says: where the file is, what it holds, what it keeps of whom.
+    """What ``catalogue-info`` says: where the file is and what it holds.
 
-    ``kept`` is every table of the file with its rows: there is none for feet or customers.
+    ``kept`` is every table of the file with its number of rows. None is for feet or customers.
     """
 
     path: str
@@ -88,7 +88,7 @@ class CatalogueFacts(Document):
 
 @dataclass(frozen=True, slots=True)
 class UpgradeOutcome(Document):
-    """What ``upgrade-catalogue`` did: the schema's revisions and the profiles re-computed."""
+    """What ``upgrade-catalogue`` did: the schema's revisions, and the profiles computed again."""
 
     path: str
     revision_before: str
@@ -102,7 +102,7 @@ class UpgradeOutcome(Document):
 
 @dataclass(frozen=True, slots=True)
 class DemoOutcome(Document):
-    """Where the demo's files lie; the report is the last of ``outputs``."""
+    """Where the files of the demo are; the page is the last of ``outputs``."""
 
     folder: str
     lasts: int
@@ -140,7 +140,7 @@ class RenameOutcome(Document):
 
 @dataclass(frozen=True, slots=True)
 class RemoveOutcome(Document):
-    """A last that is no longer in the catalogue."""
+    """A last that was removed from the catalogue."""
 
     last: str
 
@@ -152,7 +152,7 @@ class RemoveOutcome(Document):
 
 @dataclass(frozen=True, slots=True)
 class ExportOutcome(Document):
-    """A file that was written of a last; ``faces`` and ``error_mm`` None for a record in JSON."""
+    """The file of a last; ``faces`` and ``error_mm`` are None for a record in JSON."""
 
     last: str
     output: str
@@ -164,7 +164,7 @@ class ExportOutcome(Document):
 
 @dataclass(frozen=True, slots=True)
 class Library(Document):
-    """The lasts to choose from, and what the catalogue says of itself."""
+    """The lasts to choose from, and the state of their catalogue."""
 
     lasts: tuple[LastRecord, ...]
     total: int

@@ -48,7 +48,7 @@ class FlareDifference(Part):
 
 @dataclass(frozen=True, slots=True)
 class Candidate(Part):
-    """One last of the answer. ``surfaces`` is of each foot, and empty where nobody asked."""
+    """One last of the answer. ``surfaces`` has an entry for each foot, or none if nobody asked."""
 
     rank: int
     last: str
@@ -80,9 +80,9 @@ class Candidate(Part):
 class Match(Document):
     """One customer's answer: one foot, or two with ``--pair``.
 
-    ``nearest`` are the lasts that come nearest where none fits. ``size_system`` is the one that
-    was asked for. ``best_verdict`` is over every ranked last, shown or not, that was judged in
-    every required zone; None by shape, and where there is none.
+    ``nearest`` are the lasts that come nearest if none fits. ``size_system`` is the one that was
+    asked for. ``best_verdict`` is the best of all ranked lasts that were judged in every required
+    zone, shown or not; None by shape, or if there is no such last.
     """
 
     feet: tuple[Profiled, ...]
@@ -163,7 +163,7 @@ def foot_part(foot: Profiled) -> Json:
 
 
 def _sizes_part(length_mm: float | None) -> Json:
-    """A foot's size in every system, null where its length is not known."""
+    """A foot's size in every system, null if its length is not known."""
     if length_mm is None:
         return dict.fromkeys(SYSTEMS)
     return {size.system: part(fields(size, "system")) for size in foot_sizes(length_mm)}

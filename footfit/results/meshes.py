@@ -1,4 +1,4 @@
-"""What came out of a mesh file, and what is kept of one."""
+"""What a mesh file holds, and what the catalogue keeps of it."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, slots=True)
 class MeshInfo(Part):
-    """What the file was.
+    """What is known of a mesh file.
 
     ``vertices`` and ``faces`` count what is left after welding and cleaning, ``sha256`` is of
     the file's bytes, ``unit_scale`` takes the file's coordinates to mm, ``units`` is
@@ -44,8 +44,8 @@ class Scan:
     """A mesh ready for geometry: mm, welded, cleaned, wound outward.
 
     ``vertices_mm`` is (n, 3) float64 in the file's own axes, ``faces`` is (m, 3) int64.
-    ``source_to_vertex`` is, for each vertex of the file, its row of ``vertices_mm``, -1 where it
-    was dropped; None for a scan that no file stands behind. ``pose`` is known of a shape that
+    ``source_to_vertex`` is, for each vertex of the file, its row of ``vertices_mm``, -1 if it
+    was dropped; None for a scan without a file. ``pose`` is known of a shape that
     was told apart from others in its file, and None of all others.
     """
 

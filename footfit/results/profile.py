@@ -1,4 +1,4 @@
-"""One aligned mesh, measured: its flare, its measures, its surface's curvature."""
+"""The flare, the measures and the curvature of one mesh."""
 
 from __future__ import annotations
 
@@ -39,7 +39,7 @@ def flare_part(flare: FlareProfile) -> Json:
 class Profiled(Document):
     """A mesh aligned, measured and profiled: what ingest stores and match ranks.
 
-    ``suspects`` says what is hardly a foot's, or a last's, of the flare.
+    ``suspects`` are notices of a flare that is unusual for a foot or a last.
     """
 
     aligned: AlignedScan
@@ -85,18 +85,18 @@ class Profiled(Document):
 
     @property
     def length_mm(self) -> float | None:
-        """The measured length, which sizes are read from; None where an end was not scanned."""
+        """The measured length, which sizes are read from; None if an end was not scanned."""
         return self.aligned.alignment.length_mm
 
     @property
     def length_or_extent_mm(self) -> float:
-        """The length, or the extent where there is none: tells which of two feet is longer."""
+        """The length, or the extent if there is none: it shows which of two feet is longer."""
         return self.aligned.alignment.extent_mm if self.length_mm is None else self.length_mm
 
 
 @dataclass(frozen=True, slots=True)
 class MeasuredScan(Document):
-    """A mesh aligned and measured; ``suspects`` are values that are hardly a foot's."""
+    """A mesh aligned and measured; ``suspects`` are notices of unusual values."""
 
     alignment: Alignment
     measures: tuple[Measure, ...]
@@ -134,7 +134,7 @@ class MeasuredScan(Document):
 
 @dataclass(frozen=True, slots=True)
 class SurfaceCurvature(Document):
-    """Per-vertex curvature of a surface in 1/mm, (n,) each; NaN where it is undefined.
+    """The curvature of a surface at each vertex in 1/mm, (n,) each; NaN if it is undefined.
 
     ``k1`` <= ``k2``; convex is positive; ``radius_mm`` 0 is the paper's one ring. ``output``
     names the file that holds the values of every vertex, if one was written.
@@ -169,7 +169,7 @@ class SurfaceCurvature(Document):
 
 
 def spread_part(values: Floats) -> Json:
-    """The 5 %, 50 % and 95 % quantiles over the defined vertices; null where there is none."""
+    """The 5 %, 50 % and 95 % quantiles over the defined vertices; null if there is none."""
     defined = values[np.isfinite(values)]
     quantiles = np.quantile(defined, QUANTILES) if len(defined) else [None] * len(QUANTILES)
     names = (f"p{round(100 * level):02d}" for level in QUANTILES)

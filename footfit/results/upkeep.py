@@ -1,4 +1,4 @@
-"""What checking, backing up and restoring a catalogue found and did."""
+"""The outcomes of checking, backing up and restoring a catalogue."""
 
 from __future__ import annotations
 
@@ -9,10 +9,10 @@ from footfit.results.values import Document, Part
 
 @dataclass(frozen=True, slots=True)
 class Finding(Part):
-    """One thing in a catalogue that is not as it must be.
+    """One fault in a catalogue.
 
-    ``last`` names the last it is about, if any. ``damage`` False: nothing is lost and a command
-    mends it (an older profile); the message names the command.
+    ``last`` names the last it is about, if any. ``damage`` is False if nothing is lost and a
+    command repairs it, such as an older profile; the message names the command.
     """
 
     code: str
@@ -23,7 +23,7 @@ class Finding(Part):
 
 @dataclass(frozen=True, slots=True)
 class CheckOutcome(Document):
-    """What ``check-catalogue`` looked at, and what it found; nothing in a sound catalogue."""
+    """What ``check-catalogue`` looked at, and its findings; an intact catalogue has none."""
 
     path: str
     lasts: int
@@ -35,7 +35,7 @@ class CheckOutcome(Document):
 
 @dataclass(frozen=True, slots=True)
 class BackupOutcome(Document):
-    """A verified copy: where it lies, its size and how many lasts it holds."""
+    """A checked copy: where it is, its size, and how many lasts it holds."""
 
     path: str
     backup: str
@@ -47,7 +47,7 @@ class BackupOutcome(Document):
 
 @dataclass(frozen=True, slots=True)
 class RestoreOutcome(Document):
-    """A catalogue as its backup had it; ``kept`` is where the one before lies, if there was one."""
+    """A restored catalogue; ``kept`` is where the old file is, if there was one."""
 
     path: str
     backup: str

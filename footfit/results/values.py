@@ -34,7 +34,7 @@ _UNIT_DIGITS = {"mm": MILLIMETRE_DIGITS, "mm2": MILLIMETRE_DIGITS, "deg": 3, "cm
 def part(keys: Mapping[str, object]) -> Json:
     """``keys`` with their values as JSON can carry them.
 
-    Floats are rounded by the unit of their key, and None where they are not finite. Arrays and
+    Floats are rounded by the unit of their key, and None if they are not finite. Arrays and
     tuples become lists, results their ``to_dict()``. A dict stays as it is: it is a part already.
 
     Examples
@@ -79,12 +79,12 @@ def digits_of(key: str) -> int:
     return RATIO_DIGITS if quantity.endswith("_per") else _UNIT_DIGITS.get(unit, RATIO_DIGITS)
 
 
-def rounded(value: float | None, digits: int | None = MILLIMETRE_DIGITS) -> float | None:
-    """``value`` to so many decimals, all where ``digits`` is None; None for NaN and infinity.
+def json_number(value: float | None, digits: int | None = MILLIMETRE_DIGITS) -> float | None:
+    """``value`` to so many decimals (all if ``digits`` is None); None for NaN and infinity.
 
     Examples
     --------
-    >>> rounded(1.23456, 3), rounded(-0.0001, 3), rounded(float("nan"), 3)
+    >>> json_number(1.23456, 3), json_number(-0.0001, 3), json_number(float("nan"), 3)
     (1.235, 0.0, None)
     """
     if value is None or not math.isfinite(value):
@@ -99,7 +99,7 @@ def _plain(value: Any, digits: int | None) -> object:
         value = value.tolist()
     if isinstance(value, tuple | list):
         return [_plain(item, digits) for item in value]
-    return rounded(value, digits) if isinstance(value, float) else value
+    return json_number(value, digits) if isinstance(value, float) else value
 
 
 class Part:
@@ -140,16 +140,16 @@ class Measured:
     reason: str | None = None
 
     def to_dict(self) -> Json:
-        """``value`` and ``sd`` in mm, and a ``reason`` only where the value is null.
+        """``value`` and ``sd`` in mm, and a ``reason`` only if the value is null.
 
         Examples
         --------
         >>> Measured(262.31049, 0.4).to_dict()
         {'value': 262.31, 'sd': 0.4, 'reason': None}
         """
-        value = rounded(self.value)
+        value = json_number(self.value)
         reason = None if value is not None else self.reason or "not measured"
-        return {"value": value, "sd": rounded(self.sd), "reason": reason}
+        return {"value": value, "sd": json_number(self.sd), "reason": reason}
 
 
 LABELS = ("style", "size", "size_system", "width_label")

@@ -44,7 +44,7 @@ def match(
         typer.Option(
             "--profile",
             metavar="NAME|FILE.toml",
-            help="Choose what is fitted: walking, dress, sport, child, safety, or your own profile.",
+            help="Choose the fit profile: walking, dress, sport, child, safety, or your own file.",
         ),
     ] = "walking",
     pair: Annotated[

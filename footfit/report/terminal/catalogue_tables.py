@@ -49,7 +49,7 @@ MEGABYTE = 1_000_000
 
 
 def list_lasts_table(library: Library) -> RenderableType:
-    """The library, one line per last, by name: a star marks the reference, "!" a label off."""
+    """The library, one line per last, by name: a star marks the reference, "!" a wrong label."""
     ordered, reference = library.by_name(), library.reference
     heads = ("last", "style", "size", "side", "length\nmm", "flare\ndeg", "class", "heel\nmm")
     table = lined_table(*heads, right=frozenset({"length\nmm", "flare\ndeg", "heel\nmm"}))
@@ -57,7 +57,7 @@ def list_lasts_table(library: Library) -> RenderableType:
     for record in ordered:
         labels, heel = record.labels, record.labels.heel_height_mm
         star = " *" if labels.name == reference else ""
-        off = flagged(record)
+        off = off_label(record)
         notes += [Text(f"! {visible(labels.name)}: {label_words(off)}", "yellow")] if off else []
         size = size_text(labels.size, labels.size_system, labels.width_label)
         table.add_row(
@@ -76,21 +76,21 @@ def list_lasts_table(library: Library) -> RenderableType:
     return Group(table, *notes, closing)
 
 
-def flagged(record: LastRecord) -> LabelCheck | None:
+def off_label(record: LastRecord) -> LabelCheck | None:
     """The check of a label that is more than a size from its last's length, else None."""
     check = record.label_check
     return check if check is not None and check.flagged else None
 
 
 def _size_row(record: LastRecord) -> Text:
-    """The size as labelled, and what is wrong with it."""
-    labels, off = record.labels, flagged(record)
+    """The size on the label, and what is wrong with it."""
+    labels, off = record.labels, off_label(record)
     size = cell(size_text(labels.size, labels.size_system, labels.width_label))
     return size.append(f" ! {label_words(off)}", "yellow") if off else size
 
 
 def show_last_table(last: StoredLast) -> RenderableType:
-    """Everything of one last that a person reads."""
+    """What a person reads of one last."""
     record, reference = last.record, last.reference
     labels, flare, info = record.labels, record.flare, record.info
     upgraded = f", upgraded from {record.upgraded_from}" if record.upgraded_from else ""
@@ -115,7 +115,7 @@ def show_last_table(last: StoredLast) -> RenderableType:
 
 
 def _measures(record: LastRecord) -> list[tuple[str, str | Text]]:
-    """Every stored measure but the length, which has its own row."""
+    """Every stored measure except the length, which has its own row."""
     return [
         (measure.name.replace("_", " "), cell(measured_text(measure.measured, "mm")))
         for measure in record.measures
@@ -139,29 +139,29 @@ def catalogue_info_table(info: CatalogueFacts) -> RenderableType:
         [
             ("catalogue", cell(info.path)),
             ("size", f"{plain(info.bytes / MEGABYTE)} MB, schema {visible(info.schema_revision)}"),
-            ("lasts", _counted(info.lasts, info.sides)),
+            ("lasts", _total_words(info.lasts, info.sides)),
             ("reference", cell(info.reference)),
-            ("styles", _counts(info.styles)),
-            ("size systems", _counts(info.size_systems)),
-            ("definitions", _counts(info.definitions)),
+            ("styles", _count_words(info.styles)),
+            ("size systems", _count_words(info.size_systems)),
+            ("definitions", _count_words(info.definitions)),
             ("mesh copies", f"{info.mesh_copies}, {size} MB{worst}"),
-            ("rows kept", _counts(info.kept)),
+            ("rows kept", _count_words(info.kept)),
             ("feet", "none: a foot is read, matched and forgotten"),
         ]
     )
 
 
-def _counts(counts: Iterable[tuple[str, int]]) -> Text:
+def _count_words(counts: Iterable[tuple[str, int]]) -> Text:
     return cell(", ".join(f"{name or 'none'} {count}" for name, count in counts))
 
 
-def _counted(total: int, sides: Iterable[tuple[str, int]]) -> Text:
+def _total_words(total: int, sides: Iterable[tuple[str, int]]) -> Text:
     split = ", ".join(f"{count} {name}" for name, count in sides)
     return cell(f"{total} ({split})" if split else str(total))
 
 
 def set_reference_line(outcome: ReferenceOutcome) -> Text:
-    """Which last the paper's frame now comes from, and how many frames were rewritten."""
+    """The new reference last, and how many frames were rewritten."""
     noun = "frame" if outcome.rewritten == 1 else "frames"
     line = Text("reference  ").append(visible(outcome.reference.last), "bold")
     return line.append(f"  {outcome.rewritten} stored {noun} rewritten", "not bold")
@@ -174,12 +174,12 @@ def rename_last_line(outcome: RenameOutcome) -> Text:
 
 
 def remove_last_line(outcome: RemoveOutcome) -> Text:
-    """A last that is no longer there."""
+    """A last that was removed."""
     return Text("removed  ").append(visible(outcome.last), "bold")
 
 
 def export_last_line(outcome: ExportOutcome) -> Text:
-    """What was written where, and how true the mesh is."""
+    """The file of a last, and how far its mesh is from the original."""
     line = Text("exported  ").append(visible(outcome.last), "bold")
     line.append(f" to {visible(outcome.output)}")
     if outcome.faces is None or outcome.error_mm is None:
@@ -189,7 +189,7 @@ def export_last_line(outcome: ExportOutcome) -> Text:
 
 
 def upgrade_catalogue_line(outcome: UpgradeOutcome) -> RenderableType:
-    """What the upgrade changed, and where the file as it was lies."""
+    """What the upgrade changed, and where the old file is."""
     before, after = visible(outcome.revision_before), visible(outcome.revision_after)
     schema = f"{after}, as before" if before == after else f"{before} to {after}"
     count = len(outcome.recomputed)
@@ -204,7 +204,7 @@ def upgrade_catalogue_line(outcome: UpgradeOutcome) -> RenderableType:
 
 
 def demo_table(demo: DemoOutcome) -> RenderableType:
-    """Where the demo's files lie; the report is the last line."""
+    """The files of the demo; the page is in the last line."""
     files = [("file", cell(output)) for output in demo.outputs]
     rows: list[tuple[str, str | Text]] = [
         ("folder", cell(demo.folder)),
@@ -216,7 +216,7 @@ def demo_table(demo: DemoOutcome) -> RenderableType:
 
 
 def check_catalogue_table(outcome: CheckOutcome) -> RenderableType:
-    """One line per finding under what was checked."""
+    """What was checked, and a line for each finding."""
     line = Text("checked  ").append(visible(outcome.path), "bold")
     line.append(f"  {outcome.lasts} lasts, {outcome.mesh_copies} mesh copies", "not bold")
     if not outcome.findings:
@@ -228,7 +228,7 @@ def check_catalogue_table(outcome: CheckOutcome) -> RenderableType:
 
 
 def backup_catalogue_line(outcome: BackupOutcome) -> Text:
-    """Where the copy lies and what is in it."""
+    """Where the copy is, and what it holds."""
     line = Text("backed up  ").append(visible(outcome.path), "bold")
     size = plain(outcome.bytes / MEGABYTE)
     return line.append(
@@ -237,7 +237,7 @@ def backup_catalogue_line(outcome: BackupOutcome) -> Text:
 
 
 def restore_catalogue_table(outcome: RestoreOutcome) -> RenderableType:
-    """What is there now, and where the one before lies."""
+    """What was restored, and where the old file is."""
     return facts(
         [
             ("catalogue", cell(outcome.path)),

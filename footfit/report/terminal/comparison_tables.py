@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 
 
 def compare_table(comparison: Comparison) -> RenderableType:
-    """The lengths and the swing, the room by zone, the sections: 80 columns."""
+    """The lengths, the swing, the clearance by zone and the sections, in 80 columns."""
     return Group(
         _headline(comparison),
         Text(lengths_words(comparison)),

@@ -1,6 +1,6 @@
-"""The answer to a customer as rich renderables: the feet, the lasts, the best one zone by zone.
+"""A match as rich renderables: the feet, the lasts, and the best last zone by zone.
 
-It fits 80 columns; a last takes a row of numbers and, under it, its sentence over the whole width.
+It fits 80 columns. A last has a row of numbers, and under it a sentence over the whole width.
 """
 
 from __future__ import annotations
@@ -50,7 +50,7 @@ COLUMN_GAP = 2
 
 
 def match_table(match: Match) -> RenderableType:
-    """One customer: the feet, the ranked lasts with reasons, what was left out and why."""
+    """The feet, the ranked lasts with reasons, and why others were left out."""
     parts: list[RenderableType] = []
     for foot in match.feet:
         parts.append(_foot_line(foot, match))
@@ -78,7 +78,7 @@ def _foot_line(foot: Profiled, match: Match) -> Text:
 
 
 def _size_line(length_mm: float, asked: str | None) -> RenderableType:
-    """The foot's sizes: the one asked for with the two beside it, or the usual systems."""
+    """The foot's sizes: in the system asked for with the next ones, or in the usual systems."""
     system = system_named(asked)
     if system is not None:
         size = foot_size(length_mm, system)
@@ -144,7 +144,7 @@ def _cells(candidate: Candidate, *, judged: bool) -> list[Text]:
 
 
 def _sentence(candidate: Candidate) -> RenderableType:
-    """Why, with whom it is tied, and where the surfaces are tight or loose, under the row."""
+    """The reason, the ties, and where the last is tight or loose: the lines under the row."""
     words = cell(candidate.why)
     if candidate.mirrored:
         words.append("; mirrored")
@@ -158,7 +158,7 @@ def _sentence(candidate: Candidate) -> RenderableType:
 
 
 def _zones(match: Match) -> list[RenderableType]:
-    """The best last zone by zone; nothing for an answer without zones."""
+    """The best last zone by zone; nothing if the match has no zones."""
     best = match.candidates[0]
     if not best.fits:
         return []
@@ -169,7 +169,7 @@ def _zones(match: Match) -> list[RenderableType]:
         table.add_row(
             zones[0].zone.replace("_", " "),
             *(_clearance(zone) for zone in zones),
-            _asked(zones[0]),
+            _target_text(zones[0]),
             _zone_verdict(zones),
         )
     return [title, table]
@@ -182,12 +182,12 @@ def _clearance(zone: ZoneFit) -> Text:
     return Text(f"{signed(zone.clearance.value, digits)} {UNITS[zone.unit]}".rstrip())
 
 
-def _asked(zone: ZoneFit) -> str:
+def _target_text(zone: ZoneFit) -> str:
     return f"{signed(zone.target)} {UNITS[zone.unit]}".rstrip()
 
 
 def _zone_verdict(zones: Sequence[ZoneFit]) -> Text:
-    """The worst of the feet that the zone counts for, or why there is none."""
+    """The worst verdict of the feet that the zone counts for, or why there is none."""
     order = list(VERDICT_STYLES)
     known = [zone.verdict for zone in zones if zone.counts and zone.verdict is not None]
     if not known:

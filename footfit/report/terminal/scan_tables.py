@@ -1,8 +1,8 @@
 """Answers about meshes as rich renderables for a terminal of 80 columns or more.
 
-Words carry every meaning; colour only repeats it. Every outside string goes through `cell`,
-which shows control characters and lets no markup through. Warnings are not repeated here: the
-command line says them on stderr.
+Words carry every meaning, and colour only repeats it. Every string from outside goes through
+`cell`, which shows control characters and escapes markup. The command line writes warnings to
+stderr, so they are not here.
 """
 
 from __future__ import annotations
@@ -54,7 +54,7 @@ def terminal_text(renderable: RenderableType, width: int = 80, colour: bool = Fa
 
 
 def cell(text: str | None, style: str = "") -> Text:
-    """An outside string as a cell: no markup, no control characters; a dash for nothing."""
+    """A string from outside as a cell, without markup or control characters; a dash for none."""
     return Text(visible(text), style) if text else Text("-", "dim")
 
 
@@ -78,7 +78,7 @@ def lined_table(*columns: str, right: frozenset[str] = frozenset()) -> Table:
 
 
 def side_words(side: SideVerdict) -> str:
-    """The side, how surely, and who said so.
+    """The side, how sure it is, and where it comes from.
 
     Examples
     --------
@@ -115,7 +115,7 @@ def align_table(alignment: Alignment) -> RenderableType:
 
 
 def eigenvalue_words(frame: Eigenframe) -> str:
-    """Each eigenvector's own value, under the names that the frames' picture gives them.
+    """The value of each eigenvector, under the names in the picture of the frames.
 
     Examples
     --------
@@ -164,7 +164,7 @@ def _range_words(values: Sequence[float] | object) -> str:
 
 
 def ingest_line(outcome: IngestOutcome) -> Text:
-    """One file on one line: what became of it."""
+    """The outcome of one file, in one line."""
     line = Text(f"{outcome.status:<10}", STATUS_STYLES.get(outcome.status, ""))
     if outcome.failure is not None:
         return line.append(visible(f"{outcome.path}: {outcome.failure.message}"), "default")
