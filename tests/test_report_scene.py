@@ -38,7 +38,7 @@ def page_of(comparison) -> str:
     """A page with nothing but the view."""
     source = (
         "{% extends 'page.html.jinja' %}{% block title %}x{% endblock %}"
-        "{% block content %}{% include 'scene.html.jinja' %}{% endblock %}"
+        "{% block content %}{% include 'parts/scene.html.jinja' %}{% endblock %}"
     )
     return html_page(templates().from_string(source), scene=scene_of(comparison))
 
