@@ -12,6 +12,7 @@ from footfit.geometry.mesh.welding import welded_vertices
 from footfit.pipeline.scan.curvature import surface_curvature
 from footfit.results import MeshInfo, Scan
 from tests import shapes
+from tests.bounds import ROUNDING
 from tests.conftest import SAMPLES
 from tests.distortions import random_rotation, soup, white_noise
 from tests.reading import read_scan
@@ -26,7 +27,7 @@ def test_the_default_scale_is_six_percent_of_the_length_in_any_pose():
     vertices, faces = shapes.ellipsoid((130.0, 45.0, 35.0), 3)
     for rotation in (np.eye(3), random_rotation(np.random.default_rng(0))):
         found = surface_curvature(_scan(vertices @ rotation.T, faces))
-        assert found.radius_mm == pytest.approx(0.06 * 260.0, rel=0.01)
+        assert found.radius_mm == pytest.approx(0.06 * 260.0, rel=ROUNDING)
 
 
 def test_radius_zero_is_the_one_ring_and_drowns_where_the_default_does_not():
@@ -95,4 +96,5 @@ def assert_values_are_of_a_foots_order(paths):
         assert np.isfinite(np.stack([found.k1, found.k2])).all(), path.name
         assert np.all(found.k1 <= found.k2)
         # Nothing at this scale can bend much more than a ball of its deviation.
-        assert np.abs(np.stack([found.k1, found.k2])).max() * found.radius_mm < 10.0, path.name
+        # measured 5
+        assert np.abs(np.stack([found.k1, found.k2])).max() * found.radius_mm < 7.5, path.name

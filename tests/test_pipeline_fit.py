@@ -22,6 +22,7 @@ from footfit.pipeline.fit.scoring import (
     worst_levels,
 )
 from footfit.results import ZoneRule
+from tests.bounds import EXACT
 
 LENGTH = ZoneRule("length", 13.0, (10, 17), (8, 20), (8, 20), 1.5, True, 0.0)
 GIRTH = ZoneRule("ball_girth", 0.0, (-4, 4), (-8, 8), (-16, 16), 1.0, False, 0.0)
@@ -141,11 +142,11 @@ def test_at_the_target_the_errors_alone_make_the_spread() -> None:
     share = np.array([1.5, 1.0, 0.5]) / 3.0
     squares = np.square(found.foot_sd[0]) + np.square(found.last_sd[0])
     variance = 2.0 * np.sum(share**2 * squares**2) / (4.0 * np.sum(share * squares))
-    assert distance_spread(found).alone() == pytest.approx([np.sqrt(variance)], rel=1e-12)
+    assert distance_spread(found).alone() == pytest.approx([np.sqrt(variance)], rel=EXACT)
     foot_only = scores(
         np.array([[13.0, 0.0, -2.0]] * 2), *np.array([[foot_sd] * 2, [0 * foot_sd] * 2]), COLUMNS
     )
-    assert distance_spread(foot_only).difference(0, 1) == pytest.approx(0.0, abs=1e-12)
+    assert distance_spread(foot_only).difference(0, 1) == pytest.approx(0.0, abs=EXACT)
 
 
 def test_the_foots_own_error_does_not_make_two_alike_lasts_a_tie_of_chance() -> None:

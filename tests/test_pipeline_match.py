@@ -27,6 +27,7 @@ from footfit.report.terminal.match_tables import match_table
 from footfit.report.terminal.scan_tables import terminal_text
 from footfit.results import Candidate, LastRecord, Library, Match, Measure, Measured, Profiled
 from tests import answers, records
+from tests.bounds import ROUNDING
 from tests.conftest import SAMPLES
 
 WALKING = fit_profile("walking")
@@ -153,7 +154,7 @@ def test_the_ball_line_is_what_the_length_does_not_explain(excess: float, ball: 
     carried = BALL_SHARE * excess
     inside = min(carried, 0.0) <= ball <= max(carried, 0.0)
     off = 0.0 if inside else min(abs(ball), abs(ball - carried))
-    assert abs(found.value) == pytest.approx(100.0 * off / one.extent_mm, abs=1e-9)
+    assert abs(found.value) == pytest.approx(100.0 * off / one.extent_mm, abs=ROUNDING)
 
 
 def test_a_better_verdict_ranks_before_a_nearer_distance() -> None:
@@ -276,7 +277,7 @@ def test_the_flare_difference_is_the_last_minus_the_foot() -> None:
     assert found.flare.delta_deg == pytest.approx(one.flare.angle_deg - shape.flare.angle_deg)
     assert "less inward" in found.why
     (found,) = answer(replace(one, flare=shape.flare), feet=(shape,), by="flare").candidates
-    assert found.distance == pytest.approx(0.0, abs=1e-9)
+    assert found.distance == pytest.approx(0.0, abs=ROUNDING)
 
 
 # ---------------------------------------------------------------- sides and pairs
@@ -423,7 +424,7 @@ def test_a_last_that_is_searched_for_is_as_long_as_itself(stocked: Any) -> None:
     mesh = profiled_source(Source(str(path)), ReadingOptions())
     best = matched([mesh], found, Question(by="shape")).candidates[0]
     assert best.last == "derby-40"
-    assert dict(best.clearance_mm)["length"].value == pytest.approx(0.0, abs=0.05)
+    assert dict(best.clearance_mm)["length"].value == pytest.approx(0.0, abs=ROUNDING)
 
 
 def test_what_was_not_judged_passes_no_check_and_is_said() -> None:
