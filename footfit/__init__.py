@@ -9,8 +9,16 @@ if TYPE_CHECKING:
     from footfit import errors, results
     from footfit.api.catalogues import Catalogue, match, open_catalogue
     from footfit.api.files import mesh_file, page, picture, to_trimesh
-    from footfit.api.inputs import sources
-    from footfit.api.scans import align, compare, curvature, flare, measure, outcomes, read
+    from footfit.api.scans import (
+        align,
+        compare,
+        curvature,
+        flare,
+        measure,
+        outcomes,
+        read,
+        sources,
+    )
     from footfit.errors import FootfitError
     from footfit.results import LastLabels
 

@@ -17,9 +17,8 @@ from footfit.api.inputs import (
     ReadingKeywords,
     Shape,
     reading_options,
-    sources,
 )
-from footfit.api.scans import profiled_shape
+from footfit.api.scans import profiled_shape, sources
 from footfit.errors import BadOption
 from footfit.pipeline.batch.runs import HERE, Outcome
 from footfit.pipeline.batch.sources import Source

@@ -6,7 +6,7 @@ import os
 from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any, Literal, Protocol, TypedDict, Union, runtime_checkable
 
-from footfit.pipeline.batch.sources import ReadingOptions, Source, mesh_sources
+from footfit.pipeline.batch.sources import ReadingOptions, Source
 from footfit.results import AlignedScan, Profiled, Scan, SearchBy
 
 if TYPE_CHECKING:
@@ -71,27 +71,6 @@ class SurfaceMesh(Protocol):
 
     vertices: ArrayLike
     faces: ArrayLike
-
-
-def sources(meshes: Meshes, *, split: bool = False, **reading: Any) -> list[Source]:
-    """The meshes in files, folders and globs; with ``split`` each foot of a file by itself.
-
-    Raises
-    ------
-    UnreadableFile
-        The only argument is a folder or a glob, and it holds no mesh.
-    """
-    given: list[Any] = list(meshes) if isinstance(meshes, list) else [meshes]
-    names = [mesh for mesh in given if isinstance(mesh, str | os.PathLike)]
-    if len(names) == len(given):
-        single = mesh_sources([os.fspath(name) for name in names])
-    else:
-        single = [source_of(mesh, reading) for mesh in given]
-    if not split:
-        return single
-    from footfit.pipeline.scan.split import split_sources
-
-    return split_sources(single, reading_options(reading))
 
 
 def source_of(mesh: Mesh, scale: Mapping[str, Any]) -> Source:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from collections.abc import Callable, Iterator, Mapping
 from functools import partial
 from typing import Any, TypeVar, Unpack
@@ -14,10 +15,9 @@ from footfit.api.inputs import (
     Shape,
     reading_options,
     source_of,
-    sources,
 )
 from footfit.pipeline.batch import runs
-from footfit.pipeline.batch.sources import ReadingOptions, Source
+from footfit.pipeline.batch.sources import ReadingOptions, Source, mesh_sources
 from footfit.results import (
     AlignedScan,
     Comparison,
@@ -127,6 +127,27 @@ def compare(foot: Shape, last: Mesh, **reading: Unpack[ReadingKeywords]) -> Comp
     from footfit.pipeline.fit.compare import compared, scanned_last
 
     return compared(flare(foot, **reading), scanned_last(source_of(last, {}), ReadingOptions()))
+
+
+def sources(meshes: Meshes, *, split: bool = False, **reading: Any) -> list[Source]:
+    """The meshes in files, folders and globs; with ``split`` each foot of a file by itself.
+
+    Raises
+    ------
+    UnreadableFile
+        The only argument is a folder or a glob, and it holds no mesh.
+    """
+    given: list[Any] = list(meshes) if isinstance(meshes, list) else [meshes]
+    names = [mesh for mesh in given if isinstance(mesh, str | os.PathLike)]
+    if len(names) == len(given):
+        single = mesh_sources([os.fspath(name) for name in names])
+    else:
+        single = [source_of(mesh, reading) for mesh in given]
+    if not split:
+        return single
+    from footfit.pipeline.scan.split import split_sources
+
+    return split_sources(single, reading_options(reading))
 
 
 def outcomes(

@@ -106,17 +106,17 @@ def sources_of(meshes: Sequence[str], reading: Scale, *, split: bool = False) ->
     UnreadableFile
         A folder or glob holds no mesh.
     """
-    from footfit.api import inputs
+    from footfit.api import scans
     from footfit.pipeline.batch.sources import stdin_source
 
     if "-" not in meshes:
-        return inputs.sources(list(meshes), split=split, **reading.keywords())
+        return scans.sources(list(meshes), split=split, **reading.keywords())
     if list(meshes) != ["-"]:
         raise BadOption("- reads one mesh from standard input; give it alone")
     if reading.format is None:
         raise BadOption("a mesh on standard input needs --format, for example --format stl")
     source = stdin_source(sys.stdin.buffer, reading.format.value)
-    return inputs.sources([source], split=split, **reading.keywords())
+    return scans.sources([source], split=split, **reading.keywords())
 
 
 def tell(value: Any, mode: OutputMode) -> None:
