@@ -36,17 +36,17 @@ def facing(vertices: Floats, faces: Ints) -> Facing:
     outward = float(np.einsum("ij,ij->", away, vectors))
     total = vectors.sum(axis=0)
     return Facing(
-        outward=outward / distance if distance > 0.0 else 0.0,  # one face has no middle to leave
+        outward=outward / distance if distance > 0.0 else 0.0,  # of a single face it is 0 / 0
         one_way=float(np.linalg.norm(total) / areas.sum()),
         toward=unit(total[None])[0],
     )
 
 
 def lacks_its_sole(looks: Facing, up: Floats) -> bool:
-    """Whether faces are those of a foot without the sole, by where they look on the whole.
+    """Whether the faces are those of a foot without its sole; ``up`` is (3,).
 
-    Area vectors of a closed surface add up to nothing: what is missing is what they add up to,
-    turned over. A missing sole leaves them looking up (3,); a sole alone looks down.
+    The area vectors of a closed surface add up to zero. If the sole is missing, they add up to a
+    vector that looks up; those of a sole alone look down.
     """
     within = PIECES.shell < looks.one_way < PIECES.flat_shell
     return within and float(looks.toward @ up) > PIECES.upward
@@ -55,8 +55,8 @@ def lacks_its_sole(looks: Facing, up: Floats) -> bool:
 def outward_faces(vertices: Floats, faces: Ints, vectors: Floats, labels: Ints) -> tuple[Ints, int]:
     """Faces that agree with their neighbours and look outward, and how many were turned over.
 
-    The sum of A (c - g).N over a piece is three times the volume of a closed one whatever g is; of
-    an open one its sign tells outside, with g the piece's centroid.
+    The sum of A (c - g).N over a closed piece is three times its volume, whatever g is. For an open
+    piece, with g its centroid, the sign still shows which way is outside.
 
     Parameters
     ----------

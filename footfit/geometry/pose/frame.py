@@ -23,7 +23,7 @@ class FrameSettings:
     """Everything numeric of the refinement and the origin; lengths over L."""
 
     rounds: int = 2
-    axis_height: float = 0.15  # the plan axis is that of what lies below; a leg does not move it
+    axis_height: float = 0.15  # the plan axis is taken below, so that a leg does not move it
     axis_softness: float = 0.01
     length_height: float = 0.30
     support_minimum: float = 0.05
@@ -82,7 +82,7 @@ def turned_sample(sample: SurfaceSample, rotation: Floats) -> SurfaceSample:
 
 
 def length_of(points: Floats, ground: float, length: float) -> float:
-    """The extent along x of points (n, 3) lower than ``length_height``: no leg lengthens a foot."""
+    """The extent along x of points (n, 3) below ``length_height``, where there is no leg."""
     low = points[points[:, 2] - ground < FRAME.length_height * length, 0]
     return float(np.ptp(low)) if len(low) else 0.0
 

@@ -1,4 +1,4 @@
-"""Which pieces of a surface belong to it, of whatever kind it is: specks and floor plates go."""
+"""Which pieces of a surface of any kind belong to it: specks and floor plates do not."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from footfit.geometry.numeric.arrays import Bools, Floats, Ints
 from footfit.geometry.pose.floor_plate import plate_pieces
 from footfit.geometry.pose.pieces import PIECES
 
-_FARTHEST = 2**19  # cells from the largest piece: what lies farther is far
+_FARTHEST = 2**19  # cells from the largest piece; everything farther counts as this far
 _PACKING = np.array([1, 2**21, 2**42])
 
 
@@ -33,7 +33,7 @@ class KeptPieces:
 
 
 def kept_pieces(vertices: Floats, faces: Ints, labels: Ints, face_areas: Floats) -> KeptPieces:
-    """The pieces that are the shape's: no specks, and no floor plate that is a piece of its own.
+    """The pieces of the surface without specks, and without a floor plate of its own.
 
     Two pieces of comparable size both stay. Whether they are two feet is asked later.
 
@@ -92,8 +92,8 @@ def _mattering(vertices: Floats, faces: Ints, labels: Ints, areas: Floats) -> Bo
 def _reached(vertices: Floats, faces: Ints, labels: Ints, matter: Bools) -> Bools:
     """Which pieces lie near one that matters, or near one that is reached already, (k,).
 
-    Near is by cells of space: a piece is reached where it has a point in the cell, or beside the
-    cell, of a point that is. A crack is narrower than a cell, a speck stands off by more than two.
+    Near means in the same cell of space, or in the cell beside it. A crack is narrower than a cell,
+    and a speck is farther away than two.
     """
     low, high = _boxes(vertices, faces, labels)
     largest = int(np.argmax(np.bincount(labels, minlength=len(matter)) * matter))

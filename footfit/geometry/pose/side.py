@@ -76,7 +76,7 @@ def side_score(points: Floats, length: float) -> SideScore:
 
 
 def confidence(score: float) -> Literal["sure", "low", "undecided"]:
-    """How sure the side is by a score: "sure", "low" or "undecided"."""
+    """How sure a score makes the side: "sure", "low" or "undecided"."""
     if abs(score) >= SIDE.sure:
         return "sure"
     return "low" if abs(score) >= SIDE.undecided else "undecided"

@@ -23,7 +23,7 @@ class FloorSettings:
     narrowing_steps: int = 12
     final_steps: int = 15
     still: float = 1e-7
-    reach: float = 0.25  # what lies higher cannot be sole
+    reach: float = 0.25  # a point that is higher cannot be sole
     support_height: float = 0.06
     rim_stations: int = 14
     rim_share: float = 0.02
@@ -42,7 +42,7 @@ def sole_plane(sample: SurfaceSample, length: float, start: Plane = LEVEL) -> Pl
     """
     heights = start.heights(sample.points)
     near = (np.abs(heights) < FLOOR.reach * length) & (sample.normals @ start.normal < 0)
-    columns = np.asfortranarray  # one coordinate after the other: the steps read them so
+    columns = np.asfortranarray  # the steps read one coordinate after the other
     points, normals = columns(sample.points[near]), columns(sample.normals[near])
     areas = sample.areas[near]
     narrowing = np.geomspace(FLOOR.tau_first, FLOOR.tau_last, FLOOR.narrowing_steps)
@@ -66,7 +66,7 @@ def squareness(normals: Floats, up: Floats) -> Floats:
 
 
 def _unmoved(before: Plane, after: Plane, still: float, length: float) -> bool:
-    """Whether the plane has come to rest, so that further steps would change nothing."""
+    """Whether the plane is at rest, so that further steps would change nothing."""
     tilt = float(np.abs(before.normal - after.normal).max())
     return tilt < still and abs(before.offset - after.offset) < still * length
 

@@ -12,7 +12,7 @@ from footfit.geometry.numeric.arrays import Bools, Floats, Ints
 
 @dataclass(frozen=True, slots=True)
 class SpikeSettings:
-    """What stands out too far to be surface.
+    """When a vertex stands out too far to be surface.
 
     Attributes
     ----------
@@ -32,9 +32,9 @@ SPIKES = SpikeSettings()
 def pressed_spikes(vertices: Floats, faces: Ints) -> tuple[Floats, int]:
     """The vertices with each spike's tip moved to the middle of its neighbours, and how many.
 
-    Connectivity stays, so that a closed surface stays closed. Tips that are neighbours of each
-    other are no spike by this rule and stay, as do those on a rim, where a sheet may end in a
-    slender corner.
+    The faces stay as they are, so that a closed surface stays closed. Two kinds of tips stay: tips
+    that are neighbours of each other, and tips on a rim, because a sheet may end in a slender
+    corner.
 
     Parameters
     ----------

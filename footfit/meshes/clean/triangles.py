@@ -37,10 +37,10 @@ WELDING = WeldSettings()
 
 @dataclass(frozen=True, slots=True)
 class WeldedMesh:
-    """A mesh in the file's numbers, whose faces share vertices and stand there once.
+    """A mesh in the file's numbers; its faces share vertices, and none is there twice.
 
     ``source_to_vertex`` (vertices of the file,) is the row of ``vertices`` that each became.
-    ``collapsed`` counts the faces that were dropped since two of their corners were one.
+    ``collapsed`` counts the faces that were dropped because two of their corners were equal.
     """
 
     vertices: Floats
@@ -51,7 +51,7 @@ class WeldedMesh:
 
 
 def welded_mesh(vertices: Floats, faces: Ints) -> WeldedMesh:
-    """Weld, drop what is no triangle or stands twice, press spikes back.
+    """Weld equal corners, drop repeated faces and faces that are no triangle, press spikes back.
 
     Parameters
     ----------
@@ -68,7 +68,7 @@ def welded_mesh(vertices: Floats, faces: Ints) -> WeldedMesh:
     distinct = has_distinct_corners(faces)
     faces = faces[distinct]
     once = _first_of_equals(faces)
-    notices += counted("duplicates_removed", int((~once).sum()), "faces stood in the file twice")
+    notices += counted("duplicates_removed", int((~once).sum()), "repeated faces were removed")
     faces = faces[once]
     vertices, pressed = pressed_spikes(vertices, faces)
     notices += counted("spikes_pressed", pressed, "spikes were pressed back into the surface")
@@ -76,12 +76,12 @@ def welded_mesh(vertices: Floats, faces: Ints) -> WeldedMesh:
 
 
 def counted(code: str, count: int, words: str) -> tuple[Notice, ...]:
-    """A notice of how many there were, none where there were none."""
+    """A notice of how many there were; none if there were none."""
     return (Notice(code, f"{count:,} {words}"),) if count else ()
 
 
 def _welded(vertices: Floats, faces: Ints) -> tuple[Floats, Ints, Ints, tuple[Notice, ...]]:
-    """The exact weld, and where it leaves the faces apart the weld of nearly equal corners."""
+    """The exact weld, and the weld of nearly equal corners if that leaves the faces apart."""
     points, joined, source = welded_vertices(vertices, faces)
     if len(points) <= WELDING.loose_ratio * len(faces):
         return points, joined, source, ()
@@ -91,7 +91,7 @@ def _welded(vertices: Floats, faces: Ints) -> tuple[Floats, Ints, Ints, tuple[No
     near, nearly, merged = welded_vertices(points[nearby_vertices(points, tolerance)], joined)
     if 2 * len(boundary_edges(nearly)) > len(boundary_edges(joined)):
         return points, joined, source, ()
-    message = f"corners up to {tolerance:.2g} (the file's unit) apart were taken as one"
+    message = f"corners up to {tolerance:.2g} apart, in the file's unit, were joined"
     return near, nearly, merged[source], (Notice("near_vertices_welded", message),)
 
 

@@ -100,6 +100,6 @@ def _open_notices(faces: Ints) -> tuple[Notice, ...]:
     counts = edge_groups(faces)[2]
     rims, crowded = int((counts == 1).sum()), int((counts - 2).clip(0).sum())
     return (
-        *counted("non_manifold", crowded, "times more than two faces share an edge"),
-        *counted("open_mesh", rims, "edges have one face only: the surface is open"),
+        *counted("non_manifold", crowded, "faces share an edge that two other faces have already"),
+        *counted("open_mesh", rims, "edges have only one face: the surface is open"),
     )

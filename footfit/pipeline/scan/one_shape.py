@@ -72,12 +72,12 @@ def shape_in(scan: Scan, windows: Windows) -> PosedShape:
         shape = _the_one_foot(body, alike, windows)
     if not shape.pose.accepted:
         raise NotAFoot(
-            "neither a foot nor a last, as far as the shape tells"
-            f" (cost {shape.pose.cost:.2f}, margin {shape.pose.margin:.2f}"
-            f"{_opening_words(shape)}); check that the file holds one whole foot or last"
+            f"the shape is neither a foot nor a last (cost {shape.pose.cost:.2f},"
+            f" margin {shape.pose.margin:.2f}{_opening_words(shape)}): check that the file holds"
+            " one whole foot or last"
         )
     if shape.sheet:
-        raise HalfScan("this is a sheet, like a scan of the sole alone; scan the whole foot")
+        raise HalfScan("this is a sheet, like a scan of the sole alone: scan the whole foot")
     return shape
 
 
@@ -155,14 +155,16 @@ def _gathered(body: _Body, parts: list[Piece], windows: Windows) -> PosedShape:
 def _the_one_foot(body: _Body, alike: list[Piece], windows: Windows) -> PosedShape:
     """The foot among comparable pieces, or the pieces together if they are one cracked scan."""
     whole_body = body.vertices, body.faces, windows, body.notices
-    if len(alike) > PIECES.most_comparable:  # no shelf of feet: looking at each would take minutes
+    if len(alike) > PIECES.most_comparable:  # trying each takes minutes
         return _posed(*whole_body)
     feet = _shapes_among(alike, windows, body.notices)
     if _beside(feet):
-        raise SeveralFeet(f"{len(feet)} feet or lasts in one file; add --split to take them apart")
+        raise SeveralFeet(
+            f"the file holds {len(feet)} feet or lasts: add --split to take them apart"
+        )
     if not feet:
         return _posed(*whole_body)
-    best = feet[0]  # the largest: of two shells of one surface always the same
+    best = feet[0]  # the largest, so of two shells of one surface it is always the same
     together = near_pieces(body.parts, best.vertices)
     if len(together) > 1:
         whole = _gathered(body, together, windows)

@@ -41,10 +41,10 @@ from footfit.results import (
 
 @dataclass(frozen=True, slots=True)
 class FramingSettings:
-    """How finely the frame is integrated, and what it takes for a leg cut low."""
+    """How finely the frame is integrated, and when a leg counts as cut low."""
 
     quadrature_edge: float = 0.03  # over L
-    many_points: int = 200_000  # more are gathered: a million moved the frame by .01 mm, .001 deg
+    many_points: int = 200_000  # more are gathered: it moved a million's frame by .01 mm, .001 deg
     gathered_edge: float = 0.0025  # over L
     rounds: int = 3  # of the frame from the frame: two poses then agree to 1e-8 mm
     low_leg: float = 0.24  # of L: a scan that ends lower has its leg cut low
@@ -52,12 +52,12 @@ class FramingSettings:
 
 FRAMING = FramingSettings()
 STORED_SHAPES = 32
-"""So many stored lasts are kept ready for a further comparison: 0.7 MB each."""
+"""How many stored lasts are kept ready for the next comparison; each takes 0.7 MB."""
 _MISSING = {
-    "heel": "no heel: the surface ends there in a cut; scan the whole foot",
-    "toes": "no toes: the surface ends there in a cut; scan the whole foot",
-    "side": "one side is cut off along the foot; scan the whole foot",
-    "upper part": "only the lowest part of a foot or last; scan at least 50 mm from the floor up",
+    "heel": "the heel is missing, the surface is cut off there: scan the whole foot",
+    "toes": "the toes are missing, the surface is cut off there: scan the whole foot",
+    "side": "one side is cut off along the foot: scan the whole foot",
+    "upper part": "the scan shows only the sole: scan at least 50 mm from the floor up",
 }
 
 
@@ -237,14 +237,15 @@ def _hole_notices(closed: ClosedMesh, factor: float) -> tuple[Notice, ...]:
     if not closed.extents:
         return ()
     count, widest_mm = len(closed.extents), factor * closed.extents[0]
-    holes = "a hole" if count == 1 else f"{count} holes"
-    return (Notice("holes_filled", f"{holes} of up to {widest_mm:.0f} mm bridged"),)
+    holes = "a hole of" if count == 1 else f"{count} holes of up to"
+    words = f"{holes} {widest_mm:.0f} mm {'was' if count == 1 else 'were'} bridged"
+    return (Notice("holes_filled", words),)
 
 
 def _frame_notices(frame: _Frame, factor: float) -> tuple[Notice, ...]:
     """What the frame may suffer from: no sole, a leg that is cut low."""
     no_sole = Notice("no_sole", "there is no sole: the frame rests on the lowest rim")
-    low_leg = Notice("leg_cut_low", f"the scan ends {factor * frame.top:.0f} mm above the floor")
+    low_leg = Notice("leg_cut_low", f"the leg is cut {factor * frame.top:.0f} mm above the floor")
     is_low = frame.top < FRAMING.low_leg * frame.extent
     return (*([] if frame.quality.sole else [no_sole]), *([low_leg] if is_low else []))
 
@@ -255,7 +256,8 @@ def _side_notices(verdict: SideVerdict) -> tuple[Notice, ...]:
         return ()
     score = f"(score {verdict.score:.2f})"
     if verdict.source == "given":
-        words = f"given as {verdict.side}, but the shape looks like the other {score}"
+        words = f"the side is given as {verdict.side}, but the shape looks like the other {score}"
         return (Notice("side_contradicted", words),)
-    words = f"left or right is {verdict.confidence} {score}; say --side left|right"
+    doubt = "undecided" if verdict.side is None else "not sure"
+    words = f"the side is {doubt} {score}: give --side left or --side right"
     return (Notice("low_side_confidence", words),)

@@ -62,8 +62,8 @@ def read(source: Source, reading: ReadingOptions = AS_FOUND) -> Scan:
 def prepared_source(source: Source, reading: ReadingOptions) -> PreparedScan:
     """Read and prepare one mesh.
 
-    Where no unit makes it a foot's length, its shape is asked first: half a foot, a cube or two
-    feet in one file is refused as what it is, and only a foot or last as of an unknown unit.
+    If no unit makes it as long as a foot, its shape is looked at first. Half a foot, a cube or two
+    feet in one file is then refused for what it is, and only a foot or last for its unknown unit.
     """
     try:
         scan = read(source, reading)

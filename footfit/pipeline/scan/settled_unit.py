@@ -58,13 +58,13 @@ def info_with_unit(info: MeshInfo, length: float, known_length_mm: float | None)
                 return replace(info, units=name, unit_scale=scale)
         raise UnknownUnits(
             f"no unit makes the length ({length / info.unit_scale:.4g} in the file) {low:.0f}-"
-            f"{high:.0f} mm; say --units mm|cm|m|in or --known-length MM"
+            f"{high:.0f} mm: give --units or --known-length MM"
         )
     least, most = LENGTHS.possible_mm
     if info.units_source == "declared" and not least <= length <= most:
         raise ImplausibleSize(
-            f"taken as {UNIT_NAMES[info.units]}, the length is {length:,.0f} mm, which is no foot's"
-            f" or last's ({least:.0f}-{most:.0f} mm); check --units, or say --known-length MM"
+            f"taken as {UNIT_NAMES[info.units]}, the length is {length:,.0f} mm, and a foot or last"
+            f" has {least:.0f}-{most:.0f} mm: check --units, or give --known-length MM"
         )
     return info
 
@@ -78,7 +78,7 @@ def read_notices(scan: Scan, info: MeshInfo, length_mm: float | None) -> list[No
 
 
 def unit_notes(info: MeshInfo, length_mm: float | None = None) -> tuple[Notice, ...]:
-    """Detected millimetres: no warning, and yet a guess, so people are told of it.
+    """A note that millimetres were detected. It is a guess, but no warning.
 
     Any other detected unit is among the warnings already.
     """
@@ -92,11 +92,11 @@ def length_notices(info: MeshInfo, length_mm: float) -> list[Notice]:
     low, high = LENGTHS.usual_mm
     if info.units_source == "detected" or low <= length_mm <= high:
         return []
-    words = f"the length is {length_mm:.1f} mm, outside {low:.0f}-{high:.0f}"
+    words = f"the length is {length_mm:.1f} mm, outside the usual {low:.0f}-{high:.0f} mm"
     return [Notice("length_unusual", words)]
 
 
 def _detected(info: MeshInfo, length_mm: float | None) -> Notice:
     length = "" if length_mm is None else f", the length is {length_mm:.0f} mm"
-    words = f"taken as {UNIT_NAMES[info.units]}{length} (--units says otherwise)"
+    words = f"the numbers are taken as {UNIT_NAMES[info.units]}{length} (--units changes this)"
     return Notice("units_detected", words)
