@@ -9,7 +9,7 @@ from footfit.geometry.mesh.samples import quadrature
 from footfit.geometry.mesh.topology import boundary_loops
 from footfit.geometry.pose.facing import facing
 from footfit.geometry.pose.missing_parts import doubtful_end, missing_part
-from footfit.geometry.pose.pieces import comparable, gap, pieces, stand_apart
+from footfit.geometry.pose.pieces import comparable_pieces, gap, pieces, stand_apart
 from tests import distortions, shapes
 from tests.bounds import ROUNDING
 from tools.lasts import LastSpec, last_mesh
@@ -22,7 +22,7 @@ def last():
 
 def test_two_lasts_are_two_comparable_pieces_that_stand_apart(last):
     vertices, faces = shapes.two_feet(*last)
-    parts = comparable(pieces(vertices, faces))
+    parts = comparable_pieces(pieces(vertices, faces))
     assert len(parts) == 2
     first, second = (part.vertices for part in parts)
     assert stand_apart(first, second)

@@ -11,8 +11,14 @@ from hypothesis import strategies as st
 
 from footfit.geometry.mesh.samples import even_sample
 from footfit.geometry.numeric.rotations import rotations_about
-from footfit.geometry.pose.icp import Poses, _plane_part, _point_part, icp_steps, levelled
-from footfit.geometry.pose.icp import moved as pose_fit_moved
+from footfit.geometry.pose.icp import (
+    Poses,
+    _plane_part,
+    _point_part,
+    icp_steps,
+    levelled_poses,
+    posed_points,
+)
 from footfit.geometry.pose.pose_search import (
     POSE_SEARCH,
     is_accepted,
@@ -72,7 +78,7 @@ def test_icp_finds_back_a_small_known_motion():
 def test_levelling_takes_length_and_shift_from_the_low_part():
     vertices, _ = shapes.cube(1.0, 4)
     box = (vertices + np.array([0.5, 0.0, 0.5])) * [200.0, 80.0, 60.0] + [30.0, 7.0, -5.0]
-    poses = levelled(np.eye(3, dtype=np.float32)[None], box.astype(np.float32), 0.1)
+    poses = levelled_poses(np.eye(3, dtype=np.float32)[None], box.astype(np.float32), 0.1)
     assert 1 / poses.scale[0] == pytest.approx(200.0, rel=ROUNDING)
     corner = box.min(axis=0) * poses.scale[0] + poses.shift[0]
     assert corner == pytest.approx([0.0, 0.1 - 0.2, 0.0], abs=8.4e-9)  # measured 5.6e-09
@@ -104,7 +110,7 @@ def test_a_pose_is_turned_about_the_middle_of_the_shape():
     half = np.diag([-1.0, -1.0, 1.0]).astype(np.float32)
     turned = turned_about(pose, half[None], 0.1, (0.5, 0.2))
     points = 100 * rng.normal(size=(20, 3)).astype(np.float32)
-    before, after = pose_fit_moved(pose, points)[0], pose_fit_moved(turned, points)[0]
+    before, after = posed_points(pose, points)[0], posed_points(turned, points)[0]
     np.testing.assert_allclose(
         after - centre, (before - centre) @ half.T, atol=1.8e-7
     )  # measured 1.2e-07

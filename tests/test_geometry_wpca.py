@@ -34,7 +34,7 @@ def posed_frame(last, rng):
     moved = distortions.moved(vertices, pose)
     canonical = np.linalg.inv(pose)
     rows = principal_axes(printed_covariance(moved, faces))[1]
-    return moved, vertex_mean(moved), paper_frame.settled(rows, canonical[:3, :3]), canonical
+    return moved, vertex_mean(moved), paper_frame.settled_axes(rows, canonical[:3, :3]), canonical
 
 
 @settings(max_examples=15, deadline=None)
@@ -115,7 +115,7 @@ def test_a_left_last_lands_on_its_right_twin(last, seed, scale):
     found = paper_frame.paper_transform(*as_right, OM_E, reference, scale)
     file = left / scale * [-1.0, 1.0, 1.0]
     assert np.abs(moved_points(found, file) - last[0]).max() < ROUNDING
-    direct = paper_frame.unmirrored(found, mirrored=True)
+    direct = paper_frame.unmirrored_transform(found, mirrored=True)
     assert np.linalg.det(direct[:3, :3]) > 0
     assert np.abs(moved_points(direct, left / scale) - twin[0]).max() < ROUNDING
     left_canonical = left_canonical @ np.diag([scale, scale, scale, 1.0])
@@ -132,7 +132,7 @@ def test_settled_axes_are_a_rotation_whatever_order_and_signs_came(seed):
     near = rotations_about(rng.uniform(-0.2, 0.2, (1, 3)))[0]
     axes = near @ canonical
     shuffled = axes[rng.permutation(3)] * rng.choice([-1.0, 1.0], 3)[:, None]
-    np.testing.assert_allclose(paper_frame.settled(shuffled, canonical), axes, atol=EXACT)
+    np.testing.assert_allclose(paper_frame.settled_axes(shuffled, canonical), axes, atol=EXACT)
 
 
 @settings(max_examples=30, deadline=None)

@@ -132,10 +132,10 @@ def test_a_planted_bend_keeps_what_lies_across_the_line(right):
 
 def test_a_flare_that_no_foot_has_is_said(right):
     """The forefoot turned by a quarter, as of a foot that hangs in the air."""
-    assert profiled_scan(right).suspects == ()
+    assert profiled_scan(right).unusual == ()
     vertices = right.vertices_mm
     turned = bends.bent(vertices, bends.x_axis(right.alignment.extent_mm), 30.0)
-    (found,) = profiled_scan(aligned_of(right.alignment, turned, right.faces)).suspects
+    (found,) = profiled_scan(aligned_of(right.alignment, turned, right.faces)).unusual
     assert found.code == "suspect_flare"
     assert "(-3 to +33)" in found.message
 

@@ -16,7 +16,7 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from footfit.errors import InputError
-from footfit.pipeline.batch.work_limits import WorkLimits, limited
+from footfit.pipeline.batch.work_limits import WorkLimits, hold_to_limits
 from tests import corpus, packed
 from tests.reading import scan_from_bytes
 
@@ -78,7 +78,7 @@ def trial(data: bytes, name: str | None, tally: Tally, label: str) -> None:
     """Read one mutation and count what became of it."""
     begin = time.perf_counter()
     try:
-        with warnings.catch_warnings(), limited(LIMITS):
+        with warnings.catch_warnings(), hold_to_limits(LIMITS):
             warnings.simplefilter("error")
             scan = scan_from_bytes(data, path=name, units="mm")
         sound = np.isfinite(scan.vertices_mm).all() and scan.faces.max() < len(scan.vertices_mm)

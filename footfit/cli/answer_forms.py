@@ -64,10 +64,10 @@ FORMS: dict[type, Form] = {
         lambda scan: scan_tables.align_table(scan.alignment), lambda scan: _of_scan(scan.alignment)
     ),
     results.Profiled: Form(
-        scan_tables.flare_table, lambda shape: _of_scan(shape.aligned.alignment, shape.suspects)
+        scan_tables.flare_table, lambda shape: _of_scan(shape.aligned.alignment, shape.unusual)
     ),
     results.MeasuredScan: Form(
-        scan_tables.measure_table, lambda scan: _of_scan(scan.alignment, scan.suspects)
+        scan_tables.measure_table, lambda scan: _of_scan(scan.alignment, scan.unusual)
     ),
     results.SurfaceCurvature: Form(
         scan_tables.curvature_table,

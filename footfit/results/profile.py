@@ -39,13 +39,13 @@ def flare_part(flare: FlareProfile) -> Json:
 class Profiled(Document):
     """A mesh aligned, measured and profiled: what ingest stores and match ranks.
 
-    ``suspects`` are notices of a flare that is unusual for a foot or a last.
+    ``unusual`` are notices of a flare that is unusual for a foot or a last.
     """
 
     aligned: AlignedScan
     flare: FlareProfile
     measures: tuple[Measure, ...]
-    suspects: tuple[Notice, ...] = ()
+    unusual: tuple[Notice, ...] = ()
 
     columns = (
         *("path", "side", "flare_angle_deg", "flare_angle_sd_deg", "class", "definition"),
@@ -63,7 +63,7 @@ class Profiled(Document):
             **flare_part(self.flare),
             "length_mm": alignment.length_mm,
             "extent_mm": alignment.extent_mm,
-            "warnings": (*alignment.warnings, *self.suspects),
+            "warnings": (*alignment.warnings, *self.unusual),
         }
 
     def rows(self) -> list[Json]:
@@ -96,11 +96,11 @@ class Profiled(Document):
 
 @dataclass(frozen=True, slots=True)
 class MeasuredScan(Document):
-    """A mesh aligned and measured; ``suspects`` are notices of unusual values."""
+    """A mesh aligned and measured; ``unusual`` are notices of unusual values."""
 
     alignment: Alignment
     measures: tuple[Measure, ...]
-    suspects: tuple[Notice, ...]
+    unusual: tuple[Notice, ...]
 
     columns = (
         *("path", "side", "kind", "measure"),
@@ -117,7 +117,7 @@ class MeasuredScan(Document):
             "kind": alignment.pose.kind,
             "measures": measures_part(self.measures),
             "definitions": {row.name: row.definition for row in self.measures},
-            "warnings": (*alignment.warnings, *self.suspects),
+            "warnings": (*alignment.warnings, *self.unusual),
         }
 
     def rows(self) -> list[Json]:

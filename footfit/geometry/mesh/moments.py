@@ -79,7 +79,7 @@ def principal_axes(second_moment: Floats) -> tuple[Floats, Floats]:
     """The descending eigenvalues (3,) of a second moment, and its unit eigenvectors as rows (3, 3).
 
     The rows' signs are those that the solver gives:
-    :func:`footfit.geometry.pose.paper_frame.settled` and
+    :func:`footfit.geometry.pose.paper_frame.settled_axes` and
     :func:`footfit.geometry.pose.paper_frame.largest_positive` choose them.
     """
     values, columns = np.linalg.eigh(second_moment)

@@ -58,7 +58,7 @@ class Poses:
         return Poses(self.rotation[index], self.shift[index], self.scale[index])
 
 
-def moved(poses: Poses, points: Singles) -> Singles:
+def posed_points(poses: Poses, points: Singles) -> Singles:
     """Points (n, 3) under each pose, (k, n, 3)."""
     turned = points @ poses.rotation.transpose(0, 2, 1)
     return np.asarray(turned * poses.scale[:, None, None] + poses.shift[:, None, :])
@@ -78,7 +78,7 @@ def forward_costs(poses: Poses, points: Singles, normals: Singles, template: Tem
 
     A pose that would make nearly all of the mesh leg pays ``implausible_cost`` as well.
     """
-    q = moved(poses, points)
+    q = posed_points(poses, points)
     turned = normals @ poses.rotation.transpose(0, 2, 1)
     index = template.nearest(q)
     cosine = np.einsum("kni,kni->kn", turned, template.normals[index])
@@ -93,7 +93,7 @@ def size_of(points: Singles) -> float:
     return 2 * float(np.sqrt(np.einsum("ij,ij->i", away, away).max()))
 
 
-def levelled(rotations: Singles, points: Singles, middle_y: float) -> Poses:
+def levelled_poses(rotations: Singles, points: Singles, middle_y: float) -> Poses:
     """Poses with given rotations; length and shift come from the mesh's low part, in two rounds."""
     x, y, z = np.moveaxis(points @ rotations.transpose(0, 2, 1), 2, 0)
     ground = z.min(axis=1)
@@ -130,7 +130,7 @@ def icp_steps(
 
 def _gauss_newton(poses: Poses, points: Singles, normals: Singles, template: Template) -> Floats:
     """The step (k, 7) in turn, shift and logarithm of the scale, about the template's origin."""
-    q = moved(poses, points)
+    q = posed_points(poses, points)
     turned = normals @ poses.rotation.transpose(0, 2, 1)
     index = template.nearest(q)
     away = q - template.points[index]
@@ -207,7 +207,7 @@ def reverse_cost(
 
     ``sparse`` are points and normals of the template; the nearest are found by comparing all.
     """
-    q = moved(pose, points)[0]
+    q = posed_points(pose, points)[0]
     turned = normals @ pose.rotation[0].T
     sought, sought_normals = sparse
     index = _nearest_rows(sought, q)

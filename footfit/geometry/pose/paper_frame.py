@@ -35,7 +35,7 @@ def printed_axes(vertices: Floats, faces: Ints) -> tuple[Floats, Floats, Floats]
         The covariance.
     R : (3, 3) float64
         Its eigenvectors as rows, by descending eigenvalue. Their signs are open:
-        :func:`settled` and :func:`largest_positive` choose them.
+        :func:`settled_axes` and :func:`largest_positive` choose them.
     """
     P_c = vertex_mean(vertices)  # step 1, Eq. 1
     v_1 = vertices - P_c  # step 2
@@ -84,7 +84,7 @@ def largest_positive(rows: Floats) -> Floats:
     return signed
 
 
-def settled(rows: Floats, canonical_rotation: Floats) -> Floats:
+def settled_axes(rows: Floats, canonical_rotation: Floats) -> Floats:
     """Eigenvectors (3, 3 rows) in the order and with the signs of the canonical axes.
 
     The order is the one whose axes lie nearest to X, Y, Z; the result is a rotation.
@@ -92,7 +92,7 @@ def settled(rows: Floats, canonical_rotation: Floats) -> Floats:
     Examples
     --------
     >>> rows = np.array([[-1.0, 0, 0], [0, 0, 1], [0, 1, 0]])
-    >>> np.array_equal(settled(rows, np.eye(3)), np.eye(3))
+    >>> np.array_equal(settled_axes(rows, np.eye(3)), np.eye(3))
     True
     """
     closeness = np.abs(rows @ canonical_rotation.T)
@@ -137,7 +137,7 @@ def mirrored_frame(P_c: Floats, R: Floats) -> tuple[Floats, Floats]:
     return FILE_MIRROR @ P_c, CANONICAL_MIRROR @ R @ FILE_MIRROR
 
 
-def unmirrored(transform_of_mirrored: Floats, *, mirrored: bool) -> Floats:
+def unmirrored_transform(transform_of_mirrored: Floats, *, mirrored: bool) -> Floats:
     """The transform for the file as it is, into the frame of a left shape: never a mirror.
 
     ``transform_of_mirrored`` takes the mirrored file to a right shape's frame; mirroring before
@@ -155,7 +155,7 @@ def paper_frame_angle_deg(
 ) -> float:
     """How far the frame of a :func:`paper_transform` is turned from the canonical one, degrees.
 
-    Both (4, 4) may have any scale; ``mirrored`` as in :func:`unmirrored`.
+    Both (4, 4) may have any scale; ``mirrored`` as in :func:`unmirrored_transform`.
     """
-    paper = unmirrored(transform_of_mirrored, mirrored=mirrored)
+    paper = unmirrored_transform(transform_of_mirrored, mirrored=mirrored)
     return angle_deg(nearest_rotation(paper[:3, :3]), nearest_rotation(canonical_transform[:3, :3]))

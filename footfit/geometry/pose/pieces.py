@@ -70,7 +70,7 @@ def pieces(vertices: Floats, faces: Ints) -> list[Piece]:
     ]
 
 
-def comparable(parts: list[Piece]) -> list[Piece]:
+def comparable_pieces(parts: list[Piece]) -> list[Piece]:
     """Of the pieces (largest first), those of an area comparable with the largest."""
     return [part for part in parts if part.area >= PIECES.comparable * parts[0].area]
 

@@ -18,7 +18,7 @@ from footfit.geometry.pose.icp import (
     Poses,
     forward_costs,
     icp_steps,
-    levelled,
+    levelled_poses,
     reverse_cost,
     size_of,
 )
@@ -243,7 +243,7 @@ class _Search:
         Of the mesh as it is only: a left foot lies on a right template well enough to start from.
         """
         few = self.settings.coarse_points
-        poses = levelled(rotations, cloud.few, template.middle_y)
+        poses = levelled_poses(rotations, cloud.few, template.middle_y)
         costs = self._costs(poses, cloud.few[:few], cloud.few_normals[:few], template)
         return poses.at(np.argsort(costs, kind="stable")[: self.settings.kept_coarse])
 

@@ -68,14 +68,14 @@ def welded_mesh(vertices: Floats, faces: Ints) -> WeldedMesh:
     distinct = has_distinct_corners(faces)
     faces = faces[distinct]
     once = _first_of_equals(faces)
-    notices += counted("duplicates_removed", int((~once).sum()), "repeated faces were removed")
+    notices += count_notice("duplicates_removed", int((~once).sum()), "repeated faces were removed")
     faces = faces[once]
     vertices, pressed = pressed_spikes(vertices, faces)
-    notices += counted("spikes_pressed", pressed, "spikes were pressed back into the surface")
+    notices += count_notice("spikes_pressed", pressed, "spikes were pressed back into the surface")
     return WeldedMesh(vertices, faces, source, int((~distinct).sum()), notices)
 
 
-def counted(code: str, count: int, words: str) -> tuple[Notice, ...]:
+def count_notice(code: str, count: int, words: str) -> tuple[Notice, ...]:
     """A notice of how many there were; none if there were none."""
     return (Notice(code, f"{count:,} {words}"),) if count else ()
 

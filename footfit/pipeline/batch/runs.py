@@ -8,7 +8,7 @@ from functools import partial
 from typing import Generic, Protocol, TypeVar
 
 from footfit.errors import ExitCode, FootfitError
-from footfit.pipeline.batch.work_limits import WORK_LIMITS, WorkLimits, limited
+from footfit.pipeline.batch.work_limits import WORK_LIMITS, WorkLimits, hold_to_limits
 
 HERE = 0
 """As ``jobs``: in this process, where a crash ends the whole batch."""
@@ -61,7 +61,7 @@ def outcomes(
 
 def _outcome(work: Callable[[S], T], limits: WorkLimits, item: S) -> Outcome[S, T]:
     try:
-        with limited(limits):
+        with hold_to_limits(limits):
             return Outcome(item, work(item), None)
     except FootfitError as error:
         return Outcome(item, None, error.at(item.path))

@@ -43,10 +43,10 @@ class _OutOfTime(BaseException):
 
 
 @contextmanager
-def limited(limits: WorkLimits = WORK_LIMITS) -> Iterator[None]:
+def hold_to_limits(limits: WorkLimits = WORK_LIMITS) -> Iterator[None]:
     """Hold the work inside to the limits, if the system can (POSIX).
 
-    Time is limited in the main thread only, because only that one receives the alarm.
+    Time is hold_to_limits in the main thread only, because only that one receives the alarm.
 
     Raises
     ------

@@ -285,7 +285,7 @@ def _notices(
     notices = [
         notice
         for foot, kind in zip(feet, kinds, strict=True)
-        for notice in (*foot.suspects, *unusual_measures(foot.measures, kind))
+        for notice in (*foot.unusual, *unusual_measures(foot.measures, kind))
     ]
     if judged.by == "flare":
         notices.append(

@@ -59,13 +59,13 @@ def _eigenframes(prepared: PreparedScan, method: Method) -> tuple[Eigenframe, Ei
     vertices_mm, faces = prepared.file_vertices_mm, prepared.scanned[1]
     rotation = prepared.canonical_transform[:3, :3] / prepared.info.unit_scale
     P_c, C_M, R = paper_frame.printed_axes(vertices_mm, faces)
-    printed = _paired(P_c, paper_frame.settled(R, rotation), C_M)
+    printed = _paired(P_c, paper_frame.settled_axes(R, rotation), C_M)
     if method == "paper":
         return printed, printed
     if method == "paper-literal":
         return _paired(P_c, paper_frame.largest_positive(R), C_M), printed
     moment = surface_second_moment(vertices_mm, faces)
-    rows = paper_frame.settled(principal_axes(moment)[1], rotation)
+    rows = paper_frame.settled_axes(principal_axes(moment)[1], rotation)
     return _paired(surface_centroid(vertices_mm, faces), rows, moment), printed
 
 
@@ -91,4 +91,4 @@ def _transform(
         prepared.info.unit_scale,
         literal=method == "paper-literal",
     )
-    return paper_frame.unmirrored(of_right, mirrored=left)
+    return paper_frame.unmirrored_transform(of_right, mirrored=left)

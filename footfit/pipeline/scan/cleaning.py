@@ -9,7 +9,7 @@ from footfit.geometry.mesh.welding import without_unused_vertices
 from footfit.geometry.numeric.arrays import Ints, row_lengths
 from footfit.geometry.pose.facing import outward_faces
 from footfit.geometry.pose.loose_pieces import KeptPieces, kept_pieces
-from footfit.meshes.clean.triangles import counted
+from footfit.meshes.clean.triangles import count_notice
 from footfit.meshes.read import FileMesh
 from footfit.meshes.units import settled_units
 from footfit.results import MeshInfo, Notice, Scan
@@ -71,7 +71,7 @@ def scan_of(
         *file.mesh.notices,
         *_piece_notices(kept),
         *turned_notices(turned),
-        *counted("degenerate_removed", removed, "faces without an area were removed"),
+        *count_notice("degenerate_removed", removed, "faces without an area were removed"),
         *open_notices,
         *unit.warnings,
     )
@@ -87,12 +87,12 @@ def _piece_notices(kept: KeptPieces) -> tuple[Notice, ...]:
         notices.append(Notice("many_pieces", message))
     share = f"{100.0 * kept.specks_share:.2g} % of the area"
     words = f"small loose pieces ({share}) were removed"
-    return (*notices, *counted("specks_removed", kept.specks, words))
+    return (*notices, *count_notice("specks_removed", kept.specks, words))
 
 
 def turned_notices(count: int) -> tuple[Notice, ...]:
     """What to say of faces that were turned over, if any."""
-    return counted("winding_fixed", count, "faces looked inward and were turned over")
+    return count_notice("winding_fixed", count, "faces looked inward and were turned over")
 
 
 def _open_notices(faces: Ints) -> tuple[Notice, ...]:
@@ -100,6 +100,8 @@ def _open_notices(faces: Ints) -> tuple[Notice, ...]:
     counts = edge_groups(faces)[2]
     rims, crowded = int((counts == 1).sum()), int((counts - 2).clip(0).sum())
     return (
-        *counted("non_manifold", crowded, "faces share an edge that two other faces have already"),
-        *counted("open_mesh", rims, "edges have only one face: the surface is open"),
+        *count_notice(
+            "non_manifold", crowded, "faces share an edge that two other faces have already"
+        ),
+        *count_notice("open_mesh", rims, "edges have only one face: the surface is open"),
     )

@@ -138,7 +138,7 @@ def last_record(shape: Profiled, labels: LastLabels) -> LastRecord:
     """The record of a profiled shape; the catalogue will keep its file's name, but no folder."""
     alignment = shape.aligned.alignment
     kind = alignment.pose.kind
-    notices = (*alignment.warnings, *shape.suspects)
+    notices = (*alignment.warnings, *shape.unusual)
     if kind == "last":
         notices = (*notices, *unusual_measures(shape.measures, kind))
     if kind == "foot":

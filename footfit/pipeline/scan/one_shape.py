@@ -16,7 +16,7 @@ from footfit.geometry.pose.floor_plate import is_flat, without_plate
 from footfit.geometry.pose.pieces import (
     PIECES,
     Piece,
-    comparable,
+    comparable_pieces,
     near_pieces,
     part_of,
     pieces,
@@ -65,7 +65,7 @@ def shape_in(scan: Scan, windows: Windows) -> PosedShape:
     if scan.pose is not None:
         return PosedShape(scan.vertices_mm, scan.faces, scan.pose, False, ())
     body = _without_plate(scan)
-    alike = comparable(body.parts)
+    alike = comparable_pieces(body.parts)
     if len(alike) == 1:
         shape = _gathered(body, near_pieces(body.parts, alike[0].vertices), windows)
     else:
@@ -88,7 +88,7 @@ def scans_in(scan: Scan, windows: Windows) -> list[Scan]:
     two: the scan is then one shape, or none.
     """
     body = _without_plate(scan)
-    alike = comparable(body.parts)
+    alike = comparable_pieces(body.parts)
     if not 1 < len(alike) <= PIECES.most_comparable:
         return []
     shapes = _shapes_among(alike, windows, body.notices)
