@@ -46,7 +46,7 @@ class _OutOfTime(BaseException):
 def hold_to_limits(limits: WorkLimits = WORK_LIMITS) -> Iterator[None]:
     """Hold the work inside to the limits, if the system can (POSIX).
 
-    Time is hold_to_limits in the main thread only, because only that one receives the alarm.
+    Time is limited in the main thread only, because only that one receives the alarm.
 
     Raises
     ------

@@ -89,11 +89,8 @@ def prepared_scan(
     closed = closed_mesh(shape.vertices, shape.faces, shape.pose.length)
     frame = _Frame.of(shape, closed)
     rims = [frame.points[rim] for rim in closed.rims]
-    missing = missing_part(frame.surface, rims, frame.extent)
-    if missing is not None:
-        raise HalfScan(_MISSING[missing])
-    known = known_length_mm
-    info = info_with_unit(scan.info, frame.extent if known is None else frame.length, known)
+    _refuse_half(frame, rims)
+    info = info_with_unit(scan.info, frame.extent, frame.length, known_length_mm)
     info = replace(info, vertices=len(shape.vertices), faces=len(shape.faces))
     factor = info.unit_scale / scan.info.unit_scale
     verdict = _verdict(frame, side)
@@ -207,6 +204,13 @@ class _Frame:
             top=float(points[: len(shape.vertices), 2].max()),
             quality=PoseQuality(rough.cost, rough.margin, fine.support, fine.sole, rough.kind),
         )
+
+
+def _refuse_half(frame: _Frame, rims: list[Floats]) -> None:
+    """Raise HalfScan if a part was cut off, since length and flare would be another's."""
+    missing = missing_part(frame.surface, rims, frame.extent)
+    if missing is not None:
+        raise HalfScan(_MISSING[missing])
 
 
 def _verdict(frame: _Frame, side: str) -> SideVerdict:

@@ -38,10 +38,12 @@ def length_windows(info: MeshInfo, known_length_mm: float | None) -> Windows:
     return tuple((low * info.unit_scale / s, high * info.unit_scale / s) for s in scales)
 
 
-def info_with_unit(info: MeshInfo, length: float, known_length_mm: float | None) -> MeshInfo:
-    """The info with the unit that a length in provisional mm confirms.
+def info_with_unit(
+    info: MeshInfo, extent: float, length: float, known_length_mm: float | None
+) -> MeshInfo:
+    """The info with the unit that the extent along X confirms, or that gives the known length.
 
-    ``length`` is the extent along X, or the measured length if that is known.
+    ``extent`` and the measured ``length`` are in provisional mm.
 
     Raises
     ------
@@ -54,16 +56,16 @@ def info_with_unit(info: MeshInfo, length: float, known_length_mm: float | None)
     low, high = LENGTHS.usual_mm
     if info.units_source == "detected":
         for name, scale in UNIT_SCALES.items():
-            if low <= length * scale / info.unit_scale <= high:
+            if low <= extent * scale / info.unit_scale <= high:
                 return replace(info, units=name, unit_scale=scale)
         raise UnknownUnits(
-            f"no unit makes the length ({length / info.unit_scale:.4g} in the file) {low:.0f}-"
+            f"no unit makes the length ({extent / info.unit_scale:.4g} in the file) {low:.0f}-"
             f"{high:.0f} mm: give --units or --known-length MM"
         )
     least, most = LENGTHS.possible_mm
-    if info.units_source == "declared" and not least <= length <= most:
+    if info.units_source == "declared" and not least <= extent <= most:
         raise ImplausibleSize(
-            f"taken as {UNIT_NAMES[info.units]}, the length is {length:,.0f} mm, and a foot or last"
+            f"taken as {UNIT_NAMES[info.units]}, the length is {extent:,.0f} mm, and a foot or last"
             f" has {least:.0f}-{most:.0f} mm: check --units, or give --known-length MM"
         )
     return info
