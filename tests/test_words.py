@@ -6,11 +6,12 @@ import ast
 import inspect
 import re
 from collections.abc import Iterator
+from pathlib import Path
 from typing import Any, NamedTuple
 
 from footfit import errors
 from footfit.cli.app import COMMANDS, application
-from tests.conftest import ROOT
+from tests.conftest import ROOT, Footfit
 
 PACKAGE = ROOT / "footfit"
 MOST_WORDS = 30
@@ -140,3 +141,36 @@ def test_every_help_text_has_the_form() -> None:
     assert len(wrong) > 100
     assert all(words.text for words in wrong)
     assert {words: why for words, why in wrong.items() if why} == {}
+
+
+def spoken(value: Any, key: str = "") -> Iterator[str]:
+    """Every sentence for people in a JSON document."""
+    if isinstance(value, dict):
+        for name, item in value.items():
+            yield from spoken(item, name)
+    elif isinstance(value, list):
+        for item in value:
+            yield from spoken(item, key)
+    elif isinstance(value, str) and key in ("message", "why", "reason", "words"):
+        yield value
+
+
+def test_what_the_application_says_has_the_form(
+    footfit: Footfit, stocked: Path, foot: Path, tmp_path: Path
+) -> None:
+    """The sentences that are put together from parts: reasons, zones, sizes, notices."""
+    (tmp_path / "empty.stl").write_bytes(b"")
+    here = ("--catalogue", stocked, "--json")
+    runs = [
+        footfit("match", foot, "--top", 0, "--clearance", *here),
+        footfit("match", foot, "--by", "flare", "--size-system", "uk", *here),
+        footfit("match", foot, "--by", "shape", *here),
+        footfit("match", foot, "--known-length", 200, *here),
+        footfit("compare", foot, "loafer-40", *here),
+        footfit("measure", foot, tmp_path / "empty.stl", "--side", "right", "--json"),
+        footfit("list-lasts", *here),
+    ]
+    texts = {text for run in runs for line in run.lines for text in spoken(line)}
+    texts |= {line.partition(": ")[2] for run in runs for line in run.err.splitlines()}
+    assert len(texts) > 30
+    assert {text: why for text in texts if (why := faults(text))} == {}

@@ -301,8 +301,8 @@ def _notices(
     if differ is not None:
         notices.append(differ)
     if missed:
-        named = "; ".join(f"{candidate.last}: {candidate.why}" for candidate in missed)
-        notices.append(Notice("nothing_fits", f"no last fits; the nearest are {named}"))
+        names = ", ".join(candidate.last for candidate in missed)
+        notices.append(Notice("nothing_fits", f"no last fits: the nearest are {names}"))
     elif judged.by == "fit" and not with_toe_room(judged):
         notices.append(Notice("nothing_fits", "no last fits: the length of no last is known"))
     known: Bools = np.any(judged.known, axis=0)
