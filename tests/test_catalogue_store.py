@@ -20,6 +20,7 @@ from footfit.catalogue.store import Catalogue, open_catalogue
 from footfit.errors import BadOption, CatalogueDamaged, NameTaken, UnknownLast
 from footfit.results import LastRecord, Measure, Measured, Notice
 from tests import records
+from tests.bounds import EXACT, ROUNDING
 
 SIDES = ("left", "right")
 
@@ -108,7 +109,7 @@ def test_the_first_last_is_the_reference(path: Path) -> None:
         # Its own printed frame turned by its own OM_E is its canonical frame: a rotation apart.
         found = opened.record("first")
         assert found.paper_transform is not None
-        np.testing.assert_allclose(found.paper_transform, found.canonical_transform, atol=1e-9)
+        np.testing.assert_allclose(found.paper_transform, found.canonical_transform, atol=ROUNDING)
 
 
 @pytest.mark.parametrize("name", ["last-0", "last-1"])
@@ -116,7 +117,7 @@ def test_set_reference_expresses_every_last_by_it(catalogue: Catalogue, name: st
     """Eq. 8 on points: OM_E R (x - P_c) plus the reference's centroid, left ones mirrored first."""
     reference = catalogue.set_reference(name)
     assert reference.last == name
-    np.testing.assert_allclose(reference.om_e @ reference.om_e.T, np.eye(3), atol=1e-12)
+    np.testing.assert_allclose(reference.om_e @ reference.om_e.T, np.eye(3), atol=EXACT)
     assert np.linalg.det(reference.om_e) == pytest.approx(1.0)
     for record in catalogue.records():
         transform = record.paper_transform
@@ -126,12 +127,12 @@ def test_set_reference_expresses_every_last_by_it(catalogue: Catalogue, name: st
         mirror = np.diag([-1.0, 1.0, 1.0]) if left else np.eye(3)
         centroid = mirror @ frame.centroid_mm / scale
         np.testing.assert_allclose(
-            transform[:3, :3] @ centroid + transform[:3, 3], reference.centroid_mm, atol=1e-9
+            transform[:3, :3] @ centroid + transform[:3, 3], reference.centroid_mm, atol=ROUNDING
         )
         # Each eigenvector, mirrored with its mesh, comes to lie along OM_E's column.
         turned = (transform[:3, :3] / scale) @ (frame.eigenvectors @ mirror).T
         np.testing.assert_allclose(
-            np.abs(np.einsum("ij,ij->j", turned, reference.om_e)), 1.0, atol=1e-9
+            np.abs(np.einsum("ij,ij->j", turned, reference.om_e)), 1.0, atol=ROUNDING
         )
         assert np.linalg.det(transform[:3, :3]) > 0
     assert catalogue.findings() == []

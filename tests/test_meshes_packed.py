@@ -18,6 +18,7 @@ from footfit.errors import InputError
 from footfit.meshes.formats.known_formats import raw_mesh
 from footfit.meshes.read_limits import LIMITS
 from tests import corpus, packed
+from tests.bounds import ROUNDING
 from tests.distortions import moved, random_pose
 from tests.reading import scan_from_bytes
 
@@ -41,7 +42,7 @@ def test_what_trimesh_writes_as_glb_is_read_where_its_node_puts_it(seed):
     raw = read(scene.export(file_type="glb"))
     assert raw.unit == "m"
     expected = moved(vertices, pose)
-    assert np.allclose(raw.vertices[raw.faces], expected[corpus.FACES], atol=1e-6)
+    assert np.allclose(raw.vertices[raw.faces], expected[corpus.FACES], atol=6e-9, rtol=0)
 
 
 def test_glb_nodes_are_applied_from_the_mesh_outwards():
@@ -49,7 +50,9 @@ def test_glb_nodes_are_applied_from_the_mesh_outwards():
     inner = corpus.VERTICES[:, [1, 0, 2]] * [1, -1, 1] / 1000.0  # the matrix, column by column
     cosine, sine = 0.28, 0.96  # of the angle whose half has the sine .6
     turn = np.array([[1, 0, 0], [0, cosine, -sine], [0, sine, cosine]])
-    assert np.allclose(raw.vertices, inner @ turn.T + [1, 2, 3], atol=1e-6)
+    assert np.allclose(
+        raw.vertices, inner @ turn.T + [1, 2, 3], atol=6e-9, rtol=0
+    )  # float32: 3.2e-9
 
 
 def test_glb_strips_and_interleaved_points():
@@ -63,7 +66,7 @@ def test_glb_strips_and_interleaved_points():
     tree["buffers"] = [{"byteLength": packed.FACES.size * 2 + points.nbytes}]
     content = packed.FACES.astype("<u2").tobytes() + points.tobytes()
     raw = read(packed.glb_of(json.dumps(tree).encode(), content))
-    assert np.allclose(raw.vertices, packed.VERTICES, rtol=1e-6)
+    assert np.allclose(raw.vertices, packed.VERTICES, rtol=1e-7)
 
 
 def test_glb_parts_of_one_object_are_one_mesh_and_keep_their_own_counts():
@@ -102,9 +105,9 @@ def test_the_files_own_unit_is_honoured_and_can_be_overruled(name, unit, scale):
     scan = scan_from_bytes(data)
     info = scan.info
     assert (info.units, info.units_source, info.unit_scale) == (unit, "declared", scale)
-    assert np.ptp(scan.vertices_mm[:, 0]) == pytest.approx(250.0, rel=1e-6)
+    assert np.ptp(scan.vertices_mm[:, 0]) == pytest.approx(250.0, rel=ROUNDING)
     other = scan_from_bytes(data, units="cm")
-    assert np.ptp(other.vertices_mm[:, 0]) == pytest.approx(250.0 / scale * 10.0, rel=1e-6)
+    assert np.ptp(other.vertices_mm[:, 0]) == pytest.approx(250.0 / scale * 10.0, rel=ROUNDING)
 
 
 def test_a_hidden_and_unbuilt_object_plays_no_part():
@@ -192,6 +195,6 @@ def test_a_bomb_of_declared_counts_asks_for_no_memory():
         {"componentType": 5126, "type": "VEC3", "count": 8_000_000},
     ]}).encode()  # fmt: skip
     data = packed.glb_of(text, struct.pack("<3f", 0, 0, 0))
-    assert len(data) < 1000
+    assert len(data) < 900  # measured 490
     with pytest.raises(InputError):
         read(data)

@@ -15,6 +15,7 @@ from footfit.pipeline.fit.match import Question, matched
 from footfit.pipeline.scan.flare import profiled_scan
 from footfit.pipeline.scan.measure import measured_scan, unusual_measures
 from footfit.results import Measure, Measured
+from tests.bounds import POSED, ROUNDING
 from tests.conftest import SAMPLES, Footfit
 from tests.distortions import (
     decimated,
@@ -61,7 +62,7 @@ def test_a_left_foot_and_its_mirror_image_are_identical_to_rounding():
     right = moved_scan(scan, *mirrored(scan.vertices_mm, scan.faces))
     one, other = values(scan, "left"), values(right, "right")
     for name, value in one.items():
-        assert value is None or other[name] == pytest.approx(value, abs=1e-5), name
+        assert value is None or other[name] == pytest.approx(value, abs=POSED), name
 
 
 def test_in_one_frame_the_mirror_image_measures_the_same_whatever_the_faces_order():
@@ -74,7 +75,7 @@ def test_in_one_frame_the_mirror_image_measures_the_same_whatever_the_faces_orde
     for one, other in pairs:
         assert one.measured.reason == other.measured.reason
         if one.measured.value is not None:
-            assert other.measured.value == pytest.approx(one.measured.value, abs=1e-9), one.name
+            assert other.measured.value == pytest.approx(one.measured.value, abs=ROUNDING), one.name
 
 
 TRUTH_MM = {"mh007_L": (252.19, 90.64), "mh007_R": (252.77, 90.42), "mh008_R": (272.06, 99.90)}
@@ -171,7 +172,7 @@ def test_metres_measure_as_millimetres(footfit: Footfit, foot: Path, tmp_path: P
     other = footfit("measure", metres, "--json").document["measures"]
     for name, measured in one.items():
         if measured["value"] is not None:
-            assert other[name]["value"] == pytest.approx(measured["value"], abs=0.02), name
+            assert other[name]["value"] == pytest.approx(measured["value"], abs=ROUNDING), name
 
 
 def test_toes_that_were_not_scanned_give_no_length_and_no_match(stocked: Path) -> None:

@@ -16,6 +16,7 @@ from footfit.pipeline.scan.flare import profiled_scan
 from footfit.pipeline.scan.measure import shape_measures
 from footfit.pipeline.scan.reading import profiled_source
 from footfit.pipeline.scan.split import split_sources
+from tests.bounds import ROUNDING
 from tests.conftest import SAMPLES, Footfit
 from tests.distortions import mirrored, moved, random_pose, with_holes
 from tests.reading import read_scan, scan_from_bytes
@@ -132,7 +133,8 @@ def test_mirroring_before_or_after_filling_gives_the_same_numbers(foot_with_hole
         assert (one.measured.value is None) == (other.measured.value is None)
         if one.measured.value is not None:
             # the caps are the same, their rings may start elsewhere: 0.00013 mm at most, measured
-            assert other.measured.value == pytest.approx(one.measured.value, abs=2.6e-4), one.name
+            # measured 0.00012
+            assert other.measured.value == pytest.approx(one.measured.value, abs=1.9e-4), one.name
 
 
 def test_the_scanned_mesh_is_the_one_of_the_file(foot_with_holes: Path) -> None:
@@ -143,7 +145,7 @@ def test_the_scanned_mesh_is_the_one_of_the_file(foot_with_holes: Path) -> None:
     assert np.array_equal(found.faces, scan.faces)
     transform = found.alignment.canonical_transform
     moved_mm = scan.vertices_mm @ transform[:3, :3].T + transform[:3, 3]
-    assert np.abs(found.vertices_mm - moved_mm).max() < 1e-9
+    assert np.abs(found.vertices_mm - moved_mm).max() < ROUNDING
     rims = [found.vertices_mm[rim] for rim in boundary_loops(found.faces)]
     assert sum(len(rim) > 3 for rim in rims) == 3
     assert not any(len(rim) > 3 for rim in boundary_loops(prepared.faces))
@@ -153,4 +155,4 @@ def test_a_hole_hardly_moves_what_is_measured(foot_with_holes: Path) -> None:
     """Three closed holes against the whole foot: what the caps are for."""
     whole = scan_from_bytes((SAMPLES / "feet" / "mh007_R.stl").read_bytes())
     there, here = profiled_scan(aligned(whole)), profiled_scan(aligned(read_scan(foot_with_holes)))
-    assert here.flare.angle_deg == pytest.approx(there.flare.angle_deg, abs=0.3)
+    assert here.flare.angle_deg == pytest.approx(there.flare.angle_deg, abs=0.18)  # measured 0.12

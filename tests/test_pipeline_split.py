@@ -9,6 +9,7 @@ import pytest
 
 from footfit.meshes.write import encoded_mesh
 from tests import packed, shapes
+from tests.bounds import ROUNDING
 from tests.conftest import SAMPLES, Footfit
 from tests.distortions import floor_plate, in_metres, joined, moved, random_pose
 from tests.reading import read_scan
@@ -40,7 +41,7 @@ def test_split_gives_each_foot_as_if_it_came_alone(footfit: Footfit, both: Path)
     theirs = {line["side"]: line["flare_angle_deg"] for line in alone}
     assert set(ours) == {"left", "right"}
     for side, angle in ours.items():
-        assert angle == pytest.approx(theirs[side], abs=0.1)
+        assert angle == pytest.approx(theirs[side], abs=ROUNDING)
 
 
 def test_one_foot_stays_one(footfit: Footfit, foot: Path, tmp_path: Path) -> None:

@@ -25,6 +25,7 @@ from footfit.report.terminal.comparison_tables import compare_table
 from footfit.report.terminal.scan_tables import terminal_text
 from footfit.results import Comparison, Notice
 from tests import browsing, shapes
+from tests.bounds import ROUNDING
 from tests.comparisons import comparison
 from tests.reading import scan_from_bytes
 
@@ -100,7 +101,9 @@ def test_a_left_foots_files_are_of_the_left():
 def test_mirrored_pairs_have_the_same_room_and_a_mirrored_last_too():
     first = comparison()
     for other in (comparison(True, True), comparison(False, True), comparison(True, False)):
-        assert np.allclose(first.clearance_mm, other.clearance_mm, atol=1e-6, equal_nan=True)
+        assert np.allclose(
+            first.clearance_mm, other.clearance_mm, atol=ROUNDING, rtol=0, equal_nan=True
+        )
         assert other.zones == pytest.approx(first.zones) or all(
             abs(a.mean_mm - b.mean_mm) < 1e-6 for a, b in zip(first.zones, other.zones, strict=True)
         )
@@ -114,11 +117,15 @@ def test_the_heat_picture_has_the_colour_of_each_place():
     frame = Frame(-60.0, 60.0, -60.0, 60.0)
     image = heat_image(vertices @ VIEWS["from_above"].T, faces, room, frame, 120)
     tight, loose = (heat_colours(np.array([value]))[0] for value in (-9.0, 9.0))
-    assert np.abs(image[60, 30, :3] / image[60, 30, :3].max() - tight / tight.max()).max() < 0.02
-    assert np.abs(image[60, 90, :3] / image[60, 90, :3].max() - loose / loose.max()).max() < 0.02
+    assert (
+        np.abs(image[60, 30, :3] / image[60, 30, :3].max() - tight / tight.max()).max() < ROUNDING
+    )
+    assert (
+        np.abs(image[60, 90, :3] / image[60, 90, :3].max() - loose / loose.max()).max() < ROUNDING
+    )
     assert image[0, 0, 3] == 0.0
     area = image[..., 3].mean() * 120.0**2
-    assert area == pytest.approx(np.pi * 50.0**2, rel=0.02)
+    assert area == pytest.approx(np.pi * 50.0**2, rel=0.0065)  # measured 0.0043
 
 
 def test_pictures_are_the_same_twice():
@@ -129,7 +136,7 @@ def test_pictures_are_the_same_twice():
 def test_the_page_is_the_same_twice_small_and_has_no_outside_address():
     page = page_of()
     assert page == compare_page(comparison())
-    assert len(page.encode()) < 6_000_000
+    assert len(page.encode()) < 1_200_000  # measured 680 kB
     assert "http://" not in page
     assert "https://" not in page
     assert len(re.findall("<img alt=", page)) == 3

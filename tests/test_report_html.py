@@ -82,7 +82,7 @@ def unpictured(monkeypatch) -> None:
 def test_the_page_is_the_same_twice() -> None:
     first = drawn()
     assert drawn.__wrapped__() == first
-    assert len(first.encode()) < 6_000_000
+    assert len(first.encode()) < 1_200_000  # measured 670 kB
 
 
 def test_the_policy_allows_the_pages_own_style_and_script_and_nothing_else() -> None:
@@ -152,7 +152,7 @@ def test_every_outside_string_is_escaped() -> None:
     page = Page(match_page(match, None, [replace(comparison(), last=named)]))
     assert [tag for tag, _ in page.tags].count("script") == 1
     assert not [a for _, attributes in page.tags for a in attributes if a.startswith("on")]
-    assert page.text().count("<script>alert(1)</script>") >= 6
+    assert page.text().count("<script>alert(1)</script>") >= 9  # measured 16
     assert "\x1b" not in page.text()
 
 
@@ -259,7 +259,7 @@ def test_what_is_not_measured_says_why() -> None:
 def test_every_picture_says_what_it_shows() -> None:
     images = [a for tag, a in Page(drawn(2)).tags if tag == "img"]
     assert len(images) == 6
-    assert all(len(image["alt"]) > 40 for image in images)
+    assert all(len(image["alt"]) > 50 for image in images)  # measured 99
 
 
 needs_browser = pytest.mark.skipif(browsing.BROWSER is None, reason=browsing.MISSING)
@@ -271,7 +271,7 @@ def test_a_browser_draws_the_page_and_complains_of_nothing(tmp_path) -> None:
     assert good.console == ""
     assert good.requests == []
     coloured = np.abs(good.picture[..., 0] - good.picture[..., 2]) > 0.15
-    assert coloured.mean() > 0.02, "the pictures are not drawn"
+    assert coloured.mean() > 0.037, "the pictures are not drawn"  # measured 0.062
     spoilt = drawn().replace("<h1>", "<h1 style='color:red' onclick='alert(1)'>")
     bad = browsing.browse(spoilt, tmp_path / "bad")
     assert "Content Security Policy" in bad.console

@@ -73,7 +73,7 @@ def test_a_last_is_sound_and_as_labelled(name):
     assert float(row["heel_height_mm"]) == spec.heel_height_mm
     assert spec.length_mm == pytest.approx(int(row["size"]) * 20 / 3)
     drawn = last_mesh(spec)
-    assert volume(vertices, faces) == pytest.approx(volume(*drawn), rel=1e-4)
+    assert volume(vertices, faces) == pytest.approx(volume(*drawn), rel=3.3e-8)  # measured 2.2e-08
 
 
 def chirality(vertices, faces):
