@@ -16,7 +16,7 @@ from footfit.catalogue.checks.plausible_values import implausible
 from footfit.catalogue.rows.array_blobs import array_of, blob
 from footfit.catalogue.rows.columns import TABLES
 from footfit.catalogue.rows.rules import is_rotation
-from footfit.catalogue.rows.verified_rows import StoredLast, stored_lasts
+from footfit.catalogue.rows.verified_rows import LastRows, stored_lasts
 from footfit.catalogue.store import open_catalogue
 from tests import records
 from tests.answers import turned
@@ -101,7 +101,7 @@ def test_a_rotation_may_be_rounded_but_not_mirrored(off: float) -> None:
 
 
 @pytest.fixture(scope="module")
-def stored(tmp_path_factory: pytest.TempPathFactory) -> StoredLast:
+def stored(tmp_path_factory: pytest.TempPathFactory) -> LastRows:
     """The rows of a sound last."""
     path = tmp_path_factory.mktemp("rows") / "lasts.footfit"
     with open_catalogue(path, write=True) as catalogue:
@@ -111,12 +111,12 @@ def stored(tmp_path_factory: pytest.TempPathFactory) -> StoredLast:
     return rows
 
 
-def changed(rows: StoredLast, table: str, **columns: object) -> StoredLast:
+def changed(rows: LastRows, table: str, **columns: object) -> LastRows:
     """The rows with other values in one table's row."""
     return replace(rows, **{table: getattr(rows, table) | columns})
 
 
-def test_a_transform_is_a_rigid_motion_with_the_units_scale(stored: StoredLast) -> None:
+def test_a_transform_is_a_rigid_motion_with_the_units_scale(stored: LastRows) -> None:
     scale = stored.last["unit_scale"]
     matrix = array_of(stored.frame["canonical_transform"], 4, 4)
     sheared, mirrored, shifted, endless = (matrix.copy() for _ in range(4))
@@ -134,7 +134,7 @@ def test_a_transform_is_a_rigid_motion_with_the_units_scale(stored: StoredLast) 
     assert any("rigid motion" in words for words in implausible(scaled))
 
 
-def test_curves_have_a_value_per_station(stored: StoredLast) -> None:
+def test_curves_have_a_value_per_station(stored: LastRows) -> None:
     flare = stored.flare
     count = len(array_of(flare["stations"]))
     heading = array_of(flare["heading_deg"]).copy()
@@ -151,12 +151,12 @@ def test_curves_have_a_value_per_station(stored: StoredLast) -> None:
     assert list(implausible(changed(stored, "flare", heading_deg=blob(heading)))) == []
 
 
-def test_a_definition_has_the_version_that_its_row_names(stored: StoredLast) -> None:
+def test_a_definition_has_the_version_that_its_row_names(stored: LastRows) -> None:
     rows = changed(stored, "flare", definition_version="flare/0")
     assert any("version" in words for words in implausible(rows))
 
 
-def test_each_table_is_looked_at(stored: StoredLast) -> None:
+def test_each_table_is_looked_at(stored: LastRows) -> None:
     wrong = [
         changed(stored, "last", side="middle"),
         changed(stored, "frame", pose_kind="hand"),
