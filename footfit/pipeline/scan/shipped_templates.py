@@ -1,4 +1,4 @@
-"""The templates that poses are fitted to, shipped beside this file (tools/make_references.py)."""
+"""The templates that poses are fitted to, shipped beside this file (tools/make_templates.py)."""
 
 from __future__ import annotations
 

@@ -1,6 +1,6 @@
 """Make footfit/pipeline/scan/templates.npz: the foot and the last that every pose is fitted to.
 
-    python -m tools.make_references FOOT.stl [-o footfit/pipeline/scan/templates.npz]
+    python -m tools.make_templates FOOT.stl [-o footfit/pipeline/scan/templates.npz]
 
 FOOT is a right foot in mm with x from heel to toe and the sole near z = 0; the shipped file is
 made from the CC0 foot mh006_R of the generated feet. The last is the generator's own.
