@@ -33,7 +33,7 @@ def canonical_points(vertices, faces, count):
     frame = canonical_frame(fine, np.ptp(vertices[:, 0]))
     sample = even_sample(vertices, faces, count)
     points = (sample.points @ frame.rotation.T + frame.shift) / frame.length
-    print(f"tilt {frame.tilt_deg:.2f} deg, length {frame.length:.2f}, support {frame.support:.3f}")
+    print(f"length {frame.length:.2f}, support {frame.support:.3f}")
     return points, sample.normals @ frame.rotation.T
 
 
