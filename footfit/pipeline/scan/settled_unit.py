@@ -99,6 +99,6 @@ def length_notices(info: MeshInfo, length_mm: float) -> list[Notice]:
 
 
 def _detected(info: MeshInfo, length_mm: float | None) -> Notice:
-    length = "" if length_mm is None else f", the length is {length_mm:.0f} mm"
+    length = "" if length_mm is None else f", so the length is {length_mm:.0f} mm"
     words = f"the numbers are taken as {UNIT_NAMES[info.units]}{length} (--units changes this)"
     return Notice("units_detected", words)
