@@ -180,7 +180,7 @@ def test_a_detected_unit_is_said_once(last, unit):
     found = aligned(scan_of(*last, units=unit)).alignment
     said = [*unit_notes(found.info, found.length_mm), *found.warnings]
     (notice,) = (notice for notice in said if notice.code == "units_detected")
-    assert f"taken as {UNIT_NAMES[unit]}, the length is 268 mm" in notice.message
+    assert f"taken as {UNIT_NAMES[unit]}, so the length is 268 mm" in notice.message
     declared = aligned(scan_of(*last, units=unit, source="declared")).alignment
     assert not unit_notes(declared.info)
     assert "units_detected" not in codes(declared)
