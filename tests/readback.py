@@ -17,14 +17,12 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from footfit import __version__
-from footfit.geometry.fit.sizes import foot_size, foot_sizes, label_check, system_named
+from footfit.geometry.fit.sizes import foot_size, foot_sizes, system_named
 from footfit.results import (
     Candidate,
     Comparison,
-    LastRecord,
     Match,
     Measured,
-    MeasuredScan,
     Profiled,
     SurfaceClearance,
     ZoneFit,
@@ -209,7 +207,7 @@ def foot_facts(match: Match, foot: Profiled, name: str) -> Iterator[Fact]:
     for measure in {"length": Measured(foot.length_mm)} | taken:
         measured = taken.get(measure, Measured(foot.length_mm))
         if measured.value is not None:
-            yield fact(f"{name} {measure.replace('_', ' ')}", _measured(measured), PAGE)
+            yield fact(f"{name} {measure.replace('_', ' ')}", measured_values(measured), PAGE)
     lacking = {row: known.reason for row, known in taken.items() if known.value is None}
     if lacking:
         said = [text for row, why in lacking.items() for text in (_title(row), why)]
@@ -373,7 +371,7 @@ def _surface(room: SurfaceClearance) -> list[str]:
     return texts or ["nowhere tight", "2", "8"]
 
 
-def _measured(measured: Measured) -> list[str | None]:
+def measured_values(measured: Measured) -> list[str | None]:
     return [plain(measured.value), None if measured.sd is None else plain(measured.sd)]
 
 
@@ -461,108 +459,3 @@ def room_facts(comparison: Comparison, name: str, *, area: bool, where: str) -> 
         yield fact(f"{place} loose", loose if known else "-", where)
         if area:
             yield fact(f"{place} area", whole if known else "-", where)
-
-
-# ------------------------------------------------------------------ measures, flare, the library
-
-
-def measured_facts(scan: MeasuredScan) -> Iterator[Fact]:
-    """Everything that ``footfit measure`` shows of one mesh."""
-    alignment = scan.alignment
-    side, path = alignment.side, alignment.info.path
-    said = [side.side or "undecided", *_said_side(alignment), alignment.pose.kind]
-    yield fact("title", path, TERMINAL)
-    yield fact("side", said, TERMINAL)
-    for row in scan.measures:
-        known, name = row.measured, row.name.replace("_", " ")
-        words = [known.reason] if known.value is None else _measured(known)
-        yield fact(name, words, TERMINAL)
-        cells = {
-            "side": side.side or "",
-            "kind": alignment.pose.kind,
-            "value_mm": mm(known.value),
-            "sd_mm": mm(known.sd),
-            "reason": known.reason or "",
-            "definition": row.definition,
-        }
-        for column, text in cells.items():
-            yield fact(f"{path} {row.name} {column}", text, CSV)
-
-
-def flare_facts(shape: Profiled) -> Iterator[Fact]:
-    """Everything that ``footfit flare`` shows of one mesh."""
-    alignment, flare = shape.aligned.alignment, shape.flare
-    yield fact("title", alignment.info.path, TERMINAL)
-    yield fact("side", [alignment.side.side, *_said_side(alignment)], TERMINAL)
-    turn = [signed(flare.angle_deg), plain(flare.angle_sd_deg), flare.flare_class]
-    yield fact("flare", turn, TERMINAL)
-    yield fact("length", plain(shape.length_mm), TERMINAL)
-    yield fact("definition", flare.definition.version, TERMINAL)
-    for channel, values in flare.curvature.items():
-        known = np.array([]) if values is None else values[np.isfinite(values)]
-        texts = [signed(known.min()), signed(known.max())] if len(known) else ["not measurable"]
-        yield fact(channel, texts, TERMINAL)
-    for index, station in enumerate(flare.stations):
-        cells = {
-            "path": alignment.info.path,
-            "side": alignment.side.side or "",
-            "flare_angle_deg": csv_number(flare.angle_deg, 3),
-            "flare_angle_sd_deg": csv_number(flare.angle_sd_deg, 3),
-            "class": flare.flare_class,
-            "definition": flare.definition.version,
-            "station": csv_number(station, 6),
-            "heading_deg": csv_number(flare.heading_deg[index], 3),
-        }
-        for channel, values in flare.curvature.items():
-            cells[channel] = "" if values is None else csv_number(values[index], 6)
-        for column, text in cells.items():
-            yield fact(f"station {index + 1} {column}", text, CSV)
-
-
-def library_facts(records: Sequence[LastRecord], reference: str | None) -> Iterator[Fact]:
-    """Everything that ``footfit list-lasts`` shows."""
-    for record in records:
-        labels, flare, name = record.labels, record.flare, record.labels.name
-        system = labels.size_system.upper() if labels.size_system else None
-        size = " ".join(part for part in (system, labels.size, labels.width_label) if part)
-        star = "*" if name == reference else None
-        yield fact(f"{name} last", [name, star], TERMINAL)
-        yield fact(f"{name} style", labels.style or "-", TERMINAL)
-        yield fact(f"{name} size", size or "-", TERMINAL)
-        yield fact(f"{name} side", record.side.side or "undecided", TERMINAL)
-        yield fact(f"{name} length", plain(record.length_mm), TERMINAL)
-        yield fact(f"{name} flare", signed(flare.angle_deg), TERMINAL)
-        yield fact(f"{name} class", flare.flare_class, TERMINAL)
-        yield fact(f"{name} heel", plain(labels.heel_height_mm, 0), TERMINAL)
-        cells = {
-            "style": labels.style,
-            "size": labels.size,
-            "size_system": labels.size_system,
-            "width_label": labels.width_label,
-            "heel_height_mm": mm(labels.heel_height_mm),
-            "family": labels.family,
-            "parent": labels.parent,
-            "side": record.side.side,
-            "length_mm": mm(record.length_mm),
-            "flare_angle_deg": csv_number(flare.angle_deg, 3),
-            "class": flare.flare_class,
-            "reference": str(name == reference).lower(),
-        }
-        check = label_check(labels.size, labels.size_system, record.length_mm)
-        cells["size_by_length"] = "" if check is None else csv_number(check.by_length, 6)
-        cells["label_flagged"] = "" if check is None else str(check.flagged).lower()
-        if check is not None and check.flagged:
-            by_length = f"{system} {round(check.by_length)}"  # a system of whole sizes
-            said = [name, plain(abs(check.off)), by_length]
-            yield fact(f"{SAID} label of {name}", said, TERMINAL)
-        for column, text in cells.items():
-            yield fact(f"{name} {column}", text or "", CSV)
-    yield fact(f"{SAID} count", [len(records), reference], TERMINAL)
-
-
-def _said_side(alignment: object) -> list[str | None]:
-    side = alignment.side  # type: ignore[attr-defined]
-    if side.side is not None and side.source == "given":
-        return ["given"]
-    said = None if side.side is None else side.source
-    return [said, side.confidence if said else None, signed(side.score)]

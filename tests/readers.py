@@ -357,10 +357,10 @@ def read_compare_terminal(text: str) -> Reading:
     return reading
 
 
-def read_terms(text: str) -> Reading:
-    """A title, and names with values in two columns."""
-    title, *lines = text.splitlines()
-    reading = Reading({"title": title})
+def read_terms(text: str, *, titled: bool = True) -> Reading:
+    """A title, if there is one, and names with values in two columns."""
+    title, *lines = text.splitlines() if titled else ["", *text.splitlines()]
+    reading = Reading({"title": title} if titled else {})
     for line in lines:
         name, value = re.split(r"\s{2,}", line.strip(), maxsplit=1)
         _once(reading, name, value)

@@ -13,7 +13,6 @@ from dataclasses import replace
 from itertools import count
 from pathlib import Path
 
-import numpy as np
 import pytest
 
 from footfit.geometry.fit.clearance import ZoneClearance
@@ -24,20 +23,16 @@ from footfit.pipeline.fit.match import Question, customers
 from footfit.report.csv import csv_text
 from footfit.report.page.compare_page import compare_page
 from footfit.report.page.match_page import match_page
-from footfit.report.terminal.catalogue_tables import list_lasts_table
 from footfit.report.terminal.comparison_tables import compare_table
 from footfit.report.terminal.match_tables import match_table
-from footfit.report.terminal.scan_tables import flare_table, measure_table, terminal_text
+from footfit.report.terminal.scan_tables import terminal_text
 from footfit.results import (
     Comparison,
     FootFit,
-    Library,
     Match,
     Measure,
     Measured,
-    MeasuredScan,
     Notice,
-    Profiled,
     SurfaceClearance,
     ZoneFit,
 )
@@ -51,11 +46,8 @@ from tests.readback import (
     Reading,
     comparison_facts,
     fact,
-    flare_facts,
     holds,
-    library_facts,
     match_facts,
-    measured_facts,
     problems,
 )
 
@@ -288,49 +280,6 @@ def test_the_outputs_show_the_comparison(name: str) -> None:
     assert problems(TERMINAL, table, facts) == []
     cells = readers.read_keyed_csv(csv_text(Comparison, [known]), "part", "place", "quantity")
     assert problems(CSV, cells, facts) == []
-
-
-def test_the_outputs_show_the_measures() -> None:
-    scan = answers.measured_scan("feet/anna.stl")
-    more = Measure("heel_width", Measured(63.4321, 0.0), "heel_width/2")
-    many = [replace(scan, measures=(*scan.measures, more)), answers.measured_scan("b.stl")]
-    facts = [known for one in many for known in measured_facts(one)]
-    cells = readers.read_keyed_csv(csv_text(MeasuredScan, many), "path", "measure")
-    assert problems(CSV, cells, facts) == []
-    table = readers.read_terms(terminal_text(measure_table(many[0]), WIDE))
-    assert problems(TERMINAL, table, measured_facts(many[0])) == []
-
-
-@pytest.mark.parametrize("spoilt", [(), ("bottom_20",)])
-def test_the_outputs_show_the_flare(spoilt: tuple[str, ...]) -> None:
-    foot = answers.foot("feet/left.stl", left=True, turn_deg=-3.4)
-    shape = replace(foot, flare=answers.profile(-3.4, spoilt))
-    holed = shape.flare.curvature["plan"].copy()
-    holed[7] = np.nan
-    shape = replace(
-        shape, flare=replace(shape.flare, curvature=shape.flare.curvature | {"plan": holed})
-    )
-    table = readers.read_terms(terminal_text(flare_table(shape), WIDE))
-    assert problems(TERMINAL, table, flare_facts(shape)) == []
-    assert (
-        problems(CSV, readers.read_stations_csv(csv_text(Profiled, [shape])), flare_facts(shape))
-        == []
-    )
-
-
-def test_the_outputs_show_the_library() -> None:
-    lasts = [
-        answers.record("boot-42", 9.6, 271.3, left=True, heel_height_mm=34.6, family="boots"),
-        answers.record("derby-41", 8.1, 265.7, size="41", parent="derby-40", width_label=None),
-        answers.record("pump", -2.2, 259.9, style=None, size=None, size_system=None),
-    ]
-    library = Library(tuple(lasts), 3, "boot-42")
-    table = readers.read_lasts_terminal(terminal_text(list_lasts_table(library), WIDE))
-    assert problems(TERMINAL, table, library_facts(lasts, "boot-42")) == []
-    cells = readers.read_keyed_csv(
-        csv_text(Library, [replace(library, lasts=tuple(lasts[::-1]))]), "last"
-    )
-    assert problems(CSV, cells, library_facts(lasts, "boot-42")) == []
 
 
 # ------------------------------------------------------------------ as the command line makes them
