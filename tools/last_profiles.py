@@ -26,6 +26,7 @@ TOES = {
     "almond": (0.94, 0.80, 0.60, 0.46, 0.13),
     "square": (0.97, 0.90, 0.81, 0.74, 0.085),
     "pointed": (0.90, 0.74, 0.53, 0.33, 0.10),
+    "oblique": (0.975, 0.87, 0.70, 0.55, 0.11),  # with a toe turned far to the medial side
 }
 
 
@@ -56,17 +57,19 @@ def widths(s: Floats, *, ball: float, heel: float, waist: float, toe_shape: str)
     return Widths(nodes(inside) * cap * ((s >= 0.0) & (s <= 1.0)), cap)
 
 
-def crest_shape(s: Floats, cone_length: float) -> tuple[Floats, Floats, Floats]:
+def crest_shape(
+    s: Floats, cone_length: float, cone_width: float = 0.31
+) -> tuple[Floats, Floats, Floats]:
     """How sections close at the top, per station (n,): width kept, sharpness, ridge swing.
 
     The first is the share of the width that the wall's taper keeps, the second the exponent of
     the closing (high: a flat top with an edge, 2: round), the third 0-1 the ridge's way to
     the medial side.
     """
-    c = cone_length
+    c, w = cone_length, cone_width
     keep = PchipInterpolator(
         [0.0, 0.10, c - 0.05, c + 0.06, 0.52, 0.66, 0.80, 1.0],
-        [0.50, 0.40, 0.31, 0.30, 0.42, 0.66, 0.82, 0.90],
+        [w + 0.19, w + 0.09, w, w - 0.01, 0.42, 0.66, 0.82, 0.90],
     )
     power = PchipInterpolator(
         [0.0, c - 0.06, c + 0.05, 0.52, 0.66, 1.0], [26.0, 26.0, 6.0, 2.8, 2.4, 2.2]
@@ -79,7 +82,9 @@ def crest_shape(s: Floats, cone_length: float) -> tuple[Floats, Floats, Floats]:
 class SideView:
     """The last seen from the side, lying on its sole; functions of the station.
 
-    ``pitch_deg`` is the angle between the resting plane and the floor of the drafted pose.
+    ``pitch_deg`` is the angle between the resting plane and the floor of the drafted pose;
+    ``drafted`` (k, 2) are the ordered points (x, z) of the bottom's middle in that pose, in the
+    same unit as the other curves, with z = 0 on the floor.
     """
 
     bottom: Curve
@@ -87,6 +92,7 @@ class SideView:
     crown: Curve
     widest: Curve
     pitch_deg: float
+    drafted: Floats
 
 
 def _smoother(t: Floats) -> Floats:
@@ -94,20 +100,46 @@ def _smoother(t: Floats) -> Floats:
     return t**3 * (10.0 - 15.0 * t + 6.0 * t**2)
 
 
-def _drafted_bottom(x: Floats, heel: float, spring: float) -> Floats:
+@dataclass(frozen=True, slots=True)
+class Draft:
+    """The side view as it is drafted, standing on its heel; lengths and heights over the length.
+
+    ``heel`` and ``spring`` are heights, ``seat_pitch`` is the seat's slope over the mean slope,
+    the shank turns into the tread over ``break_length`` before ``break_station``, and the toe
+    springs from ``spring_station`` on. With ``level_tread`` the shank's hollow ends before it.
+    """
+
+    heel: float
+    spring: float
+    seat_pitch: float = 0.55
+    break_station: float = 0.66
+    break_length: float = 0.18
+    spring_station: float = 0.67
+    level_tread: bool = False
+
+
+def drafted_bottom(x: Floats, draft: Draft) -> Floats:
     """Height of the sole's middle over the floor the shoe will stand on, at ordered stations.
 
-    The seat slopes down by three fifths of the way's mean slope (12 degrees under a heel of 60 mm),
-    the shank is steeper, the tread level.
+    As the default draft has it, the seat slopes down by three fifths of the way's mean slope (12
+    degrees under a heel of 60 mm), the shank is steeper, the tread level.
     """
-    slope = 0.55 + 0.9 * np.exp(-0.5 * ((x - 0.38) / 0.11) ** 2)
-    slope *= 1.0 - _smoother((x - 0.48) / 0.18)
+    peak = 0.35 + draft.seat_pitch  # a level seat needs a steeper shank
+    slope = draft.seat_pitch + max(0.9, 1.8 - 2.0 * peak) * _bell(x, 0.38, 0.11)
+    rear = 1.0 - _smoother((x - draft.break_station + draft.break_length) / draft.break_length)
+    slope *= rear
     fall = np.concatenate([[0.0], np.cumsum(0.5 * (slope[1:] + slope[:-1]) * np.diff(x))])
-    shank = heel * (1.0 - fall / fall[-1])
-    hollow = 0.010 * np.exp(-0.5 * ((x - 0.43) / 0.09) ** 2)
-    toe = spring * np.clip((x - 0.67) / 0.33, 0.0, None) ** 2.2
+    shank = draft.heel * (1.0 - fall / fall[-1])
+    hollow = 0.010 * _bell(x, 0.43, 0.09) * (rear if draft.level_tread else 1.0)
+    start = draft.spring_station
+    toe = draft.spring * np.clip((x - start) / (1.0 - start), 0.0, None) ** 2.2
     bottom: Floats = shank + hollow + toe
     return bottom
+
+
+def _bell(x: Floats, centre: float, sd: float) -> Floats:
+    bell: Floats = np.exp(-0.5 * ((x - centre) / sd) ** 2)
+    return bell
 
 
 def _resting_slope(x: Floats, z: Floats) -> float:
@@ -124,14 +156,15 @@ THICKNESS = (  # of the forepart over the sole's middle, at stations
 
 
 def side_view(
-    *, heel: float, spring: float, cone: float, cone_length: float, fullness: float = 1.0
+    draft: Draft, *, cone: float, cone_length: float, fullness: float = 1.0, shaft: float = 0.0
 ) -> SideView:
-    """The side view of a last drafted on a heel of height ``heel``, laid onto its sole.
+    """The side view of a drafted last, laid onto its sole.
 
-    The forepart is ``fullness`` times as thick as usual.
+    The forepart is ``fullness`` times as thick as usual; ``shaft`` is the height of a boot's shaft
+    over the seat, 0 for none.
     """
     x = np.linspace(0.0, 1.0, 1001)
-    drafted = _drafted_bottom(x, heel, spring)
+    drafted = drafted_bottom(x, draft)
     touching = (x >= 0.02) & (x <= 0.95)
     pitch = -np.arctan(_resting_slope(x[touching], drafted[touching]))
     along = x * np.cos(pitch) - drafted * np.sin(pitch)
@@ -140,6 +173,9 @@ def side_view(
     s, bottom = (along - along[0]) * scale, (above - above[touching].min()) * scale
     thickness = fullness * CubicSpline(*THICKNESS)(np.clip(s + 0.34 - cone_length, 0.22, 1.0))
     comb = cone + 0.5 * np.tan(pitch) * (s - 0.15)  # the shin leans half the way with the foot
+    if shaft > 0.0:  # thick enough behind the instep for the shaft to come out of it
+        comb = np.full_like(s, shaft)
+        thickness = thickness + shaft * (1.0 - _smoother((s - cone_length + 0.06) / 0.14))
     softness = 0.012
     crest = -softness * np.logaddexp(-(bottom + thickness) / softness, -comb / softness)
     low = PchipInterpolator(
@@ -159,4 +195,5 @@ def side_view(
         rise: Floats = low(np.clip(at, 0.0, 1.0))
         return bottom_at(at) + rise
 
-    return SideView(bottom_at, crest_at, crown, widest_at, float(np.degrees(pitch)))
+    standing = np.column_stack([x, drafted]) * scale
+    return SideView(bottom_at, crest_at, crown, widest_at, float(np.degrees(pitch)), standing)

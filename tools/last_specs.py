@@ -9,7 +9,9 @@ import numpy as np
 
 from tools.last_profiles import TOES
 
-ToeShape = Literal["round", "almond", "square", "pointed"]
+ToeShape = Literal["round", "almond", "square", "pointed", "oblique"]
+Style = Literal["shoe", "pump", "boot", "sandal", "child"]
+STYLES: tuple[Style, ...] = ("shoe", "pump", "boot", "sandal", "child")
 
 
 @dataclass(frozen=True, slots=True)
@@ -25,6 +27,14 @@ class LastSpec:
     ``arch_mm`` (the medial feather line's rise at the waist), ``arch_cut_mm`` (how far it goes
     in under the widest row), ``ridge_mm`` (the instep ridge's way to the medial side) and
     ``fullness`` (the forepart's thickness over the usual) do not.
+
+    The side view: ``seat_pitch`` is the slope of the seat over the mean slope from seat to tread
+    (0: the seat is level), ``break_station`` is where the shank meets the tread and
+    ``break_length`` over which length it turns (short: a crisp break), ``spring_station`` where the
+    toe spring begins. ``shaft_mm`` is the height of a boot's shaft over the seat, 0 for none;
+    ``cone_width`` is the width of the cone over the width below it. With ``level_tread`` the arch
+    and the hollow of the shank end before the tread, which then lies level: only so is the
+    drafted stance the true one. The sample lasts were drawn without it.
     """
 
     length_mm: float = 270.0
@@ -46,6 +56,13 @@ class LastSpec:
     cone_height_mm: float | None = None
     cone_length: float = 0.34
     fullness: float = 1.0
+    seat_pitch: float = 0.55
+    break_station: float = 0.66
+    break_length: float = 0.18
+    spring_station: float = 0.67
+    shaft_mm: float = 0.0
+    cone_width: float = 0.31
+    level_tread: bool = False
     side: Literal["left", "right"] = "right"
     rings: int = 160
     segments: int = 110
@@ -94,6 +111,69 @@ def varied(rng: np.random.Generator, **given: Any) -> LastSpec:
         arch_mm=rng.uniform(1.0, 9.0),
         arch_cut_mm=rng.uniform(4.0, 16.0),
         ridge_mm=rng.uniform(4.0, 13.0),
+    )
+    return replace(drawn, **given)
+
+
+HEEL_BANDS_MM = ((0.0, 30.0), (30.0, 60.0), (60.0, 90.0), (90.0, 120.0))
+_LENGTHS_MM = {  # by style: a child's from 110 mm, a man's size 48 has about 330
+    "shoe": (225.0, 330.0),
+    "pump": (220.0, 280.0),
+    "boot": (225.0, 320.0),
+    "sandal": (220.0, 310.0),
+    "child": (118.0, 215.0),
+}
+_HEEL_PER_LENGTH = 0.44  # a higher heel than this share of the length is no last's
+
+
+def wide(
+    rng: np.random.Generator, style: Style, heel_mm: tuple[float, float], **given: Any
+) -> LastSpec:
+    """A last of one style and heel band, from a wider range than :func:`varied` draws from.
+
+    Crisp and soft breaks, level and pitched seats, low cones, shafts, oblique toes, small
+    children to men's 48. The heel is not higher than .44 of the length, and a child's not higher
+    than .10.
+
+    Parameters
+    ----------
+    rng : numpy.random.Generator
+    style : Style
+    heel_mm : (2,)
+        The band that the drafted heel is drawn from.
+    """
+    length_mm = float(given.get("length_mm", rng.uniform(*_LENGTHS_MM[style])))
+    most = (0.10 if style == "child" else _HEEL_PER_LENGTH) * length_mm
+    heel = min(float(rng.uniform(*heel_mm)), most)
+    steep = heel / length_mm
+    toe = str(rng.choice(sorted(TOES)))
+    break_station = rng.uniform(0.60, 0.67)
+    drawn = LastSpec(
+        length_mm=length_mm,
+        ball_width_mm=length_mm * rng.uniform(0.34, 0.40) * (1.06 if style == "child" else 1.0),
+        heel_width_mm=length_mm * rng.uniform(0.235, 0.265),
+        heel_height_mm=heel,
+        toe_spring_mm=rng.uniform(2.0, 16.0) * (1.0 - 1.2 * steep) * length_mm / 270.0,
+        flare_deg=rng.uniform(-6.0, 16.0),
+        toe_shape=toe,  # type: ignore[arg-type]
+        toe_turn_deg=rng.uniform(10.0, 16.0) if toe == "oblique" else rng.uniform(0.0, 8.0),
+        waist_cut_mm=rng.uniform(0.0, 8.0) * length_mm / 270.0,
+        joint_bulge_mm=rng.uniform(0.0, 3.0) * length_mm / 270.0,
+        mt1_station=rng.uniform(0.66, 0.72),
+        mt5_station=rng.uniform(0.60, 0.64),
+        arch_mm=rng.uniform(1.0, 9.0) * length_mm / 270.0,
+        arch_cut_mm=rng.uniform(4.0, 16.0) * length_mm / 270.0,
+        ridge_mm=rng.uniform(4.0, 13.0) * length_mm / 270.0,
+        seat_pitch=rng.uniform(0.0, 0.7) * (1.0 - steep),
+        break_station=break_station,
+        break_length=rng.uniform(0.05, 0.22),
+        spring_station=break_station + rng.uniform(0.02, 0.11),
+        cone_height_mm=length_mm
+        * rng.uniform(*((0.20, 0.28) if style == "pump" else (0.29, 0.37))),
+        cone_width=rng.uniform(0.26, 0.36),
+        level_tread=True,
+        shaft_mm=length_mm * rng.uniform(0.50, 0.95) if style == "boot" else 0.0,
+        fullness=rng.uniform(0.85, 0.95) if style == "sandal" else rng.uniform(0.92, 1.1),
     )
     return replace(drawn, **given)
 

@@ -35,7 +35,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from footfit.geometry.numeric.arrays import Floats, Ints
-from tools.last_profiles import SideView, Widths, crest_shape, side_view, widths
+from tools.last_profiles import Draft, SideView, Widths, crest_shape, side_view, widths
 from tools.last_specs import LastSpec, graded, plain, share, varied
 
 __all__ = [
@@ -73,6 +73,13 @@ def _offset_slope(spec: LastSpec, s: Floats) -> Floats:
     joints = _bell_slope(s, spec.mt1_station, 0.09) - _bell_slope(s, spec.mt5_station, 0.09)
     cut = share(spec, "waist_cut_mm") * _bell_slope(s, 0.42, 0.085)
     return 0.5 * (bulge * joints - cut)
+
+
+def _ease(t: Floats) -> Floats:
+    """From 0 to 1 over 0 to 1, with two smooth derivatives."""
+    t = np.clip(t, 0.0, 1.0)
+    eased: Floats = t**3 * (10.0 - 15.0 * t + 6.0 * t**2)
+    return eased
 
 
 def _ramp(s: Floats, centre: float, width: float) -> Floats:
@@ -251,13 +258,16 @@ def _upper(straight: _Straight, sign: float, count: int) -> Floats:
     rise = 1.0 - (1.0 - np.linspace(0.0, 1.0, 121)) ** 2
     rise = rise[None, :] * np.ones((len(straight.s), 1))
     s = _along(straight, rise, np.zeros_like(rise))
-    keep, power, ridge = crest_shape(straight.s, straight.spec.cone_length)
+    spec = straight.spec
+    keep, power, ridge = crest_shape(straight.s, spec.cone_length, spec.cone_width)
     taper = 1.0 - (1.0 - keep[:, None]) * rise**1.6 * (1.5 - 0.5 * rise)
     d = straight.half[:, None] * taper * np.sqrt(1.0 - rise ** power[:, None])
     swing = share(straight.spec, "ridge_mm") * ridge[:, None] * rise**2
     low = straight.view.widest(s)
     z = low + (straight.view.crest(s[:, -1])[:, None] - low) * rise
     swing = swing * np.minimum(1.0, straight.half[:, None] / 0.1)
+    if spec.shaft_mm > 0.0:  # upright where the boot stands, so that at rest it leans back
+        s = s - np.tan(np.radians(straight.view.pitch_deg)) * np.clip(z - low - 0.25, 0.0, None)
     return _resampled(np.stack([s, sign * d + swing, z], axis=2), count)
 
 
@@ -267,7 +277,9 @@ def _feather(straight: _Straight, sign: float) -> tuple[Floats, Floats]:
     waist = _bell(s, 0.43, 0.11) if sign > 0 else 0.25 * _bell(s, 0.45, 0.11)
     inside = 0.10 + 0.02 * _bell(s, 0.68, 0.10)
     cut = share(straight.spec, "arch_cut_mm") * waist / np.maximum(straight.half, 0.05)
-    arch = share(straight.spec, "arch_mm") * (waist if sign > 0 else 0.0)
+    level = straight.spec.level_tread  # then at the tread both edges lie on the ground
+    behind = 1.0 - _ease((s - 0.48) / 0.16) if level else 1.0
+    arch = share(straight.spec, "arch_mm") * (waist * behind if sign > 0 else 0.0)
     width = straight.half * (1.0 - inside - cut)
     return width, straight.view.bottom(s) + straight.view.crown(s) + arch
 
@@ -291,6 +303,25 @@ def _sole(straight: _Straight, lateral: Floats, medial: Floats, count: int) -> F
     return flat
 
 
+def _side_view(spec: LastSpec) -> SideView:
+    draft = Draft(
+        heel=share(spec, "heel_height_mm"),
+        spring=share(spec, "toe_spring_mm"),
+        seat_pitch=spec.seat_pitch,
+        break_station=spec.break_station,
+        break_length=spec.break_length,
+        spring_station=spec.spring_station,
+        level_tread=spec.level_tread,
+    )
+    return side_view(
+        draft,
+        cone=share(spec, "cone_height_mm"),
+        cone_length=spec.cone_length,
+        fullness=spec.fullness,
+        shaft=share(spec, "shaft_mm"),
+    )
+
+
 def _rings(spec: LastSpec, shape: Widths) -> Floats:
     """All rings of the straight last, (rings + 1, segments, 3) as (s, d, z) over the length.
 
@@ -298,13 +329,7 @@ def _rings(spec: LastSpec, shape: Widths) -> Floats:
     back under the sole.
     """
     s = _stations(spec.rings)
-    view = side_view(
-        heel=share(spec, "heel_height_mm"),
-        spring=share(spec, "toe_spring_mm"),
-        cone=share(spec, "cone_height_mm"),
-        cone_length=spec.cone_length,
-        fullness=spec.fullness,
-    )
+    view = _side_view(spec)
     half = np.interp(s, _GRID, shape.half)
     half[[0, -1]] = 0.0
     straight = _Straight(s, half, np.interp(s, _GRID, shape.cap), view, spec)
@@ -361,6 +386,15 @@ def last_mesh(spec: LastSpec) -> tuple[Floats, Ints]:
     faces : (m, 3) int64
         Wound outward, watertight, no degenerate face.
     """
+    vertices, faces, _ = _placed(spec)
+    if spec.side == "left":
+        vertices[:, 1] *= -1.0
+        faces = faces[:, ::-1].copy()
+    return vertices, faces
+
+
+def _placed(spec: LastSpec) -> tuple[Floats, Ints, float]:
+    """The right last in mm in the canonical pose, and how many mm a unit of the curves is."""
     plan, shape = _planted(spec)
     ring = _rings(spec, shape).reshape(-1, 3)
     faces, used = _ring_faces(spec)
@@ -368,11 +402,39 @@ def last_mesh(spec: LastSpec) -> tuple[Floats, Ints]:
     x, y, heading = plan.at(s)
     vertices = np.column_stack([x - d * np.sin(heading), y + d * np.cos(heading), z])
     vertices -= [plan.origin[0], plan.origin[1], z.min()]
-    vertices *= plan.scale * spec.length_mm
-    rear, front = vertices[:, 0].min(), vertices[:, 0].max()
-    vertices[:, 0] -= rear
-    vertices *= spec.length_mm / (front - rear)
-    if spec.side == "left":
-        vertices[:, 1] *= -1.0
-        faces = faces[:, ::-1].copy()
-    return vertices, faces
+    unit_mm = spec.length_mm / float(np.ptp(vertices[:, 0]))
+    vertices *= unit_mm
+    vertices[:, 0] -= vertices[:, 0].min()
+    return vertices, faces, unit_mm
+
+
+@dataclass(frozen=True, slots=True)
+class Standing:
+    """How a last stands on its heel as it was drafted: the truth for stance.
+
+    Attributes
+    ----------
+    pitch_deg : float
+        From the resting plane to the floor, + where the heel is raised.
+    middle_mm : (k, 2)
+        The bottom's middle from heel to toe, x along the floor and z over it.
+    """
+
+    pitch_deg: float
+    middle_mm: Floats
+
+    def height_mm(self, station: float) -> float:
+        """The bottom's height over the floor at a share of its length along the floor."""
+        x, z = self.middle_mm.T
+        return float(np.interp(x[0] + station * (x[-1] - x[0]), x, z))
+
+    @property
+    def bottom_length_mm(self) -> float:
+        """The length of the bottom's middle along its own arc."""
+        return float(np.linalg.norm(np.diff(self.middle_mm, axis=0), axis=1).sum())
+
+
+def standing(spec: LastSpec) -> Standing:
+    """How the last of a spec stands, as it was drafted."""
+    view = _side_view(spec)
+    return Standing(view.pitch_deg, view.drafted * _placed(spec)[2])

@@ -1,0 +1,112 @@
+"""What is cut out of a last: a thimble hole, a V-cut, a hinge. Solids by boolean operations.
+
+manifold3d does the cutting; it is a dependency of the tests only.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+from manifold3d import Manifold, Mesh
+
+from footfit.geometry.numeric.arrays import Floats, Ints
+
+Solid = tuple[Floats, Ints]
+
+
+def thimble(
+    vertices_mm: Floats, faces: Ints, *, radius_mm: float = 7.0, depth_mm: float = 35.0
+) -> Solid:
+    """A last with a round blind hole drilled down into the top of its cone."""
+    place = _cone_top(vertices_mm)
+    drill = Manifold.cylinder(depth_mm + 40.0, radius_mm, circular_segments=48)
+    return _mesh(_solid(vertices_mm, faces) - drill.translate(place - [0.0, 0.0, depth_mm]))
+
+
+def v_cut(
+    vertices_mm: Floats, faces: Ints, *, angle_deg: float = 24.0, depth_mm: float = 30.0
+) -> Solid:
+    """A last with a wedge cut out across the front of its cone, as lasts that break have."""
+    length_mm = float(np.ptp(vertices_mm[:, 0]))
+    x = vertices_mm[:, 0].min() + 0.40 * length_mm
+    near = np.abs(vertices_mm[:, 0] - x) < 0.02 * length_mm
+    top = float(vertices_mm[near, 2].max())
+    half = np.tan(np.radians(angle_deg / 2)) * (depth_mm + 60.0)
+    wedge = [[x, top - depth_mm], [x + half, top + 60.0], [x - half, top + 60.0]]
+    return _mesh(_solid(vertices_mm, faces) - _across(wedge))
+
+
+def hinge(vertices_mm: Floats, faces: Ints, *, gap_mm: float = 2.0) -> list[Solid]:
+    """A hinged last: cut through from the instep to the shank.
+
+    Parameters
+    ----------
+    gap_mm : float
+        The width of the cut; 0 gives two closed bodies that touch along the cut.
+
+    Returns
+    -------
+    list of (vertices (n, 3), faces (m, 3))
+        The bodies: the heel part first.
+    """
+    length_mm = float(np.ptp(vertices_mm[:, 0]))
+    x = vertices_mm[:, 0].min() + 0.44 * length_mm
+    solid = _solid(vertices_mm, faces)
+    low, high = -50.0, 0.7 * length_mm
+    lean = 0.25 * (high - low)  # the cut runs forward as it goes up
+    far = 2.0 * length_mm
+    bodies = []
+    for side in (-1.0, 1.0):
+        edge = 0.5 * gap_mm * side
+        half_space = [
+            [x + edge - lean / 2, low],
+            [x + edge + lean / 2, high],
+            [x + side * far, high],
+            [x + side * far, low],
+        ]
+        bodies.append(_mesh(solid ^ _across(half_space)))
+    return bodies
+
+
+def joined(bodies: Sequence[Solid]) -> Solid:
+    """Several bodies as the faces of one file."""
+    start, faces = 0, []
+    for vertices, triangles in bodies:
+        faces.append(triangles + start)
+        start += len(vertices)
+    return np.concatenate([vertices for vertices, _ in bodies]), np.concatenate(faces)
+
+
+def _cone_top(vertices_mm: Floats) -> Floats:
+    """The middle of what lies highest of the rear half, (3,)."""
+    rear = vertices_mm[vertices_mm[:, 0] < np.median(vertices_mm[:, 0])]
+    return np.asarray(rear[rear[:, 2] > rear[:, 2].max() - 3.0].mean(axis=0))
+
+
+def _across(outline: Sequence[Sequence[float]]) -> Manifold:
+    """A prism along Y with an outline of (x, z)."""
+    from manifold3d import CrossSection
+
+    points = np.array(outline)
+    if (
+        np.sum(points[:, 0] * np.roll(points[:, 1], -1) - np.roll(points[:, 0], -1) * points[:, 1])
+        < 0
+    ):
+        points = points[::-1]
+    prism = CrossSection([points]).extrude(400.0)  # along z, with (x, y) for (x, z)
+    return prism.rotate([90.0, 0.0, 0.0]).translate([0.0, 200.0, 0.0])
+
+
+def _solid(vertices_mm: Floats, faces: Ints) -> Manifold:
+    solid = Manifold(Mesh(vertices_mm.astype(np.float32), faces.astype(np.uint32)))
+    if solid.is_empty():
+        raise ValueError(f"the mesh is no solid: {solid.status()}")
+    return solid
+
+
+def _mesh(solid: Manifold) -> Solid:
+    mesh = solid.to_mesh()
+    return np.asarray(mesh.vert_properties[:, :3], dtype=np.float64), np.asarray(
+        mesh.tri_verts, dtype=np.int64
+    )

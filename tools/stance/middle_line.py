@@ -1,0 +1,164 @@
+"""The middle line of a bottom in the side view, cut at right angles to a trial ground.
+
+A last rests on its seat and its ball, but it stands on its heel with the tread level. How it
+stands is not known beforehand, so the line is cut for a trial ground, whose angle is measured from
+the resting plane: + raises the heel. The cuts are at right angles to the ground, since cuts
+at right angles to the resting plane spoil the seat of a high heel.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from footfit.geometry.mesh.sections import sections_across, soles
+from footfit.geometry.mesh.surface import area_vectors
+from footfit.geometry.numeric.arrays import Bools, Floats, Ints
+
+
+@dataclass(frozen=True, slots=True)
+class MiddleLineSettings:
+    """Where and how the line is cut; lengths over the standing length.
+
+    Attributes
+    ----------
+    places : tuple of float
+        Shares of the width, 0 lateral and 1 medial, whose mean height is the line's.
+    band : float
+        The width is that of the section below this height over its lowest point.
+    low : float
+        The standing length is the extent of what lies lower than this over the bottom.
+    cells : int
+        How many strips across the length the bottom is looked for in.
+    reach : tuple of float
+        From where to where the line is cut.
+    sections : int
+    step_deg : float
+        Cuts are made for grounds at multiples of this angle, and used for those between.
+    """
+
+    places: tuple[float, ...] = (0.35, 0.50, 0.65)
+    band: float = 0.10
+    low: float = 0.13
+    cells: int = 64
+    reach: tuple[float, float] = (0.02, 0.98)
+    sections: int = 129
+    step_deg: float = 2.0
+
+
+MIDDLE_LINE = MiddleLineSettings()
+
+
+@dataclass(frozen=True, slots=True)
+class MiddleLine:
+    """The middle line in the frame of a trial ground.
+
+    Attributes
+    ----------
+    ground : float
+        The trial ground's angle from the resting plane, radians.
+    points_mm : (k, 2)
+        Along the ground and over it, from heel to toe.
+    ends_mm : (2,)
+        Where the last begins and ends along the ground.
+    """
+
+    ground: float
+    points_mm: Floats
+    ends_mm: tuple[float, float]
+
+    @property
+    def length_mm(self) -> float:
+        """The standing length: the extent along the ground."""
+        return self.ends_mm[1] - self.ends_mm[0]
+
+    @property
+    def arc(self) -> Floats:
+        """The arc length at the points over the standing length, 0 at the rearmost point, (k,)."""
+        steps = np.linalg.norm(np.diff(self.points_mm, axis=0), axis=1)
+        start = self.points_mm[0, 0] - self.ends_mm[0]
+        arc: Floats = (start + np.concatenate([[0.0], np.cumsum(steps)])) / self.length_mm
+        return arc
+
+
+def turned(vertices_mm: Floats, ground: float) -> Floats:
+    """Points (n, 3) in the frame of a ground at an angle (radians) from the resting plane.
+
+    Examples
+    --------
+    >>> turned(np.array([[0.0, 5.0, 1.0]]), np.pi / 2).round(9).tolist()
+    [[1.0, 5.0, 0.0]]
+    """
+    cosine, sine = np.cos(ground), np.sin(ground)
+    turn = np.array([[cosine, 0.0, -sine], [0.0, 1.0, 0.0], [sine, 0.0, cosine]])
+    return np.asarray(vertices_mm @ turn)
+
+
+def middle_line(
+    vertices_mm: Floats,
+    faces: Ints,
+    ground: float,
+    settings: MiddleLineSettings = MIDDLE_LINE,
+) -> MiddleLine | None:
+    """The middle line of a right shape's bottom, cut for one trial ground.
+
+    Parameters
+    ----------
+    vertices_mm : (n, 3)
+        Canonical: x from heel to toe, z up from the resting plane.
+    faces : (m, 3)
+        Wound outward.
+    ground : float
+        The angle of the trial ground from the resting plane, radians.
+
+    Returns
+    -------
+    MiddleLine or None
+        None if the bottom is open over most of the length.
+    """
+    points = turned(vertices_mm, ground)
+    low = _is_low(points, settings)
+    ends = float(points[low, 0].min()), float(points[low, 0].max())
+    length = ends[1] - ends[0]
+    x = ends[0] + np.linspace(*settings.reach, settings.sections) * length
+    near = faces[low[faces].any(axis=1)]
+    segments = sections_across(points, near, x)
+    down = area_vectors(points, near[segments.face])[:, 2] < 0.0
+    bottom = soles(segments, settings.band * length, settings.places, down)
+    whole = np.all(bottom.depth <= bottom.limit, axis=0)
+    if whole.mean() < 0.5:
+        return None
+    line = np.column_stack([x[whole], bottom.depth[:, whole].mean(axis=0)])
+    return MiddleLine(ground, line, ends)
+
+
+def _is_low(points: Floats, settings: MiddleLineSettings) -> Bools:
+    """Which points (n, 3) lie close over the bottom below them, (n,)."""
+    start, length = points[:, 0].min(), np.ptp(points[:, 0])
+    cell = ((points[:, 0] - start) / length * settings.cells).astype(np.int64)
+    cell = np.minimum(cell, settings.cells - 1)
+    lowest = np.full(settings.cells + 2, np.inf)
+    np.minimum.at(lowest, cell + 1, points[:, 2])
+    around = np.minimum(np.minimum(lowest[:-2], lowest[1:-1]), lowest[2:])
+    return np.asarray(points[:, 2] < around[cell] + settings.low * length)
+
+
+@dataclass
+class MiddleLines:
+    """The middle lines of one shape, each cut when it is first asked for, and kept."""
+
+    vertices_mm: Floats
+    faces: Ints
+    settings: MiddleLineSettings = MIDDLE_LINE
+    _cut: dict[int, MiddleLine | None] = field(default_factory=dict)
+
+    def near(self, ground: float) -> MiddleLine | None:
+        """The line that is cut for the trial ground nearest to an angle (radians)."""
+        step = np.radians(self.settings.step_deg)
+        number = round(ground / step)
+        if number not in self._cut:
+            self._cut[number] = middle_line(
+                self.vertices_mm, self.faces, number * step, self.settings
+            )
+        return self._cut[number]

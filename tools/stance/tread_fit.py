@@ -1,0 +1,230 @@
+"""A model of the bottom from the shank over the tread to the toe, fitted to its slope.
+
+Along the arc length s, over the standing length, the slope of the bottom's middle is
+
+    theta(s) = ground - fall (1 - S((s - tread + turn) / turn)) + spring max(0, s - tread)^power
+
+with S(u) = 3 u^2 - 2 u^3 on [0, 1]: the shank falls, turns into the tread over ``turn``, lies on
+the ground at ``tread``, and springs up to the toe. The model is smoothed as the measured slope is.
+A crisp break and a soft one are both of this form; a polynomial through the tread would mix the
+shank and the toe spring into it.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from footfit.geometry.numeric.arrays import Floats
+from footfit.geometry.numeric.smoothing import local_quadratic
+from tools.stance.middle_line import MiddleLine
+
+
+@dataclass(frozen=True, slots=True)
+class TreadFitSettings:
+    """How the model is fitted; lengths over the standing length, angles in radians.
+
+    Attributes
+    ----------
+    window : tuple of float
+        The stretch of arc that is fitted.
+    step : float
+        From sample to sample of the model.
+    bandwidth : float
+        Standard deviation of the local parabolas that smooth the slope.
+    height_sd, slope_sd : float
+        What the model leaves of heights and of slopes.
+    tread : tuple of float
+        The tread's place along the ground, and its standard deviation among lasts.
+    turn, power, fall : tuple of float
+        The usual value and its spread: a factor's logarithm for ``turn`` and ``fall``.
+    least, most : tuple of float
+        Bounds of (ground, fall, turn, tread, spring, power).
+    scale : tuple of float
+        A usual step of each.
+    """
+
+    window: tuple[float, float] = (0.42, 0.95)
+    step: float = 0.0025
+    bandwidth: float = 0.012
+    height_sd: float = 0.0012
+    slope_sd: float = 0.06
+    tread: tuple[float, float] = (0.68, 0.01)
+    turn: tuple[float, float] = (0.17, 0.25)
+    power: tuple[float, float] = (1.2, 0.2)
+    fall: tuple[float, float] = (0.4, 1.5)
+    least: tuple[float, ...] = (-0.3, 0.01, 0.03, 0.5, 0.0, 0.5)
+    most: tuple[float, ...] = (1.2, 2.0, 0.5, 0.9, 30.0, 3.0)
+    scale: tuple[float, ...] = (0.05, 0.2, 0.1, 0.03, 1.0, 0.3)
+    rounds: int = 25
+    settled: float = 1e-6
+
+
+TREAD_FIT = TreadFitSettings()
+_START = np.array([0.0, 0.4, 0.17, 0.70, 1.0, 1.2])
+_CORRELATED = 12.0  # samples this close count as one: the smoothing ties them together
+
+
+@dataclass(frozen=True, slots=True)
+class SlopedLine:
+    """A middle line as slopes over arc length, about a ground that is near the true one.
+
+    ``slope`` (k,) in radians from the resting plane at ``arc`` (k,); ``place`` (k,) along the
+    standing length.
+    """
+
+    arc: Floats
+    slope: Floats
+    place: Floats
+
+
+@dataclass(frozen=True, slots=True)
+class TreadFit:
+    """The model that fits: the ground's angle (radians), its standard deviation, and the cost."""
+
+    ground: float
+    ground_sd: float
+    cost: float
+    parameters: Floats
+
+
+def sloped(line: MiddleLine, ground: float, arc: Floats, bandwidth: float) -> SlopedLine | None:
+    """The slope of a middle line at arc lengths (k,), smoothed by local parabolas.
+
+    ``ground`` (radians) is the ground along which places are counted; the line may have been cut
+    for another one close by. None where the line has a gap, or ends before.
+    """
+    after = np.clip(np.searchsorted(line.arc, arc), 1, len(line.arc) - 1)
+    nearest = np.minimum(np.abs(arc - line.arc[after - 1]), np.abs(line.arc[after] - arc))
+    if nearest.max() > 2.0 * bandwidth:
+        return None
+    value, change = local_quadratic(arc, line.arc, bandwidth)
+    points, direction = value @ line.points_mm, change @ line.points_mm
+    slope = np.arctan2(direction[:, 1], direction[:, 0]) + line.ground
+    cosine, sine = np.cos(ground - line.ground), np.sin(ground - line.ground)
+    rear, front = (
+        end * cosine + height * sine
+        for end, height in zip(line.ends_mm, line.points_mm[[0, -1], 1], strict=True)
+    )
+    place = (points[:, 0] * cosine + points[:, 1] * sine - rear) / (front - rear)
+    return SlopedLine(arc, slope, np.asarray(place))
+
+
+def model_arc(settings: TreadFitSettings = TREAD_FIT) -> Floats:
+    """The arc lengths at which the model is compared with the line."""
+    low, high = settings.window
+    return np.arange(low, high + settings.step, 2 * settings.step)
+
+
+def fitted_tread(
+    line: SlopedLine, start: Floats | float, settings: TreadFitSettings = TREAD_FIT
+) -> TreadFit:
+    """The model that fits a line best, by damped Gauss-Newton steps.
+
+    Parameters
+    ----------
+    line : SlopedLine
+        At :func:`model_arc`.
+    start : (6,) or float
+        The parameters to begin with, or the ground's angle alone.
+    """
+    least, most, scale = (
+        np.array(value) for value in (settings.least, settings.most, settings.scale)
+    )
+    begin = _START + np.array([start, 0, 0, 0, 0, 0]) if np.ndim(start) == 0 else np.array(start)
+    parameters = np.clip(begin, least + 1e-6, most - 1e-6)
+    residual, jacobian = _residuals(parameters, line, settings)
+    damping = 1e-2
+    for _ in range(settings.rounds):
+        scaled = jacobian * scale
+        normal, gradient = scaled.T @ scaled, scaled.T @ residual
+        for _ in range(6):
+            damped = normal + damping * np.diag(np.diag(normal) + 1e-9)
+            tried = parameters - np.linalg.solve(damped, gradient) * scale
+            tried = np.clip(tried, least + 1e-6, most - 1e-6)
+            left, slopes = _residuals(tried, line, settings)
+            if left @ left < residual @ residual:
+                break
+            damping *= 6.0
+        else:
+            break
+        gained = residual @ residual - left @ left
+        parameters, residual, jacobian = tried, left, slopes
+        damping = max(damping / 4.0, 1e-7)
+        if gained < settings.settled * float(residual @ residual):
+            break
+    covariance = np.linalg.pinv(jacobian.T @ jacobian)
+    cost = float(residual @ residual)
+    return TreadFit(float(parameters[0]), float(np.sqrt(covariance[0, 0])), cost, parameters)
+
+
+def _residuals(
+    parameters: Floats, line: SlopedLine, settings: TreadFitSettings
+) -> tuple[Floats, Floats]:
+    """What the model leaves, over its standard deviations, and its Jacobian (r,), (r, 6)."""
+    model, slopes = _model(parameters, settings)
+    off, step = line.slope - model, 2 * settings.step
+    height, height_change = np.cumsum(off) * step, -np.cumsum(slopes, axis=1) * step
+    height -= height.mean()
+    height_change -= height_change.mean(axis=1, keepdims=True)
+    share = np.sqrt(_CORRELATED / len(off))
+    place, place_change = _place_at(parameters[3], line)
+    prior = np.array(
+        [
+            (place - settings.tread[0]) / settings.tread[1],
+            np.log(parameters[2] / settings.turn[0]) / settings.turn[1],
+            (parameters[5] - settings.power[0]) / settings.power[1],
+            np.log(parameters[1] / settings.fall[0]) / settings.fall[1],
+        ]
+    )
+    prior_change = np.zeros((4, 6))
+    prior_change[0, 3] = place_change / settings.tread[1]
+    prior_change[1, 2] = 1.0 / (parameters[2] * settings.turn[1])
+    prior_change[2, 5] = 1.0 / settings.power[1]
+    prior_change[3, 1] = 1.0 / (parameters[1] * settings.fall[1])
+    weights = share / settings.height_sd, share / settings.slope_sd
+    return (
+        np.concatenate([height * weights[0], off * weights[1], prior]),
+        np.concatenate([height_change.T * weights[0], -slopes.T * weights[1], prior_change]),
+    )
+
+
+def _place_at(arc: float, line: SlopedLine) -> tuple[float, float]:
+    """Where along the standing length an arc length lies, and how fast that changes."""
+    step = float(line.arc[1] - line.arc[0])
+    before, place, after = np.interp([arc - step, arc, arc + step], line.arc, line.place)
+    return float(place), float((after - before) / (2 * step))
+
+
+def _model(parameters: Floats, settings: TreadFitSettings) -> tuple[Floats, Floats]:
+    """The smoothed slopes at :func:`model_arc`, (k,), and their derivatives, (6, k)."""
+    ground, fall, turn, tread, spring, power = parameters
+    margin = 24
+    low, high = settings.window
+    arc = np.arange(
+        low - margin * settings.step, high + (margin + 1) * settings.step, settings.step
+    )
+    share = (arc - tread + turn) / turn
+    inside = np.clip(share, 0.0, 1.0)
+    rest = 1.0 - (3.0 - 2.0 * inside) * inside**2
+    change = 6.0 * inside * (1.0 - inside)
+    beyond = np.clip(arc - tread, 0.0, None)
+    safe = np.where(beyond > 0.0, beyond, 1e-9)
+    rise = np.where(beyond > 0.0, safe**power, 0.0)
+    slope = ground - fall * rest + spring * rise
+    rows = np.stack(
+        [
+            np.ones_like(arc),
+            -rest,
+            fall * change * (tread - arc) / turn**2,
+            -fall * change / turn - spring * np.where(beyond > 0.0, power * rise / safe, 0.0),
+            rise,
+            spring * rise * np.log(safe),
+        ]
+    )
+    kernel = np.exp(-0.5 * (np.arange(-20, 21) * settings.step / settings.bandwidth) ** 2)
+    kernel /= kernel.sum()
+    picked = slice(margin, margin + 2 * len(model_arc(settings)), 2)
+    smooth = [np.convolve(row, kernel, "same")[picked] for row in (slope, *rows)]
+    return smooth[0], np.array(smooth[1:])
