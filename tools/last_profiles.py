@@ -95,7 +95,8 @@ class SideView:
     drafted: Floats
 
 
-def _smoother(t: Floats) -> Floats:
+def eased(t: Floats) -> Floats:
+    """From 0 to 1 over 0 to 1, with two smooth derivatives."""
     t = np.clip(t, 0.0, 1.0)
     return t**3 * (10.0 - 15.0 * t + 6.0 * t**2)
 
@@ -125,21 +126,21 @@ def drafted_bottom(x: Floats, draft: Draft) -> Floats:
     degrees under a heel of 60 mm), the shank is steeper, the tread level.
     """
     peak = 0.35 + draft.seat_pitch  # a level seat needs a steeper shank
-    slope = draft.seat_pitch + max(0.9, 1.8 - 2.0 * peak) * _bell(x, 0.38, 0.11)
-    rear = 1.0 - _smoother((x - draft.break_station + draft.break_length) / draft.break_length)
+    slope = draft.seat_pitch + max(0.9, 1.8 - 2.0 * peak) * bell(x, 0.38, 0.11)
+    rear = 1.0 - eased((x - draft.break_station + draft.break_length) / draft.break_length)
     slope *= rear
     fall = np.concatenate([[0.0], np.cumsum(0.5 * (slope[1:] + slope[:-1]) * np.diff(x))])
     shank = draft.heel * (1.0 - fall / fall[-1])
-    hollow = 0.010 * _bell(x, 0.43, 0.09) * (rear if draft.level_tread else 1.0)
+    hollow = 0.010 * bell(x, 0.43, 0.09) * (rear if draft.level_tread else 1.0)
     start = draft.spring_station
     toe = draft.spring * np.clip((x - start) / (1.0 - start), 0.0, None) ** 2.2
     bottom: Floats = shank + hollow + toe
     return bottom
 
 
-def _bell(x: Floats, centre: float, sd: float) -> Floats:
-    bell: Floats = np.exp(-0.5 * ((x - centre) / sd) ** 2)
-    return bell
+def bell(x: Floats, centre: float, sd: float) -> Floats:
+    """A bell curve of height 1."""
+    return np.exp(-0.5 * ((x - centre) / sd) ** 2)
 
 
 def _resting_slope(x: Floats, z: Floats) -> float:
@@ -175,7 +176,7 @@ def side_view(
     comb = cone + 0.5 * np.tan(pitch) * (s - 0.15)  # the shin leans half the way with the foot
     if shaft > 0.0:  # thick enough behind the instep for the shaft to come out of it
         comb = np.full_like(s, shaft)
-        thickness = thickness + shaft * (1.0 - _smoother((s - cone_length + 0.06) / 0.14))
+        thickness = thickness + shaft * (1.0 - eased((s - cone_length + 0.06) / 0.14))
     softness = 0.012
     crest = -softness * np.logaddexp(-(bottom + thickness) / softness, -comb / softness)
     low = PchipInterpolator(

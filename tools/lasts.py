@@ -35,7 +35,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from footfit.geometry.numeric.arrays import Floats, Ints
-from tools.last_profiles import Draft, SideView, Widths, crest_shape, side_view, widths
+from tools.last_profiles import Draft, SideView, Widths, bell, crest_shape, eased, side_view, widths
 from tools.last_specs import LastSpec, graded, plain, share, varied
 
 __all__ = [
@@ -59,12 +59,8 @@ _GRID = np.linspace(-0.1, 1.1, 4801)  # stations on which the planted heading is
 # ------------------------------------------------------------------ the planted curve
 
 
-def _bell(s: Floats, centre: float, sd: float) -> Floats:
-    return np.exp(-0.5 * ((s - centre) / sd) ** 2)
-
-
 def _bell_slope(s: Floats, centre: float, sd: float) -> Floats:
-    return (centre - s) / sd**2 * _bell(s, centre, sd)
+    return (centre - s) / sd**2 * bell(s, centre, sd)
 
 
 def _offset_slope(spec: LastSpec, s: Floats) -> Floats:
@@ -73,13 +69,6 @@ def _offset_slope(spec: LastSpec, s: Floats) -> Floats:
     joints = _bell_slope(s, spec.mt1_station, 0.09) - _bell_slope(s, spec.mt5_station, 0.09)
     cut = share(spec, "waist_cut_mm") * _bell_slope(s, 0.42, 0.085)
     return 0.5 * (bulge * joints - cut)
-
-
-def _ease(t: Floats) -> Floats:
-    """From 0 to 1 over 0 to 1, with two smooth derivatives."""
-    t = np.clip(t, 0.0, 1.0)
-    eased: Floats = t**3 * (10.0 - 15.0 * t + 6.0 * t**2)
-    return eased
 
 
 def _ramp(s: Floats, centre: float, width: float) -> Floats:
@@ -274,11 +263,11 @@ def _upper(straight: _Straight, sign: float, count: int) -> Floats:
 def _feather(straight: _Straight, sign: float) -> tuple[Floats, Floats]:
     """Half width and height of the feather line of one side, per station (n,)."""
     s = straight.s
-    waist = _bell(s, 0.43, 0.11) if sign > 0 else 0.25 * _bell(s, 0.45, 0.11)
-    inside = 0.10 + 0.02 * _bell(s, 0.68, 0.10)
+    waist = bell(s, 0.43, 0.11) if sign > 0 else 0.25 * bell(s, 0.45, 0.11)
+    inside = 0.10 + 0.02 * bell(s, 0.68, 0.10)
     cut = share(straight.spec, "arch_cut_mm") * waist / np.maximum(straight.half, 0.05)
     level = straight.spec.level_tread  # then at the tread both edges lie on the ground
-    behind = 1.0 - _ease((s - 0.48) / 0.16) if level else 1.0
+    behind = 1.0 - eased((s - 0.48) / 0.16) if level else 1.0
     arch = share(straight.spec, "arch_mm") * (waist * behind if sign > 0 else 0.0)
     width = straight.half * (1.0 - inside - cut)
     return width, straight.view.bottom(s) + straight.view.crown(s) + arch
