@@ -145,7 +145,10 @@ def stored_shape(data: bytes, side: SideName | None) -> tuple[Floats, Ints]:
     CatalogueDamaged
         The copy is not sound.
     """
-    return closed_shape(*right_copy(*expanded_mesh(data), side))
+    shape = closed_shape(*right_copy(*expanded_mesh(data), side))
+    for array in shape:
+        array.flags.writeable = False  # the next comparison gets the same arrays
+    return shape
 
 
 def closed_shape(vertices_mm: Floats, faces: Ints) -> tuple[Floats, Ints]:
