@@ -90,7 +90,7 @@ def test_any_label_and_number_survives(
 def test_what_cannot_be_measured_comes_back_so(catalogue: Catalogue) -> None:
     flare = replace(records.profile(), angle_deg=float("nan"), angle_sd_deg=float("nan"))
     flare.curvature["bottom_surface"] = None
-    catalogue.replace(replace(records.last("last-1", 1), flare=flare))
+    catalogue.add(replace(records.last("last-1", 1), flare=flare), replace=True)
     found = catalogue.record("last-1")
     assert np.isnan(found.flare.angle_deg)
     assert np.isnan(found.flare.angle_sd_deg)
@@ -115,7 +115,7 @@ def test_the_first_last_is_the_reference(path: Path) -> None:
 @pytest.mark.parametrize("name", ["last-0", "last-1"])
 def test_set_reference_expresses_every_last_by_it(catalogue: Catalogue, name: str) -> None:
     """Eq. 8 on points: OM_E R (x - P_c) plus the reference's centroid, left ones mirrored first."""
-    reference = catalogue.set_reference(name)
+    reference = catalogue.set_reference(name).reference
     assert reference.last == name
     np.testing.assert_allclose(reference.om_e @ reference.om_e.T, np.eye(3), atol=EXACT)
     assert np.linalg.det(reference.om_e) == pytest.approx(1.0)
@@ -185,7 +185,7 @@ def test_a_fault_in_the_middle_of_an_add_leaves_no_half_last(
     with pytest.raises(RuntimeError):
         catalogue.add(records.last("half", 9), records.mesh_copy(9))
     with pytest.raises(RuntimeError):
-        catalogue.replace(records.last("last-1", 9), records.mesh_copy(9))
+        catalogue.add(records.last("last-1", 9), records.mesh_copy(9), replace=True)
     monkeypatch.undo()
     assert content(catalogue) == before
     assert catalogue.findings() == []
@@ -198,7 +198,7 @@ def test_a_name_or_a_content_that_is_there_is_refused(catalogue: Catalogue) -> N
     with pytest.raises(NameTaken, match="as 'last-1'"):
         catalogue.add(records.last("other", 1))
     with pytest.raises(NameTaken, match="as 'last-1'"):
-        catalogue.replace(records.last("last-2", 1))
+        catalogue.add(records.last("last-2", 1), replace=True)
     assert content(catalogue) == before
 
 
@@ -215,18 +215,18 @@ def test_the_same_lasts_in_the_same_order_are_the_same_catalogue(tmp_path: Path)
 
 def test_replacing_keeps_what_points_to_a_last(catalogue: Catalogue) -> None:
     catalogue.add(records.last("graded", 9, parent="last-1", family="derby"))
-    catalogue.replace(records.last("last-1", 10, side="left"), records.mesh_copy(10))
+    catalogue.add(records.last("last-1", 10, side="left"), records.mesh_copy(10), replace=True)
     assert catalogue.record("graded").labels.parent == "last-1"
     assert catalogue.record("last-1").length_mm == records.last(seed=10).length_mm
     assert catalogue.mesh_copy("last-1") == records.mesh_copy(10)
-    catalogue.replace(records.last("new", 11))
+    catalogue.add(records.last("new", 11), replace=True)
     assert "new" in catalogue.names()
     assert catalogue.findings() == []
 
 
 def test_replacing_the_reference_expresses_all_by_the_new_scan(catalogue: Catalogue) -> None:
     old = catalogue.reference()
-    catalogue.replace(records.last("last-0", 12))
+    catalogue.add(records.last("last-0", 12), replace=True)
     new = catalogue.reference()
     assert old is not None
     assert new is not None
@@ -298,9 +298,9 @@ def test_a_parent_must_be_there_and_no_descendant(catalogue: Catalogue) -> None:
     catalogue.add(records.last("child", 9, parent="last-1"))
     catalogue.add(records.last("grandchild", 10, parent="child"))
     with pytest.raises(BadOption, match="descends"):
-        catalogue.replace(records.last("last-1", 1, parent="grandchild"))
+        catalogue.add(records.last("last-1", 1, parent="grandchild"), replace=True)
     with pytest.raises(BadOption, match="descends"):
-        catalogue.replace(records.last("last-1", 1, parent="last-1"))
+        catalogue.add(records.last("last-1", 1, parent="last-1"), replace=True)
 
 
 def test_a_profile_made_anew_says_what_it_replaces(catalogue: Catalogue) -> None:

@@ -411,7 +411,8 @@ def test_lasts_that_were_measured_otherwise_are_said(stocked: Any, tmp_path: Pat
     with open_catalogue(path, write=True) as catalogue:
         (old,) = (one for one in catalogue.records() if one.labels.name == "derby-40")
         rows = [replace(row, definition=f"{row.name}/0") for row in old.measures]
-        catalogue.replace(replace(old, measures=tuple(rows)), catalogue.mesh_copy("derby-40"))
+        older = replace(old, measures=tuple(rows))
+        catalogue.add(older, catalogue.mesh_copy("derby-40"), replace=True)
     (notice,) = choice(path, None, None).warnings
     assert notice.code == "other_measures"
     assert notice.message.startswith("derby-40 was measured by other definitions")

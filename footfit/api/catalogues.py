@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from contextlib import nullcontext
+from contextlib import contextmanager, nullcontext
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Self, Unpack
 
@@ -19,9 +19,11 @@ from footfit.api.inputs import (
     reading_options,
 )
 from footfit.api.scans import profiled_shape, sources
+from footfit.catalogue import store
 from footfit.errors import BadOption
 from footfit.pipeline.batch.runs import HERE, Outcome
 from footfit.pipeline.batch.sources import Source
+from footfit.pipeline.library import lasts
 
 if TYPE_CHECKING:
     from footfit.pipeline.fit.match import Question
@@ -150,6 +152,13 @@ class Catalogue:
             self._chosen[filters] = choice(self.path, *filters)
         return self._chosen[filters]
 
+    @contextmanager
+    def _written(self) -> Iterator[store.Catalogue]:
+        """The catalogue, open for a change."""
+        self._chosen.clear()
+        with store.open_catalogue(self.path, write=True, create=False) as catalogue:
+            yield catalogue
+
     # ------------------------------------------------------------ lasts
 
     def ingest(
@@ -215,42 +224,31 @@ class Catalogue:
 
     def lasts(self) -> results.Library:
         """Every intact last, by name; ``warnings`` name the damaged ones."""
-        from footfit.pipeline.library import lasts
-
         return lasts.list_lasts(self.path)
 
     def last(self, name: str) -> results.StoredLast:
         """All that is stored of one last, except its mesh; raises UnknownLast."""
-        from footfit.pipeline.library import lasts
-
         return lasts.last(self.path, name)
 
     def mesh(self, name: str) -> results.MeshCopy:
         """The mesh copy of a last, for `mesh_file`; raises UnknownLast."""
-        from footfit.pipeline.library import lasts
-
-        return lasts.mesh_copy(self.path, name)
+        with store.open_catalogue(self.path) as catalogue:
+            return catalogue.mesh_copy(name)
 
     def rename(self, name: str, new_name: str) -> results.RenameOutcome:
         """Give a last another name; raises UnknownLast or NameTaken."""
-        from footfit.pipeline.library import lasts
-
-        self._chosen.clear()
-        return lasts.rename(self.path, name, new_name)
+        with self._written() as catalogue:
+            return catalogue.rename(name, new_name)
 
     def remove(self, name: str) -> results.RemoveOutcome:
         """Remove a last; raises UnknownLast, or BadOption for the reference."""
-        from footfit.pipeline.library import lasts
-
-        self._chosen.clear()
-        return lasts.remove(self.path, name)
+        with self._written() as catalogue:
+            return catalogue.remove(name)
 
     def set_reference(self, name: str) -> results.ReferenceOutcome:
         """Make a last the one whose OM_E the paper's methods use; raises UnknownLast."""
-        from footfit.pipeline.library import lasts
-
-        self._chosen.clear()
-        return lasts.set_reference(self.path, name)
+        with self._written() as catalogue:
+            return catalogue.set_reference(name)
 
     def reference(
         self, last: str | None = None, method: results.Method = "paper"
@@ -264,17 +262,14 @@ class Catalogue:
         BadOption
             A last for the method "footfit", which needs no reference.
         """
-        from footfit.pipeline.library import lasts
-
         return lasts.alignment_reference(self.path, method, last)
 
     # ------------------------------------------------------------ the file
 
     def info(self) -> results.CatalogueFacts:
         """Where the file is, and what it holds."""
-        from footfit.pipeline.library import lasts
-
-        return lasts.summary(self.path)
+        with store.open_catalogue(self.path) as catalogue:
+            return catalogue.summary()
 
     def check(self) -> results.CheckOutcome:
         """Everything that is not as it was stored. Nothing is changed."""

@@ -40,7 +40,16 @@ from footfit.catalogue.rows.writing import (
     write_owned,
 )
 from footfit.errors import CatalogueDamaged, NameTaken, UnknownLast
-from footfit.results import CatalogueFacts, Finding, LastRecord, MeshCopy, Reference
+from footfit.results import (
+    CatalogueFacts,
+    Finding,
+    LastRecord,
+    MeshCopy,
+    Reference,
+    ReferenceOutcome,
+    RemoveOutcome,
+    RenameOutcome,
+)
 
 
 @contextmanager
@@ -195,34 +204,26 @@ class Catalogue:
 
     # ------------------------------------------------------------ writing
 
-    def add(self, record: LastRecord, copy: MeshCopy | None = None) -> None:
-        """Store a new last; the first one becomes the reference in the same transaction.
+    def add(
+        self, record: LastRecord, copy: MeshCopy | None = None, *, replace: bool = False
+    ) -> None:
+        """Store a last; the first one becomes the reference in the same transaction.
+
+        With ``replace`` it takes the place of the last of its name, if there is one.
 
         Raises
         ------
         NameTaken
-            The catalogue has a last of that name, or the same file under another name.
+            The catalogue has a last of that name and ``replace`` is False, or it has the same
+            file under another name.
         UnknownLast, BadOption
             Its parent is not in the catalogue; its name cannot be stored.
         """
-        self._place(record, copy, replace=False)
-
-    def replace(self, record: LastRecord, copy: MeshCopy | None = None) -> None:
-        """Store a last in place of the one of its name, or as a new one if there is none.
-
-        Raises
-        ------
-        NameTaken, UnknownLast, BadOption
-            The same as for :meth:`add`, except that the name may be taken.
-        """
-        self._place(record, copy, replace=True)
-
-    def _place(self, record: LastRecord, copy: MeshCopy | None, *, replace: bool) -> None:
         with self.file.atomic() as connection:
             key, parent_id = place_of(driver_of(connection), record, replace=replace)
             express(connection, write_last(connection, record, copy, parent_id, key))
 
-    def remove(self, name: str) -> None:
+    def remove(self, name: str) -> RemoveOutcome:
         """Remove a last with everything that the catalogue holds of it.
 
         Raises
@@ -235,8 +236,9 @@ class Catalogue:
             key = last_id(driver, name)
             require_removable(driver, key, name)
             delete_rows(connection, LAST, key)
+        return RemoveOutcome(name)
 
-    def rename(self, name: str, new_name: str) -> None:
+    def rename(self, name: str, new_name: str) -> RenameOutcome:
         """Give a last another name.
 
         Raises
@@ -252,8 +254,9 @@ class Catalogue:
                 raise NameTaken(f"{new_name!r} is in the catalogue; choose another name")
             update_row(connection, LAST, key, {"name": new_name})
             seal(connection, key)
+        return RenameOutcome(new_name, name)
 
-    def set_reference(self, name: str) -> Reference:
+    def set_reference(self, name: str) -> ReferenceOutcome:
         """Make a last the reference, and rewrite the ``paper_transform`` of every last.
 
         Raises
@@ -262,7 +265,9 @@ class Catalogue:
             There is no last of that name; a last is damaged.
         """
         with self.file.atomic() as connection:
-            return make_reference(connection, last_id(driver_of(connection), name))
+            driver = driver_of(connection)
+            reference = make_reference(connection, last_id(driver, name))
+            return ReferenceOutcome(reference, len(last_names(driver)))
 
     def update_profile(self, record: LastRecord) -> None:
         """Replace the flare profile and the measures of the last that has the record's name.

@@ -5,11 +5,12 @@ from __future__ import annotations
 from dataclasses import dataclass
 from pathlib import Path
 
+from footfit.catalogue.store import open_catalogue
 from footfit.errors import BadOption, GeometryRefused, OutputExists
 from footfit.pipeline.batch.sources import ReadingOptions, Source, mesh_sources
 from footfit.pipeline.fit.match import Question, matched
-from footfit.pipeline.library import lasts
 from footfit.pipeline.library.ingest import entries, ingest
+from footfit.pipeline.library.lasts import library
 from footfit.pipeline.library.manifest import read_manifest
 from footfit.pipeline.sample_data import sample_folder
 from footfit.pipeline.scan.reading import profiled_source
@@ -47,9 +48,10 @@ def demonstrate(folder: Path, *, jobs: int = 1, replace: bool = False) -> Demons
         if outcome.failure is not None:
             raise GeometryRefused(f"a sample last was refused: {outcome.failure}", outcome.path)
     middle = sorted(outcome.last or "" for outcome in ingested)[len(ingested) // 2]
-    reference = lasts.set_reference(catalogue, middle)
+    with open_catalogue(catalogue, write=True) as opened:
+        reference = opened.set_reference(middle)
     foot = profiled_source(sample_foot(), ReadingOptions())
-    match = matched([foot], lasts.library(catalogue), Question())
+    match = matched([foot], library(catalogue), Question())
     return Demonstration(catalogue, ingested, reference, foot, match)
 
 

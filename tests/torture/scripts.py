@@ -158,7 +158,7 @@ EDITS: tuple[Callable[[Path], None], ...] = (
     _edit(lambda c: c.set_reference("last-3")),
     _edit(lambda c: c.rename("last-1", "renamed")),
     _edit(lambda c: c.remove("last-2")),
-    _edit(lambda c: c.replace(records.last("last-4", 40), mesh_copy(1))),
+    _edit(lambda c: c.add(records.last("last-4", 40), mesh_copy(1), replace=True)),
     _edit(
         lambda c: c.update_profile(
             replace(c.record("last-5"), flare=records.profile(50), upgraded_from="flare/0")

@@ -198,37 +198,22 @@ def ingest(
     CatalogueUnusable
         The catalogue cannot be opened or written.
     """
-    if dry_run:
-        try:
-            with open_catalogue(path) as catalogue:
-                stored = catalogue.records()
-        except NoCatalogue:
-            stored = ()
-        for outcome in _ingest_into(None, stored, batch, jobs, replace=replace):
-            yield dataclasses.replace(outcome, dry_run=True)
-        return
-    with open_catalogue(path, write=True) as catalogue:
-        stored = catalogue.records()
-        yield from _ingest_into(
-            catalogue, stored, batch, jobs, replace=replace, hold_signals=hold_signals
-        )
+    with nullcontext() if dry_run else open_catalogue(path, write=True) as catalogue:
+        holdings = Holdings(_stored_lasts(path) if catalogue is None else catalogue.records())
+        known = frozenset() if replace else frozenset(holdings.by_content)
+        for work in outcomes(partial(new_last, known=known), batch, jobs):
+            with hold_signals():
+                outcome = _store(work, holdings, catalogue, replace=replace)
+                yield dataclasses.replace(outcome, dry_run=dry_run)
 
 
-def _ingest_into(
-    catalogue: Catalogue | None,
-    stored: Sequence[LastRecord],
-    batch: Sequence[Entry],
-    jobs: int,
-    *,
-    replace: bool,
-    hold_signals: HoldSignals = nullcontext,
-) -> Iterator[IngestOutcome]:
-    """Ingest a batch into a catalogue that has the ``stored`` lasts; None is a dry run."""
-    holdings = Holdings(stored)
-    known = frozenset() if replace else frozenset(holdings.by_content)
-    for work in outcomes(partial(new_last, known=known), batch, jobs):
-        with hold_signals():
-            yield _store(work, holdings, catalogue, replace=replace)
+def _stored_lasts(path: Path) -> Sequence[LastRecord]:
+    """The lasts of a catalogue; none if there is no catalogue."""
+    try:
+        with open_catalogue(path) as catalogue:
+            return catalogue.records()
+    except NoCatalogue:
+        return ()
 
 
 def _store(
@@ -238,7 +223,7 @@ def _store(
     *,
     replace: bool,
 ) -> IngestOutcome:
-    """Store what the work on one file made, and say what became of the file."""
+    """Store what the work on one file made, and say what became of the file; None is a dry run."""
     entry, new = work.item, work.value
     name, path = entry.labels.name, entry.path
     if new is None:
@@ -253,7 +238,7 @@ def _store(
         first = not holdings.by_name
         if catalogue is not None:
             try:
-                (catalogue.replace if replace else catalogue.add)(new.record, new.copy)
+                catalogue.add(new.record, new.copy, replace=replace)
             except NameTaken:  # another process stored it meanwhile: look again, and say so
                 holdings = Holdings(catalogue.records())
                 status = holdings.status(new.sha256, entry, replace=replace)

@@ -1,4 +1,4 @@
-"""The library of lasts: list, show, rename, remove, export, set the reference."""
+"""The lasts of a catalogue, as commands list them and as a match is asked of them."""
 
 from __future__ import annotations
 
@@ -11,19 +11,7 @@ from footfit.catalogue.store import Catalogue, open_catalogue
 from footfit.errors import BadOption, EmptyCatalogue, NoReference
 from footfit.geometry.measures.measure_table import of_kind
 from footfit.geometry.pose.paper_frame import paper_frame_angle_deg
-from footfit.results import (
-    CatalogueFacts,
-    LastRecord,
-    Library,
-    MeshCopy,
-    Method,
-    Notice,
-    Reference,
-    ReferenceOutcome,
-    RemoveOutcome,
-    RenameOutcome,
-    StoredLast,
-)
+from footfit.results import LastRecord, Library, Method, Notice, Reference, StoredLast
 
 
 def list_lasts(path: Path) -> Library:
@@ -68,64 +56,6 @@ def last(path: Path, name: str) -> StoredLast:
 def _reference(catalogue: Catalogue) -> str | None:
     reference = catalogue.reference()
     return None if reference is None else reference.last
-
-
-def set_reference(path: Path, name: str) -> ReferenceOutcome:
-    """Make a last the reference, the paper's "first model".
-
-    Every stored ``paper_transform`` is rewritten in one transaction; no mesh file is needed.
-
-    Raises
-    ------
-    NoCatalogue, UnknownLast, CatalogueUnusable
-        There is no such last, or the catalogue cannot be written; nothing is changed.
-    """
-    with open_catalogue(path, write=True, create=False) as catalogue:
-        return ReferenceOutcome(catalogue.set_reference(name), len(catalogue.names()))
-
-
-def rename(path: Path, name: str, new_name: str) -> RenameOutcome:
-    """Give a last another name.
-
-    Raises
-    ------
-    UnknownLast, NameTaken
-        There is no last of that name; another last has the new name.
-    """
-    with open_catalogue(path, write=True, create=False) as catalogue:
-        catalogue.rename(name, new_name)
-    return RenameOutcome(new_name, name)
-
-
-def remove(path: Path, name: str) -> RemoveOutcome:
-    """Remove a last; the reference cannot be removed.
-
-    Raises
-    ------
-    UnknownLast, BadOption
-        There is no such last, or it is the reference.
-    """
-    with open_catalogue(path, write=True, create=False) as catalogue:
-        catalogue.remove(name)
-    return RemoveOutcome(name)
-
-
-def mesh_copy(path: Path, name: str) -> MeshCopy:
-    """The catalogue's copy of a last's mesh, in mm in the canonical frame.
-
-    Raises
-    ------
-    UnknownLast
-        There is no last of that name.
-    """
-    with open_catalogue(path) as catalogue:
-        return catalogue.mesh_copy(name)
-
-
-def summary(path: Path) -> CatalogueFacts:
-    """What the catalogue is, and counts of what it holds."""
-    with open_catalogue(path) as catalogue:
-        return catalogue.summary()
 
 
 def library(path: Path, style: str | None = None, size_system: str | None = None) -> Library:
