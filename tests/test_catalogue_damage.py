@@ -39,7 +39,7 @@ def path(sound: Path, tmp_path: Path) -> Path:
 def test_a_sound_catalogue_has_no_findings(sound: Path) -> None:
     with open_catalogue(sound) as catalogue:
         assert catalogue.findings() == []
-        assert catalogue.rows_for_search().damaged == ()
+        assert catalogue.lasts().damaged == ()
 
 
 def test_a_value_turned_null_or_of_another_type_is_found(path: Path) -> None:
@@ -54,7 +54,7 @@ def test_a_value_turned_null_or_of_another_type_is_found(path: Path) -> None:
             assert connection.execute(edit).rowcount == 1
     connection.close()
     with open_catalogue(path) as catalogue:
-        rows = catalogue.rows_for_search()
+        rows = catalogue.lasts()
         found = {finding.last for finding in catalogue.findings() if finding.code == "last"}
     assert [record.labels.name for record in rows.records] == ["last-0", "last-5"]
     assert set(rows.damaged) == found == {"last-1", "last-2", "last-3", "la\\xff"}
@@ -79,7 +79,7 @@ def test_a_last_that_lost_a_row_is_not_ranked(path: Path, table: str) -> None:
         connection.execute(f"DELETE FROM {table} WHERE rowid = ({row})")
     connection.close()
     with open_catalogue(path) as catalogue:
-        assert catalogue.rows_for_search().damaged == ("last-2",)
+        assert catalogue.lasts().damaged == ("last-2",)
         assert catalogue.findings()
 
 
@@ -99,7 +99,7 @@ def test_a_damaged_reference_is_said_and_made_anew(path: Path) -> None:
     connection.close()
     with open_catalogue(path, write=True) as catalogue:
         assert [finding.code for finding in catalogue.findings()] == ["damaged"]
-        assert len(catalogue.rows_for_search().records) == LASTS, "ranking needs no OM_E"
+        assert len(catalogue.lasts().records) == LASTS, "ranking needs no OM_E"
         catalogue.set_reference("last-0")
         assert catalogue.findings() == []
 
@@ -138,7 +138,7 @@ def test_a_flip_in_the_schema_itself_is_refused_or_found(path: Path, old: str, n
     try:
         with open_catalogue(path) as catalogue:
             assert catalogue.findings()
-            ranked = catalogue.rows_for_search().records
+            ranked = catalogue.lasts().records
             assert all(record.labels.style is None or old != "style" for record in ranked)
     except CatalogueUnusable:
         pass

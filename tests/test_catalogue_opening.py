@@ -134,7 +134,7 @@ def test_what_is_no_file_is_refused_at_once(tmp_path: Path, write: bool) -> None
 def test_a_catalogue_cut_short_is_damaged(path: Path, write: bool) -> None:
     os.truncate(path, 8_192)
     with pytest.raises(CatalogueDamaged), open_catalogue(path, write=write) as catalogue:
-        catalogue.records()
+        catalogue.lasts()
 
 
 @pytest.mark.parametrize("write", [False, True])
@@ -148,7 +148,7 @@ def test_a_held_catalogue_is_locked_after_the_timeout(path: Path) -> None:
     other = connect(path, "rw")
     other.execute("BEGIN IMMEDIATE")
     with open_catalogue(path, busy_timeout_s=0.05) as catalogue:
-        assert len(catalogue.records()) == 2, "readers go on while another one writes"
+        assert len(catalogue.lasts().records) == 2, "readers go on while another one writes"
     with (
         pytest.raises(CatalogueLocked, match="another program"),
         open_catalogue(path, write=True, busy_timeout_s=0.05),
@@ -223,7 +223,8 @@ def without_rights(function: Callable[[], str]) -> str:
 
 def read(path: Path) -> str:
     with open_catalogue(path) as catalogue:
-        return f"{len(catalogue.records())} lasts, {len(catalogue.mesh_copy('last-0').data)} bytes"
+        lasts, copy = catalogue.lasts().records, catalogue.mesh_copy("last-0")
+        return f"{len(lasts)} lasts, {len(copy.data)} bytes"
 
 
 def write(path: Path) -> str:

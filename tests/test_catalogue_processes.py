@@ -59,7 +59,7 @@ def content(path: Path) -> object:
     with open_catalogue(path) as catalogue:
         copies = [catalogue.mesh_copy(name) for name in catalogue.names()]
         assert catalogue.findings() == []
-        return records.plain((catalogue.records(), catalogue.reference(), copies))
+        return records.plain((catalogue.lasts().records, catalogue.reference(), copies))
 
 
 @pytest.mark.parametrize("torn", ["no page", "page 1", "every changed page"])

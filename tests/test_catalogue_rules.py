@@ -171,8 +171,8 @@ def test_each_table_is_looked_at(stored: LastRows) -> None:
 
 
 def test_a_name_that_came_meanwhile_is_not_taken(tmp_path: Path) -> None:
-    from footfit.catalogue.file.copying import give_name
     from footfit.errors import OutputExists
+    from footfit.whole_files import give_name
 
     ours, theirs = tmp_path / "ours.partial", tmp_path / "backup.footfit"
     ours.write_text("ours")

@@ -116,7 +116,7 @@ def test_a_catalogue_that_lacks_a_column_can_be_checked(path: Path) -> None:
     with open_catalogue(path) as catalogue:
         assert [finding.code for finding in catalogue.findings()] == ["schema"]
         with pytest.raises(CatalogueDamaged, match="column"):
-            catalogue.records()
+            catalogue.lasts()
 
 
 def test_the_known_revisions_are_the_scripts() -> None:
@@ -164,7 +164,7 @@ def test_a_write_through_a_reader_is_impossible(path: Path) -> None:
 def test_an_older_schema_is_upgraded_with_a_copy_beside(path: Path, tmp_path: Path) -> None:
     before = path.read_bytes()
     with open_catalogue(path) as catalogue:
-        old = [str(record) for record in catalogue.records()]
+        old = [str(record) for record in catalogue.lasts().records]
     newer = later_schema(tmp_path / "migrations")
     with (
         pytest.raises(CatalogueUnusable, match="upgrade-catalogue"),
@@ -176,10 +176,10 @@ def test_an_older_schema_is_upgraded_with_a_copy_beside(path: Path, tmp_path: Pa
         assert catalogue.revisions == Revisions("0001", "0002", str(copy_path(path, "0001")))
         assert catalogue.summary().schema_revision == "0002"
         assert catalogue.findings() == [], "a column more leaves every hash as it was"
-        assert [str(record) for record in catalogue.records()] == old
+        assert [str(record) for record in catalogue.lasts().records] == old
         assert catalogue.summary().mesh_copies == 3, "foreign keys on would have deleted them"
     with open_catalogue(copy_path(path, "0001")) as copy:
-        assert [str(record) for record in copy.records()] == old
+        assert [str(record) for record in copy.lasts().records] == old
         assert copy.findings() == []
 
 

@@ -44,7 +44,9 @@ def catalogue(path: Path) -> Iterator[Catalogue]:
 def content(catalogue: Catalogue) -> list[object]:
     """All that a catalogue holds, in a form that can be compared."""
     copies = [catalogue.mesh_copy(name) for name in catalogue.names()]
-    return [records.plain(value) for value in (catalogue.records(), catalogue.reference(), copies)]
+    return [
+        records.plain(value) for value in (catalogue.lasts().records, catalogue.reference(), copies)
+    ]
 
 
 def test_what_is_added_comes_back_but_for_its_folder(catalogue: Catalogue) -> None:
@@ -119,7 +121,7 @@ def test_set_reference_expresses_every_last_by_it(catalogue: Catalogue, name: st
     assert reference.last == name
     np.testing.assert_allclose(reference.om_e @ reference.om_e.T, np.eye(3), atol=EXACT)
     assert np.linalg.det(reference.om_e) == pytest.approx(1.0)
-    for record in catalogue.records():
+    for record in catalogue.lasts().records:
         transform = record.paper_transform
         assert transform is not None
         frame, scale = record.printed_frame, record.info.unit_scale
@@ -250,7 +252,7 @@ def test_the_reference_and_a_parent_are_not_removed(catalogue: Catalogue) -> Non
 
 
 def content_without_meshes(catalogue: Catalogue) -> object:
-    return records.plain((catalogue.records(), catalogue.reference()))
+    return records.plain((catalogue.lasts().records, catalogue.reference()))
 
 
 def test_removing_takes_every_row_of_a_last(catalogue: Catalogue) -> None:

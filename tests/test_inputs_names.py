@@ -59,7 +59,7 @@ def hostile(stocked: Path, tmp_path_factory) -> Path:
 
     path = Path(shutil.copy(stocked, tmp_path_factory.mktemp("hostile") / "lasts.footfit"))
     with open_catalogue(path, write=True) as catalogue:
-        old = [record.labels.name for record in catalogue.records()]
+        old = [record.labels.name for record in catalogue.lasts().records]
         for before, after in zip(old, NAMES, strict=False):
             with suppress(FootfitError):  # refused is right too
                 catalogue.rename(before, after)

@@ -409,7 +409,7 @@ def test_lasts_that_were_measured_otherwise_are_said(stocked: Any, tmp_path: Pat
     shutil.copy(stocked, path)
     assert choice(path, None, None).warnings == ()
     with open_catalogue(path, write=True) as catalogue:
-        (old,) = (one for one in catalogue.records() if one.labels.name == "derby-40")
+        (old,) = (one for one in catalogue.lasts().records if one.labels.name == "derby-40")
         rows = [replace(row, definition=f"{row.name}/0") for row in old.measures]
         older = replace(old, measures=tuple(rows))
         catalogue.add(older, catalogue.mesh_copy("derby-40"), replace=True)

@@ -22,7 +22,7 @@ from footfit.pipeline.library.upgrade import upgrade
 
 def test_profiles_of_another_definition_are_recomputed_and_marked(catalogue: Path) -> None:
     with open_catalogue(catalogue, write=True) as opened:
-        record = opened.records()[0]
+        record = opened.lasts().records[0]
         definition = replace(record.flare.definition, version="flare/0", band_height=0.2)
         older = replace(record.flare, definition=definition, angle_deg=99.0)
         opened.update_profile(replace(record, flare=older))
@@ -48,7 +48,7 @@ def test_a_parameter_more_or_less_is_another_definition_whatever_its_version(
     stored = {**json.loads(definition_text(FlareDefinition())), **other}
     text = json.dumps({name: value for name, value in stored.items() if value is not None})
     with open_catalogue(catalogue, write=True) as opened:
-        record = opened.records()[0]
+        record = opened.lasts().records[0]
         with opened.file.atomic() as connection:
             key = last_id(driver_of(connection), record.labels.name)
             update_row(connection, FLARE, key, {"definition": text, "angle_deg": 19.0})
@@ -68,7 +68,7 @@ def test_measures_of_older_definitions_are_taken_anew_and_the_profile_stays(
     catalogue: Path,
 ) -> None:
     with open_catalogue(catalogue, write=True) as opened:
-        record, other = opened.records()[:2]
+        record, other = opened.lasts().records[:2]
         name = record.labels.name
         stale = [replace(record.measures[0], definition="length/1"), *record.measures[2:]]
         opened.update_profile(replace(record, measures=tuple(stale)))

@@ -21,7 +21,7 @@ from footfit.catalogue.rows.reference_last import (
     stored_reference,
 )
 from footfit.catalogue.rows.requirements import place_of, require_removable, require_storable
-from footfit.catalogue.rows.search import SearchRows, all_records, search_rows
+from footfit.catalogue.rows.search import StoredLasts, verified_records
 from footfit.catalogue.rows.summary import summary
 from footfit.catalogue.rows.verified_rows import (
     intact_last,
@@ -119,17 +119,10 @@ class Catalogue:
             stored = intact_last(connection, last_id(connection, name))
             return record_of(stored, last_names(connection))
 
-    def records(self) -> tuple[LastRecord, ...]:
-        """Every intact last, by name; :meth:`rows_for_search` also names the damaged ones."""
+    def lasts(self, style: str | None = None, size_system: str | None = None) -> StoredLasts:
+        """Every intact last that has these labels, by name; no mesh is read."""
         with self.file.reading() as connection:
-            return tuple(all_records(connection))
-
-    def rows_for_search(
-        self, style: str | None = None, size_system: str | None = None
-    ) -> SearchRows:
-        """The lasts to rank that have these labels; no mesh is read."""
-        with self.file.reading() as connection:
-            return search_rows(connection, style=style, size_system=size_system)
+            return verified_records(connection, style=style, size_system=size_system)
 
     def reference(self) -> Reference | None:
         """The reference last; None in an empty catalogue.

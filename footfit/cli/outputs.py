@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import os
-import tempfile
 from collections.abc import Callable, Iterable, Sized
 from dataclasses import dataclass
 from pathlib import Path
@@ -11,8 +9,9 @@ from typing import Any
 
 from footfit.cli.console import answer
 from footfit.cli.options import STDOUT
-from footfit.errors import BadOption, OutputExists
+from footfit.errors import BadOption
 from footfit.pipeline.export import file_kind
+from footfit.whole_files import give_name, partial_beside, require_free, sync
 
 
 @dataclass(frozen=True, slots=True)
@@ -100,20 +99,11 @@ def refuse_existing(path: Path | None, *, force: bool, kinds: tuple[str, ...] = 
     if path is None:
         return
     try:
-        _refuse(path, force=force)
+        require_free(path, replace=force)
     except OSError as error:  # such as a name that is too long
         raise BadOption(f"cannot be written: {error.strerror}", str(path)) from error
     if kinds:
         file_kind(path, kinds)
-
-
-def _refuse(path: Path, *, force: bool) -> None:
-    if path.is_dir():
-        raise BadOption("is a folder; name a file in it", str(path))
-    if not path.parent.is_dir():
-        raise BadOption(f"the folder {path.parent} does not exist; make it first", str(path))
-    if path.exists() and not force:
-        raise OutputExists("exists; add --force to replace it", str(path))
 
 
 def write_output(path: Path, data: bytes | str, *, force: bool) -> None:
@@ -125,32 +115,10 @@ def write_output(path: Path, data: bytes | str, *, force: bool) -> None:
         As `refuse_existing`; also if the system refuses to write.
     """
     refuse_existing(path, force=force)
-    content = data.encode("utf-8") if isinstance(data, str) else data
     try:
-        handle, name = tempfile.mkstemp(dir=path.parent, prefix=f".{path.name}.", suffix=".part")
+        with partial_beside(path) as partial:
+            partial.write_bytes(data.encode("utf-8") if isinstance(data, str) else data)
+            sync(partial)
+            give_name(partial, path, replace=force)
     except OSError as error:
         raise BadOption(f"cannot be written: {error.strerror}", str(path)) from error
-    beside = Path(name)
-    try:
-        with os.fdopen(handle, "wb") as file:
-            file.write(content)
-            file.flush()
-            os.fsync(file.fileno())
-        beside.chmod(0o666 & ~_umask())
-        if force:
-            beside.replace(path)
-        else:  # a file that came meanwhile is not ours to replace: link refuses, rename does not
-            os.link(beside, path)
-    except FileExistsError as error:
-        raise OutputExists("exists; add --force to replace it", str(path)) from error
-    except OSError as error:
-        raise BadOption(f"cannot be written: {error.strerror}", str(path)) from error
-    finally:
-        beside.unlink(missing_ok=True)
-
-
-def _umask() -> int:
-    """The process's umask, which can only be read by setting it."""
-    mask = os.umask(0)
-    os.umask(mask)
-    return mask

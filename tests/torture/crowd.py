@@ -62,7 +62,7 @@ def _reader(path: Path) -> Child:
         while not path.with_name("done").exists():
             try:
                 with open_catalogue(path) as catalogue:
-                    rows = catalogue.rows_for_search()
+                    rows = catalogue.lasts()
             except NoCatalogue:
                 if seen:
                     return 1

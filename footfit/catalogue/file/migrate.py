@@ -8,10 +8,11 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from footfit.catalogue.file.copying import copy_into, give_name, partial_beside
+from footfit.catalogue.file.copying import copy_into, partial_beside
 from footfit.catalogue.file.engine import connect, engine_on
 from footfit.catalogue.file.file_signature import SIGNATURE
 from footfit.errors import CatalogueDamaged, CatalogueUnusable, NewerCatalogue
+from footfit.whole_files import give_name
 
 if TYPE_CHECKING:
     from sqlalchemy import Connection

@@ -7,7 +7,7 @@ the new one, and a kill or a power cut leaves the old one or the new one.
 
 from __future__ import annotations
 
-import os
+import shutil
 import sqlite3
 import time
 from collections.abc import Callable
@@ -15,12 +15,7 @@ from contextlib import closing
 from pathlib import Path
 from typing import BinaryIO
 
-from footfit.catalogue.file.copying import (
-    give_name,
-    partial_beside,
-    sync,
-    system_errors_in_words,
-)
+from footfit.catalogue.file.copying import partial_beside, system_errors_in_words
 from footfit.catalogue.file.descriptors import byte_reader
 from footfit.catalogue.file.engine import (
     HELD,
@@ -32,6 +27,7 @@ from footfit.catalogue.file.file_signature import NOT_A_CATALOGUE
 from footfit.catalogue.file.migrate import Schema, stored_revision
 from footfit.catalogue.file.opening import recovered_kind
 from footfit.errors import CatalogueDamaged, CatalogueLocked, NewerCatalogue, NotACatalogue
+from footfit.whole_files import give_name, sync
 
 KEPT = "before-restore"
 MOVE_AWAY = "move the file away, then try again"
@@ -138,10 +134,8 @@ def _write_copy(old: BinaryIO, kept: Path) -> None:
     old.seek(0)
     with partial_beside(kept) as partial:
         with partial.open("wb") as file:
-            while block := old.read(1 << 20):
-                file.write(block)
-            file.flush()
-            os.fsync(file.fileno())
+            shutil.copyfileobj(old, file)
+        sync(partial)
         give_name(partial, kept, replace=True)
 
 

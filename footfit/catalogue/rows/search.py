@@ -9,18 +9,19 @@ from dataclasses import dataclass
 
 from footfit.catalogue.rows.array_blobs import definition_text
 from footfit.catalogue.rows.records import record_of
-from footfit.catalogue.rows.verified_rows import LastRows, last_names, stored_lasts
+from footfit.catalogue.rows.verified_rows import last_names, stored_lasts
 from footfit.geometry.flare.definition import FlareDefinition
 from footfit.results import LastRecord
 
 
 @dataclass(frozen=True, slots=True)
-class SearchRows:
-    """The lasts to rank, by name, and the lasts that were left out.
+class StoredLasts:
+    """The intact lasts that pass the filters, by name, and what is to be said of the others.
 
-    ``rejected`` counts them by filter. ``damaged`` names the lasts whose rows are not what was
-    stored, and ``outdated`` those whose profile follows another flare definition than this
-    footfit's (``upgrade-catalogue`` makes a new one): these two cannot be ranked.
+    ``rejected`` counts the lasts that do not pass, by filter. ``damaged`` names the lasts whose
+    rows are not what was stored. ``outdated`` names those of ``records`` whose profile follows
+    another flare definition than this footfit's: they cannot be ranked (``upgrade-catalogue``
+    makes a new profile).
     """
 
     records: tuple[LastRecord, ...]
@@ -29,38 +30,25 @@ class SearchRows:
     outdated: tuple[str, ...]
 
 
-def sorted_lasts(connection: sqlite3.Connection) -> tuple[list[LastRows], list[str]]:
-    """The intact lasts by name, and the names of the damaged ones."""
-    lasts = stored_lasts(connection)
-    verdicts = [(stored, stored.intact) for stored in lasts]
-    intact = sorted((s for s, good in verdicts if good), key=lambda s: s.name)
-    return intact, sorted(s.name for s, good in verdicts if not good)
-
-
-def all_records(connection: sqlite3.Connection) -> list[LastRecord]:
-    """The records of all intact lasts, by name."""
+def verified_records(connection: sqlite3.Connection, **filters: str | None) -> StoredLasts:
+    """The lasts that pass the filters (see :func:`rejection`)."""
     names = last_names(connection)
-    return [record_of(stored, names) for stored in sorted_lasts(connection)[0]]
-
-
-def search_rows(connection: sqlite3.Connection, **filters: str | None) -> SearchRows:
-    """The lasts that pass the filters (see :func:`rejection`) and can be ranked."""
-    names = last_names(connection)
-    intact, damaged = sorted_lasts(connection)
     current = definition_text(FlareDefinition())
-    records, outdated, rejected = [], [], []
-    for stored in intact:
+    records, rejected, damaged, outdated = [], [], [], []
+    for stored in sorted(stored_lasts(connection), key=lambda stored: stored.name):
+        if not stored.intact:
+            damaged.append(stored.name)
+            continue
         record = record_of(stored, names)
         reason = rejection(record, filters)
         if reason is not None:
             rejected.append(reason)
-        elif stored.definition != current:
-            outdated.append(record.labels.name)
-        else:
-            records.append(record)
-    return SearchRows(
-        tuple(records), tuple(sorted(Counter(rejected).items())), tuple(damaged), tuple(outdated)
-    )
+            continue
+        records.append(record)
+        if stored.definition != current:
+            outdated.append(stored.name)
+    counts = sorted(Counter(rejected).items())
+    return StoredLasts(tuple(records), tuple(counts), tuple(damaged), tuple(outdated))
 
 
 def rejection(record: LastRecord, filters: Mapping[str, str | None]) -> str | None:

@@ -5,14 +5,15 @@ from __future__ import annotations
 import dataclasses
 from pathlib import Path
 
-from footfit.catalogue.file.copying import give_name, partial_beside
+from footfit.catalogue.file.copying import partial_beside
 from footfit.catalogue.file.engine import SETTINGS
 from footfit.catalogue.file.migrate import copy_path
 from footfit.catalogue.file.restoring import put_in_place
 from footfit.catalogue.store import open_catalogue
-from footfit.errors import BadOption, NoCatalogue, OutputExists, UnreadableFile
+from footfit.errors import BadOption, NoCatalogue, UnreadableFile
 from footfit.pipeline.library.check import check, require_sound
 from footfit.results import BackupOutcome, CheckOutcome, RestoreOutcome
+from footfit.whole_files import give_name, require_free
 
 NO_BACKUP = "no backup was made; see footfit check-catalogue"
 NOT_RESTORED = "nothing was restored; the catalogue is as it was"
@@ -32,7 +33,8 @@ def back_up(path: Path, backup: Path, *, replace: bool = False) -> BackupOutcome
     NoCatalogue, CatalogueUnusable
         There is no catalogue; it cannot be read, or the backup cannot be written.
     """
-    _require_target(path, backup, replace=replace)
+    _refuse_itself(path, backup, "name another file")
+    require_free(backup, replace=replace)
     with open_catalogue(path, older=True) as catalogue, partial_beside(backup) as partial:
         catalogue.copy_to(partial)
         outcome = _require_sound_copy(partial, path, NO_BACKUP)
@@ -55,8 +57,7 @@ def restore(path: Path, backup: Path) -> RestoreOutcome:
     CatalogueUnusable
         The backup, or the file in the catalogue's place, is no catalogue or cannot be used.
     """
-    if path.exists() and backup.exists() and path.samefile(backup):
-        raise BadOption("is the catalogue itself; name a backup of it", str(backup))
+    _refuse_itself(path, backup, "name a backup of it")
     try:
         require_sound(check(backup), NOT_RESTORED)
         path.parent.mkdir(parents=True, exist_ok=True)
@@ -74,17 +75,9 @@ def restore(path: Path, backup: Path) -> RestoreOutcome:
     )
 
 
-def _require_target(path: Path, backup: Path, *, replace: bool) -> None:
-    if backup.is_dir():
-        raise BadOption("is a folder; name a file in it", str(backup))
-    if not backup.parent.is_dir():
-        raise BadOption(f"the folder {backup.parent} does not exist; make it first", str(backup))
-    if not backup.exists():
-        return
-    if path.exists() and path.samefile(backup):
-        raise BadOption("is the catalogue itself; name another file", str(backup))
-    if not replace:
-        raise OutputExists("exists; add --force to replace it", str(backup))
+def _refuse_itself(path: Path, backup: Path, instead: str) -> None:
+    if path.is_file() and backup.exists() and path.samefile(backup):
+        raise BadOption(f"is the catalogue itself; {instead}", str(backup))
 
 
 def _require_sound_copy(copy: Path, original: Path, otherwise: str) -> CheckOutcome:

@@ -199,7 +199,7 @@ def ingest(
         The catalogue cannot be opened or written.
     """
     with nullcontext() if dry_run else open_catalogue(path, write=True) as catalogue:
-        holdings = Holdings(_stored_lasts(path) if catalogue is None else catalogue.records())
+        holdings = Holdings(_stored_lasts(path) if catalogue is None else catalogue.lasts().records)
         known = frozenset() if replace else frozenset(holdings.by_content)
         for work in outcomes(partial(new_last, known=known), batch, jobs):
             with hold_signals():
@@ -211,7 +211,7 @@ def _stored_lasts(path: Path) -> Sequence[LastRecord]:
     """The lasts of a catalogue; none if there is no catalogue."""
     try:
         with open_catalogue(path) as catalogue:
-            return catalogue.records()
+            return catalogue.lasts().records
     except NoCatalogue:
         return ()
 
@@ -240,7 +240,7 @@ def _store(
             try:
                 catalogue.add(new.record, new.copy, replace=replace)
             except NameTaken:  # another process stored it meanwhile: look again, and say so
-                holdings = Holdings(catalogue.records())
+                holdings = Holdings(catalogue.lasts().records)
                 status = holdings.status(new.sha256, entry, replace=replace)
                 return _success(path, status, holdings.by_name[name])
         holdings.put(new.record)

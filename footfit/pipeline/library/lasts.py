@@ -23,13 +23,12 @@ def list_lasts(path: Path) -> Library:
         There is no catalogue, or it cannot be read.
     """
     with open_catalogue(path) as catalogue:
-        records, names, reference = catalogue.records(), catalogue.names(), _reference(catalogue)
-    intact = {record.labels.name for record in records}
+        stored, reference = catalogue.lasts(), _reference(catalogue)
     return Library(
-        lasts=records,
-        total=len(names),
+        lasts=stored.records,
+        total=len(stored.records) + len(stored.damaged),
         reference=reference,
-        warnings=tuple(_damaged(name) for name in names if name not in intact),
+        warnings=tuple(map(_damaged, stored.damaged)),
     )
 
 
@@ -71,17 +70,17 @@ def library(path: Path, style: str | None = None, size_system: str | None = None
         total = len(catalogue.names())
         if not total:
             raise EmptyCatalogue(f"the catalogue holds no last; {FIRST_STEPS}", str(path))
-        rows = catalogue.rows_for_search(style=style, size_system=size_system)
-        reference = _reference(catalogue)
+        stored, reference = catalogue.lasts(style, size_system), _reference(catalogue)
+    current = tuple(r for r in stored.records if r.labels.name not in stored.outdated)
     return Library(
-        lasts=rows.records,
+        lasts=current,
         total=total,
         reference=reference,
-        rejected=rows.rejected,
+        rejected=stored.rejected,
         warnings=(
-            *(_damaged(name) for name in rows.damaged),
-            *(_outdated(name) for name in rows.outdated),
-            *_other_measures(rows.records),
+            *map(_damaged, stored.damaged),
+            *map(_outdated, stored.outdated),
+            *_other_measures(current),
         ),
     )
 

@@ -28,14 +28,15 @@ def upgrade(path: Path) -> UpgradeOutcome:
     """
     definition = FlareDefinition()
     with open_catalogue(path, write=True, create=False) as catalogue:
-        outdated = catalogue.rows_for_search().outdated
+        stored = catalogue.lasts()
         older = [
             record
-            for record in catalogue.records()
-            if record.labels.name in outdated or has_other_measures(record)
+            for record in stored.records
+            if record.labels.name in stored.outdated or has_other_measures(record)
         ]
         for record in older:
-            _renew(catalogue, record, definition if record.labels.name in outdated else None)
+            outdated = record.labels.name in stored.outdated
+            _renew(catalogue, record, definition if outdated else None)
         revisions = catalogue.revisions
     return UpgradeOutcome(
         path=str(path),

@@ -1,0 +1,96 @@
+"""A file is written whole or not at all: it gets its name once it is complete and on the disk."""
+
+from __future__ import annotations
+
+import os
+import tempfile
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+
+from footfit.errors import BadOption, OutputExists
+
+
+def require_free(path: Path, *, replace: bool) -> None:
+    """Refuse a path that no file could be given at the end.
+
+    Raises
+    ------
+    OutputExists
+        There is a file, and it may not be replaced.
+    BadOption
+        The path is a folder, or its folder does not exist.
+    """
+    if path.is_dir():
+        raise BadOption("is a folder; name a file in it", str(path))
+    if not path.parent.is_dir():
+        raise BadOption(f"the folder {path.parent} does not exist; make it first", str(path))
+    if path.exists() and not replace:
+        raise _exists(path)
+
+
+@contextmanager
+def partial_beside(final: Path) -> Iterator[Path]:
+    """Make an empty file with a name of its own beside ``final``; remove it after the block.
+
+    Raises
+    ------
+    OSError
+        The folder is missing or takes no file.
+    """
+    prefix = f".{final.name}."
+    descriptor, name = tempfile.mkstemp(dir=final.parent, prefix=prefix, suffix=".partial")
+    os.close(descriptor)
+    partial = Path(name)
+    try:
+        partial.chmod(0o666 & ~_umask())
+        yield partial
+    finally:
+        for left in (partial, partial.with_name(f"{partial.name}-journal")):  # SQLite's journal
+            left.unlink(missing_ok=True)
+
+
+def give_name(partial: Path, final: Path, *, replace: bool) -> None:
+    """Give a complete file its final name, so that it also has it after a power cut.
+
+    Raises
+    ------
+    OutputExists
+        There is a file of that name, and it may not be replaced.
+    OSError
+        The system refuses.
+    """
+    try:
+        if replace:
+            partial.replace(final)
+        else:  # link refuses to replace a file that was made meanwhile; rename does not
+            os.link(partial, final)
+    except FileExistsError as error:
+        raise _exists(final) from error
+    sync(final.parent)
+
+
+def sync(path: Path) -> None:
+    """Wait until a file, or the list of names in a folder, is on the disk.
+
+    Raises
+    ------
+    OSError
+        The disk does not take it.
+    """
+    descriptor = os.open(path, os.O_RDONLY)
+    try:
+        os.fsync(descriptor)
+    finally:
+        os.close(descriptor)
+
+
+def _exists(path: Path) -> OutputExists:
+    return OutputExists("exists; add --force to replace it", str(path))
+
+
+def _umask() -> int:
+    """The process's umask, which can only be read by setting it."""
+    mask = os.umask(0)
+    os.umask(mask)
+    return mask
