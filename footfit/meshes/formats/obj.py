@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from footfit.errors import DamagedMesh
 from footfit.geometry.numeric.arrays import Bools, Floats, Ints
-from footfit.meshes.formats.polygons import fans
+from footfit.meshes.formats.polygons import polygon_triangles
 from footfit.meshes.formats.raw import RawMesh, check_counts
 from footfit.meshes.formats.tokens import (
     Lines,
@@ -35,7 +35,7 @@ def is_obj(data: bytes) -> bool:
 
 
 def read_obj(data: bytes, limits: Limits) -> RawMesh:
-    """The vertices and faces of an OBJ file; polygons become fans, groups are one mesh.
+    """The vertices and faces of an OBJ file; polygons become triangles, groups are one mesh.
 
     Raises
     ------
@@ -54,7 +54,8 @@ def read_obj(data: bytes, limits: Limits) -> RawMesh:
     named = _TEXTURE_AND_NORMAL.sub(b"", _text_of(rows, is_face))
     indices = integers(named, int(sizes.sum()))
     known = np.repeat(np.cumsum(is_vertex, dtype=np.int64)[is_face], sizes)
-    return RawMesh(vertices, fans(_absolute(indices, known), sizes, limits))
+    corners = _absolute(indices, known)
+    return RawMesh(vertices, *polygon_triangles(vertices, corners, sizes, limits))
 
 
 def _starting_with(rows: Lines, keyword: bytes) -> Bools:

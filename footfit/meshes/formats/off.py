@@ -8,7 +8,7 @@ import numpy as np
 
 from footfit.errors import DamagedMesh
 from footfit.geometry.numeric.arrays import Floats, Ints
-from footfit.meshes.formats.polygons import fans, whole
+from footfit.meshes.formats.polygons import polygon_triangles, whole
 from footfit.meshes.formats.raw import RawMesh, check_counts
 from footfit.meshes.formats.tokens import coordinates, floats, text_lines, unix_text
 from footfit.meshes.read_limits import Limits
@@ -25,7 +25,7 @@ def is_off(data: bytes) -> bool:
 
 
 def read_off(data: bytes, limits: Limits) -> RawMesh:
-    """The vertices and faces of an OFF file; polygons become fans, colours are ignored.
+    """The vertices and faces of an OFF file; polygons become triangles, colours are ignored.
 
     Raises
     ------
@@ -52,7 +52,8 @@ def read_off(data: bytes, limits: Limits) -> RawMesh:
     after = 1 + n_vertices
     vertices = coordinates(values, rows.first[1:after], rows.counts[1:after])
     ends = slice(after, after + n_faces)
-    return RawMesh(vertices, _faces(values, rows.first[ends], rows.counts[ends], limits))
+    corners, sizes = _polygons(values, rows.first[ends], rows.counts[ends])
+    return RawMesh(vertices, *polygon_triangles(vertices, corners, sizes, limits))
 
 
 def _numbers_of(data: bytes) -> bytes:
@@ -66,10 +67,11 @@ def _count(value: float) -> int:
     return int(value)
 
 
-def _faces(values: Floats, first: Ints, counts: Ints, limits: Limits) -> Ints:
+def _polygons(values: Floats, first: Ints, counts: Ints) -> tuple[Ints, Ints]:
+    """The corners of all faces, end to end, and how many each face has."""
     corners = values[first]
     if not ((corners >= 0) & (corners <= counts - 1)).all():
         raise DamagedMesh("a face of the OFF file lacks a corner: export it again")
     sizes = corners.astype(np.int64)
     step = np.arange(int(sizes.sum())) - np.repeat(np.cumsum(sizes) - sizes, sizes)
-    return fans(whole(values[np.repeat(first + 1, sizes) + step]), sizes, limits)
+    return whole(values[np.repeat(first + 1, sizes) + step]), sizes

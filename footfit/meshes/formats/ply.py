@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from footfit.errors import DamagedMesh
 from footfit.geometry.numeric.arrays import Floats, Ints
-from footfit.meshes.formats.polygons import fans, whole
+from footfit.meshes.formats.polygons import polygon_triangles, whole
 from footfit.meshes.formats.raw import RawMesh, check_counts, doubles
 from footfit.meshes.formats.tokens import floats, unix_text, word_offsets
 from footfit.meshes.read_limits import Limits
@@ -62,7 +62,7 @@ def is_ply(data: bytes) -> bool:
 
 
 def read_ply(data: bytes, limits: Limits) -> RawMesh:
-    """The vertices and faces of a PLY file; polygons become fans, other elements are ignored.
+    """The vertices and faces of a PLY file; polygons become triangles, other elements are ignored.
 
     Raises
     ------
@@ -85,7 +85,9 @@ def read_ply(data: bytes, limits: Limits) -> RawMesh:
         rows, offset = _rows(body, offset, element)
         columns[element.name] = rows
         missing = missing - {element.name}
-    return RawMesh(_vertices(columns["vertex"]), _faces(columns["face"], limits))
+    vertices = _vertices(columns["vertex"])
+    corners, sizes = _polygons(columns["face"])
+    return RawMesh(vertices, *polygon_triangles(vertices, corners, sizes, limits))
 
 
 def _numbers_as_doubles(text: bytes) -> bytes:
@@ -245,10 +247,11 @@ def _vertices(columns: dict[str, _Column]) -> Floats:
     return np.stack([doubles(axis.values) for axis in axes], axis=1)
 
 
-def _faces(columns: dict[str, _Column], limits: Limits) -> Ints:
+def _polygons(columns: dict[str, _Column]) -> tuple[Ints, Ints]:
+    """The corners of all faces, end to end, and how many each face has."""
     if not columns:
-        return np.empty((0, 3), dtype=np.int64)
+        return np.empty(0, dtype=np.int64), np.empty(0, dtype=np.int64)
     corners = next((columns[name] for name in _INDEX_LISTS if name in columns), None)
     if corners is None or corners.counts is None:
         raise DamagedMesh("the faces of the PLY file name no vertices: export it again")
-    return fans(whole(corners.values), corners.counts, limits)
+    return whole(corners.values), corners.counts

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 import warnings
 from dataclasses import dataclass
 from typing import TypeVar
@@ -15,6 +16,7 @@ from footfit.geometry.numeric.arrays import Floats, Ints
 BLANK = 32
 """A space; every character up to it counts as white space."""
 _NEWLINE = 10
+_DECIMAL_COMMA = re.compile(rb"(?<!\S)[-+]?\d*,\d+(?:[eE][-+]?\d+)?(?!\S)")
 _Number = TypeVar("_Number", np.float64, np.int64)
 
 
@@ -118,9 +120,19 @@ def _numbers(text: bytes, count: int, dtype: type[_Number]) -> NDArray[_Number]:
             warnings.simplefilter("error", DeprecationWarning)  # so older NumPy says "not a number"
             values = np.fromstring(text, dtype=dtype, sep=" ")
     except (ValueError, DeprecationWarning) as error:
-        raise DamagedMesh(
-            "the file has a word where a number belongs: export the mesh again"
-        ) from error
+        raise DamagedMesh(_bad_number(text)) from error
     if len(values) != count:
         raise DamagedMesh("two numbers of the file are not separated: export the mesh again")
     return values
+
+
+def _bad_number(text: bytes) -> str:
+    """What is wrong with a text in which a word is not a number."""
+    comma = _DECIMAL_COMMA.search(text)
+    if comma is None:
+        return "the file has a word where a number belongs: export the mesh again"
+    number = comma[0].decode("ascii")[:40]
+    return (
+        f"the file writes numbers with a decimal comma, such as {number}: set the exporter to a"
+        " decimal point, or replace the commas in the file by points"
+    )
