@@ -1,10 +1,10 @@
-"""How high a heel stands by the trial of ``tools.stance``, on two families of lasts.
+"""How high a heel stands by ``footfit.geometry.stance``, on two families of lasts.
 
     python -m benchmarks.stance [--count 8] [--seed 7]
 
 The lasts lie in their resting frame, as drafted by ``tools.last_specs.wide`` and, where it stands
 beside the project, by ``../shared/tools/lasts2.py``. Errors are mm of heel height; ``sd`` is the
-mean standard deviation that the trial states.
+mean standard deviation that the stance states.
 """
 
 from __future__ import annotations
@@ -18,9 +18,9 @@ import numpy as np
 
 from benchmarks.tables import markdown
 from footfit.geometry.numeric.arrays import Floats, Ints
+from footfit.geometry.stance.ground import standing_ground
 from tools.last_specs import HEEL_BANDS_MM, STYLES, wide
 from tools.lasts import last_mesh, standing
-from tools.stance.ground import standing_ground
 
 SHARED = Path(__file__).resolve().parents[2] / "shared" / "tools"
 HIGHEST_MM = 112.0  # of lasts2

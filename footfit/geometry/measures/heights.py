@@ -8,7 +8,6 @@ import numpy as np
 
 from footfit.geometry.measures.landmarks import Shape
 from footfit.geometry.measures.measure_value import OPEN, MeasureValue, section_value
-from footfit.geometry.measures.stance import FLAT_STANCE, stance
 from footfit.geometry.measures.underside import BOTTOM, underside
 
 
@@ -53,19 +52,19 @@ def toe_spring(shape: Shape) -> MeasureValue:
 
     A foot's ground is the contact plane; a last's is the ground that it stands on.
     """
-    standing = FLAT_STANCE if shape.kind == "foot" else stance(shape)
     section = shape.across(HEIGHTS.toe_spring)
-    if standing is None or shape.opened(section):
+    if shape.stance is None or shape.opened(section):
         return MeasureValue(None, NO_SOLE.format(place="toes or the ball"))
     x_mm, z_mm = shape.x_mm(HEIGHTS.toe_spring), float(section.points[:, 1].min())
-    return MeasureValue(standing.ground.under_mm(x_mm, z_mm))
+    return MeasureValue(shape.stance.over_ground_mm(x_mm, z_mm))
 
 
 def heel_height(shape: Shape) -> MeasureValue:
-    """How high a last's heel stands as its tread lies level: the seat's line at the pternion."""
+    """How high a last's heel stands when its tread lies level: the seat's line at the rearmost
+    point along the ground.
+    """
     if shape.kind == "foot":
         return MeasureValue(None, FLAT)
-    standing = stance(shape)
-    if standing is None:
-        return MeasureValue(None, NO_SOLE.format(place="heel or the ball"))
-    return MeasureValue(standing.heel_mm)
+    heel_mm = None if shape.stance is None else shape.stance.heel_mm()
+    reason = NO_SOLE.format(place="heel or the ball") if heel_mm is None else None
+    return MeasureValue(heel_mm, reason)

@@ -15,6 +15,7 @@ from footfit.geometry.measures.top_cut import top_cut_faces
 from footfit.geometry.mesh.outermost_point import Tip, tip
 from footfit.geometry.mesh.outlines import Outline, outline
 from footfit.geometry.numeric.arrays import Bools, Floats, Ints
+from footfit.geometry.stance.stance import Stance, stance_of
 
 AXES = np.eye(3)
 BACK_AND_DOWN = np.array([-1.0, 0.0, -1.0]) / np.sqrt(2.0)
@@ -85,6 +86,11 @@ class Shape:
     def heel_base(self) -> Floats:
         """Where the heel's back turns into its bottom: the point farthest back and down, (3,)."""
         return tip(self.vertices_mm, self.low, BACK_AND_DOWN, self.length_mm).place
+
+    @cached_property
+    def stance(self) -> Stance | None:
+        """How it stands; None if a last's bottom is open or has no tread."""
+        return stance_of(self.vertices_mm, self.faces, self.kind)
 
     # ------------------------------------------------------------ the ball
 

@@ -2,7 +2,7 @@
 
 Heel height and toe spring trade one against the other, and a last has no mark of how it stands.
 Two cues are combined by their own uncertainties: a model of the whole bottom
-(:mod:`tools.stance.tread_fit`), and the mean slope near the tread's usual place.
+(:mod:`footfit.geometry.stance.tread_fit`), and the mean slope near the tread's usual place.
 """
 
 from __future__ import annotations
@@ -12,8 +12,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from footfit.geometry.numeric.arrays import Floats, Ints
-from tools.stance.middle_line import MiddleLine, MiddleLines
-from tools.stance.tread_fit import (
+from footfit.geometry.stance.middle_line import MiddleLine, MiddleLines
+from footfit.geometry.stance.tread_fit import (
     TREAD_FIT,
     TreadFit,
     fitted_tread,

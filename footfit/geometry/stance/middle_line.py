@@ -118,7 +118,7 @@ def middle_line(
         None if the bottom is open over most of the length.
     """
     points = turned(vertices_mm, ground)
-    low = _is_low(points, settings)
+    low = low_points(points, settings)
     ends = float(points[low, 0].min()), float(points[low, 0].max())
     length = ends[1] - ends[0]
     x = ends[0] + np.linspace(*settings.reach, settings.sections) * length
@@ -133,7 +133,7 @@ def middle_line(
     return MiddleLine(ground, line, ends)
 
 
-def _is_low(points: Floats, settings: MiddleLineSettings) -> Bools:
+def low_points(points: Floats, settings: MiddleLineSettings = MIDDLE_LINE) -> Bools:
     """Which points (n, 3) lie close over the bottom below them, (n,)."""
     start, length = points[:, 0].min(), np.ptp(points[:, 0])
     cell = ((points[:, 0] - start) / length * settings.cells).astype(np.int64)

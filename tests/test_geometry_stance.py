@@ -5,12 +5,12 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
+from footfit.geometry.stance.ground import standing_ground
+from footfit.geometry.stance.middle_line import middle_line, turned
 from tests.test_shapes import euler, is_closed_and_wound, volume
 from tools import last_cuts
 from tools.last_specs import HEEL_BANDS_MM, STYLES, LastSpec, wide
 from tools.lasts import last_mesh, standing
-from tools.stance.ground import standing_ground
-from tools.stance.middle_line import middle_line, turned
 
 SMALL = {"rings": 90, "segments": 64}
 HEEL_MM = 3.0  # of the mesh's seat against the drafted one, on a steep seat; measured: 2.5

@@ -18,7 +18,7 @@ import numpy as np
 
 from footfit.geometry.numeric.arrays import Floats
 from footfit.geometry.numeric.smoothing import local_quadratic
-from tools.stance.middle_line import MiddleLine
+from footfit.geometry.stance.middle_line import MiddleLine
 
 
 @dataclass(frozen=True, slots=True)

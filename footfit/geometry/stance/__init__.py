@@ -1,0 +1,1 @@
+"""How a shape stands: the ground under it, and the middle line of its bottom over that ground."""
