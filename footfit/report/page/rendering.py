@@ -68,11 +68,15 @@ def templates() -> Environment:
     """
     from jinja2 import Environment, PackageLoader, StrictUndefined
 
+    def shown(value: Any) -> Any:
+        outside = isinstance(value, str) and not hasattr(value, "__html__")
+        return text.visible(value) if outside else value
+
     environment = Environment(
         loader=PackageLoader(__package__),
         autoescape=True,
         undefined=StrictUndefined,
-        finalize=_shown,
+        finalize=shown,
         trim_blocks=True,
         lstrip_blocks=True,
         keep_trailing_newline=True,
@@ -86,13 +90,6 @@ def picture_data(figure: Figure) -> str:
     from footfit.report.pictures.figures import svg_text
 
     return base64.b64encode(svg_text(figure).encode("utf-8")).decode("ascii")
-
-
-def _shown(value: Any) -> Any:
-    """A template's value as it is written: in a string from outside, hidden characters show."""
-    return (
-        text.visible(value) if isinstance(value, str) and not hasattr(value, "__html__") else value
-    )
 
 
 @cache

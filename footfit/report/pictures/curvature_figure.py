@@ -11,7 +11,7 @@ from footfit.geometry.numeric.rotations import moved_points
 from footfit.report.pictures.figures import (
     DIVERGING,
     draw_scale_bar,
-    house_style,
+    new_figure,
     show_image,
     write_title,
 )
@@ -52,12 +52,9 @@ def curvature_figure(
         The alignment's, from the file's coordinates to canonical mm. Without one the mesh is
         drawn along its longest and shortest directions, and the views are numbered.
     """
-    from matplotlib.figure import Figure
-
     points = _drawn_points(curvature, canonical_transform)
     colours, scale = _colours(curvature.mean)
-    with house_style():
-        figure = Figure(figsize=(10.5, 6.6), layout="constrained")
+    with new_figure(10.5, 6.6) as figure:
         panels = zip(figure.subplots(2, 2).flat, PANELS.items(), strict=True)
         for number, (axes, (title, view)) in enumerate(panels, start=1):
             _draw_panel(axes, points @ view.T, curvature.faces, colours)

@@ -63,20 +63,30 @@ def house_style() -> Iterator[None]:
         yield
 
 
+@contextmanager
+def new_figure(width: float, height: float) -> Iterator[Figure]:
+    """Make a figure of this size in inches, and use the look of all pictures to draw on it."""
+    from matplotlib.figure import Figure
+
+    with house_style():
+        yield Figure(figsize=(width, height), layout="constrained")
+
+
 def svg_text(figure: Figure) -> str:
     """The figure as SVG: text is drawn as outlines; there is no date and no program's address."""
-    target = io.BytesIO()
-    with house_style():
-        nothing = dict.fromkeys(("Date", "Creator", "Format", "Type"))
-        figure.savefig(target, format="svg", metadata=nothing)
-    return target.getvalue().decode("utf-8")
+    nothing = dict.fromkeys(("Date", "Creator", "Format", "Type"))
+    return _file_of(figure, format="svg", metadata=nothing).decode("utf-8")
 
 
-def png_bytes(figure: Figure, dpi: int = 150) -> bytes:
-    """The figure as PNG."""
+def png_bytes(figure: Figure) -> bytes:
+    """The figure as PNG, 150 dots an inch."""
+    return _file_of(figure, format="png", dpi=150, metadata={"Software": None})
+
+
+def _file_of(figure: Figure, **options: Any) -> bytes:
     target = io.BytesIO()
     with house_style():
-        figure.savefig(target, format="png", dpi=dpi, metadata={"Software": None})
+        figure.savefig(target, **options)
     return target.getvalue()
 
 

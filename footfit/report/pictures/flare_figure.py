@@ -20,7 +20,7 @@ from footfit.report.pictures.figures import (
     SERIES,
     draw_scale_bar,
     hide_axes,
-    house_style,
+    new_figure,
     write_title,
 )
 from footfit.report.pictures.flare_axes import (
@@ -61,10 +61,7 @@ def flare_figure(profiled: Profiled) -> Figure:
     profiled : Profiled
         One shape with its mesh in the canonical frame, either side.
     """
-    from matplotlib.figure import Figure
-
-    with house_style():
-        figure = Figure(figsize=(11.0, 7.0), layout="constrained")
+    with new_figure(11.0, 7.0) as figure:
         grid = figure.add_gridspec(3, 2, width_ratios=(1.1, 1.4))
         colours = _draw_plan(figure.add_subplot(grid[:, 0]), profiled)
         _draw_colour_bar(figure, figure.axes[0], colours)

@@ -13,7 +13,7 @@ from footfit.report.pictures.figures import (
     SERIES,
     SKIN,
     draw_scale_bar,
-    house_style,
+    new_figure,
     show_image,
     write_title,
 )
@@ -42,8 +42,6 @@ def frames_figure(mesh: AlignedScan) -> Figure:
     mesh : AlignedScan
         Of any method: the picture shows what the alignment's own ``transform`` does.
     """
-    from matplotlib.figure import Figure
-
     alignment = mesh.alignment
     back = np.linalg.inv(alignment.canonical_transform).astype(np.float64)
     file_mm = alignment.info.unit_scale * moved_points(back, mesh.vertices_mm)
@@ -62,8 +60,7 @@ def frames_figure(mesh: AlignedScan) -> Figure:
         ("After, from above", VIEWS["from_above"], after),
         ("After, from the right", VIEWS["from_right"], after),
     )
-    with house_style():
-        figure = Figure(figsize=(10.5, 7.4), layout="constrained")
+    with new_figure(10.5, 7.4) as figure:
         for axes, (title, view, state) in zip(figure.subplots(2, 2).flat, panels, strict=True):
             points, origin, ends = (array @ view.T for array in state)
             _draw_panel(axes, (points, mesh.faces), origin, ends)

@@ -11,7 +11,7 @@ from footfit.report.pictures.drawn_outlines import SHADOW, ring, side_outline, s
 from footfit.report.pictures.figures import (
     INK,
     draw_scale_bar,
-    house_style,
+    new_figure,
     picture_bytes,
     show_image,
     write_title,
@@ -46,11 +46,8 @@ PANELS = {
 
 def heat_figure(comparison: Comparison, *, titled: bool = True) -> Figure:
     """Four views on the foot's own side; the last is the dashed line around the foot."""
-    from matplotlib.figure import Figure
-
     meshes = own_side(comparison)
-    with house_style():
-        figure = Figure(figsize=(10.5, 4.9 if titled else 4.5), layout="constrained")
+    with new_figure(10.5, 4.9 if titled else 4.5) as figure:
         grid = figure.add_gridspec(2, 3, width_ratios=(1.0, 1.0, 0.16))
         for index, (title, view) in enumerate(_views(comparison).items()):
             axes = figure.add_subplot(grid[index // 2, index % 2])

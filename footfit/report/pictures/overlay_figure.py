@@ -14,7 +14,7 @@ from footfit.report.pictures.figures import (
     SERIES,
     draw_scale_bar,
     hide_axes,
-    house_style,
+    new_figure,
     write_title,
 )
 from footfit.report.pictures.flare_axes import (
@@ -73,10 +73,7 @@ def overlay_figure(foot: Profiled, lasts: Sequence[DrawnLast], several: str) -> 
 
     Without any last the foot is drawn alone.
     """
-    from matplotlib.figure import Figure
-
-    with house_style():
-        figure = Figure(figsize=(10.5, 6.4), layout="constrained")
+    with new_figure(10.5, 6.4) as figure:
         grid = figure.add_gridspec(3, 2, width_ratios=(0.9, 1.4))
         _draw_plan(figure.add_subplot(grid[:, 0]), foot, lasts)
         _draw_side(figure.add_subplot(grid[0, 1]), foot, lasts)

@@ -14,7 +14,7 @@ from footfit.report.pictures.figures import (
     SERIES,
     draw_scale_bar,
     hide_axes,
-    house_style,
+    new_figure,
     write_title,
 )
 from footfit.report.pictures.sides import is_left
@@ -38,8 +38,6 @@ HALF_WIDTH_MM, UNDER_MM, WIDTH_INCHES = 66.0, 6.0, 10.5
 
 def section_figure(comparison: Comparison, across: int = ACROSS, *, titled: bool = True) -> Figure:
     """A panel for each station, seen from behind, all at one scale; foot filled, last a line."""
-    from matplotlib.figure import Figure
-
     mirror = 1.0 if is_left(comparison.foot) else -1.0
     sections, brief = comparison.sections, across > ACROSS
     rows = [sections[at : at + across] for at in range(0, len(sections), across)]
@@ -48,8 +46,7 @@ def section_figure(comparison: Comparison, across: int = ACROSS, *, titled: bool
     height = (0.7 if titled else 0.4) + sum(
         (0.9 if brief else 0.6) + inches * high for high in tall
     )
-    with house_style():
-        figure = Figure(figsize=(WIDTH_INCHES, height), layout="constrained")
+    with new_figure(WIDTH_INCHES, height) as figure:
         grid = figure.add_gridspec(len(rows), across, height_ratios=tall)
         for at, row in enumerate(rows):
             for column, section in enumerate(row):

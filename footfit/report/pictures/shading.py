@@ -79,65 +79,52 @@ def frame_around(points: Floats, margin: float = 0.04) -> Frame:
     return Frame(low[0] - pad, high[0] + pad, low[1] - pad, high[1] + pad)
 
 
+_PIXELS_AT_ONCE = 300_000
+
+
 def fragments(projected: Floats, faces: Ints, frame: Frame, shape: tuple[int, int]) -> Fragments:
     """The nearest face of each pixel of a (rows, columns) picture.
 
     ``projected`` (n, 3) is right, up, towards the eye, in mm. Each triangle is tested at the
-    centre of every pixel of its bounding box; boxes of like size are tested together.
+    centre of every pixel of its bounding box.
     """
     rows, columns = shape
     scale = np.array([columns / (frame.right - frame.left), rows / (frame.top - frame.bottom), 1.0])
-    pixels = (projected - [frame.left, frame.bottom, 0.0]) * scale
-    corners = pixels[faces]
-    low = np.floor(corners[:, :, :2].min(axis=1)).astype(np.int64)
-    size = np.ceil(corners[:, :, :2].max(axis=1)).astype(np.int64) - low
-    level = np.searchsorted(_BOXES, size.max(axis=1))
+    corners = ((projected - [frame.left, frame.bottom, 0.0]) * scale)[faces]
+    low, high = corners[:, :, :2].min(axis=1), corners[:, :, :2].max(axis=1)
+    low = np.maximum(np.ceil(low - 0.5).astype(np.int64), 0)
+    beyond = np.minimum(np.floor(high + 0.5).astype(np.int64), [columns, rows])
+    size = np.maximum(beyond - low, 0)
     face, weights = np.full(rows * columns, -1), np.zeros((rows * columns, 3))
     depth = np.full(rows * columns, -np.inf)
-    for box in np.unique(level):
-        for chunk in _chunks(np.flatnonzero(level == box), int(_BOXES[box]) ** 2):
-            hits = _hits(corners[chunk], low[chunk], int(_BOXES[box]), (rows, columns))
-            _keep_nearest(hits, chunk, depth, (face, weights))
+    parts = np.flatnonzero(np.diff(np.cumsum(size.prod(axis=1)) // _PIXELS_AT_ONCE)) + 1
+    for chunk in np.split(np.arange(len(faces)), parts):
+        triangle, row, column, weight = _hits(corners[chunk], low[chunk], size[chunk])
+        triangle, pixel = chunk[triangle], row * columns + column
+        height = np.einsum("ij,ij->i", weight, corners[triangle, :, 2])
+        front = np.flatnonzero(height > depth[pixel])
+        front = front[np.lexsort((-triangle[front], height[front]))]  # the nearest is last
+        pixel = pixel[front]
+        depth[pixel], face[pixel], weights[pixel] = height[front], triangle[front], weight[front]
     return Fragments(face.reshape(shape), weights.reshape(rows, columns, 3))
 
 
-_PIXELS_AT_ONCE = 1_000_000
-_BOXES = np.array([1, 2, 3, 4, 5, 6, 8, 10, 12, 16, 24, 32, 48, 64, *(2**k for k in range(7, 15))])
-
-
-def _chunks(indices: Ints, cost: int) -> list[Ints]:
-    """``indices`` in pieces whose boxes together stay within memory."""
-    return np.array_split(indices, max(1, -(-len(indices) * int(cost) // _PIXELS_AT_ONCE)))
-
-
-@dataclass(frozen=True, slots=True)
-class _Hits:
-    """Pixels inside triangles: which triangle, which pixel, how deep, with which weights."""
-
-    triangle: Ints
-    pixel: Ints
-    depth: Floats
-    weights: Floats
-
-
-def _hits(corners: Floats, low: Ints, box: int, shape: tuple[int, int]) -> _Hits:
-    """Which pixel centres of each triangle's box (box x box pixels) lie in the triangle."""
-    steps = np.arange(box)
-    columns, rows = low[:, :1] + steps, low[:, 1:] + steps
-    first, second = (_weight(corners, corner, (columns, rows)) for corner in (0, 1))
+def _hits(corners: Floats, low: Ints, size: Ints) -> tuple[Ints, Ints, Ints, Floats]:
+    """Which pixel centres of each triangle's box lie in it: triangle, row, column and weights."""
+    count = size.prod(axis=1)
+    triangle = np.repeat(np.arange(len(corners)), count)
+    place = np.arange(len(triangle)) - np.repeat(np.cumsum(count) - count, count)
+    row, column = np.divmod(place, size[triangle, 0])
+    row, column = row + low[triangle, 1], column + low[triangle, 0]
+    first, second = (_weight(corners, corner, count, (row, column)) for corner in (0, 1))
     third = 1.0 - first - second
-    inside = (first >= 0) & (second >= 0) & (third >= 0)
-    inside &= ((columns >= 0) & (columns < shape[1]))[:, None, :]
-    inside &= ((rows >= 0) & (rows < shape[0]))[:, :, None]
-    triangle, row, column = np.nonzero(inside)
-    weights = np.stack([first[inside], second[inside], third[inside]], axis=1)
-    depth = np.einsum("ij,ij->i", weights, corners[triangle, :, 2])
-    pixel = rows[triangle, row] * shape[1] + columns[triangle, column]
-    return _Hits(triangle, pixel, depth, weights)
+    inside = np.flatnonzero((first >= 0) & (second >= 0) & (third >= 0))
+    weights = np.stack([weight[inside] for weight in (first, second, third)], axis=1)
+    return triangle[inside], row[inside], column[inside], weights
 
 
-def _weight(corners: Floats, corner: int, pixels: tuple[Ints, Ints]) -> Floats:
-    """One corner's barycentric weight at each pixel centre of a box: linear in row and column.
+def _weight(corners: Floats, corner: int, count: Ints, pixels: tuple[Ints, Ints]) -> Floats:
+    """One corner's barycentric weight at the pixel centres, of which each triangle has ``count``.
 
     A triangle seen edge-on has no weights: NaN, which lies in no triangle.
     """
@@ -145,20 +132,8 @@ def _weight(corners: Floats, corner: int, pixels: tuple[Ints, Ints]) -> Floats:
     across = end - start
     area = across[:, 0] * (own[:, 1] - start[:, 1]) - across[:, 1] * (own[:, 0] - start[:, 0])
     slope = across / np.where(area == 0.0, np.nan, area)[:, None]
-    right = pixels[0] + 0.5 - start[:, :1]
-    up = pixels[1] + 0.5 - start[:, 1:]
-    weight: Floats = (slope[:, :1] * up)[:, :, None] - (slope[:, 1:] * right)[:, None, :]
-    return weight
-
-
-def _keep_nearest(hits: _Hits, chunk: Ints, depth: Floats, kept: tuple[Ints, Floats]) -> None:
-    """Write into ``depth`` and ``kept`` the hits that lie in front of what they hold."""
-    front = np.flatnonzero(hits.depth > depth[hits.pixel])
-    front = front[np.lexsort((-hits.triangle[front], hits.depth[front]))]  # the nearest is last
-    pixel = hits.pixel[front]
-    depth[pixel] = hits.depth[front]
-    kept[0][pixel] = chunk[hits.triangle[front]]
-    kept[1][pixel] = hits.weights[front]
+    right, up, x, y = np.repeat(np.column_stack([slope, start]), count, axis=0).T
+    return np.asarray(right * (pixels[0] + 0.5 - y) - up * (pixels[1] + 0.5 - x))
 
 
 def values_at(values: Floats, corners: Ints, weights: Floats) -> Floats:
@@ -206,18 +181,6 @@ def light_direction() -> Floats:
     return light
 
 
-def colours_in_light(colours: Floats, normals: Floats) -> Floats:
-    """``colours`` (p, 3) in the light; a surface seen from behind is lit as if from before.
-
-    ``normals`` (p, 3) are in view coordinates: the third is towards the eye.
-    """
-    facing = np.where(normals[:, 2] < 0, -1.0, 1.0)[:, None]
-    brightness = np.clip((facing * normals) @ light_direction(), 0.0, 1.0)
-    shade = LIGHTING.ambient + (1.0 - LIGHTING.ambient) * brightness
-    shaded: Floats = np.clip(colours * shade[..., None] * LIGHTING.gain, 0.0, 1.0)
-    return shaded
-
-
 def rows_for(frame: Frame, columns: int) -> int:
     """How many rows a picture of ``frame`` has that is ``columns`` wide."""
     return max(1, round(columns * (frame.top - frame.bottom) / (frame.right - frame.left)))
@@ -227,6 +190,8 @@ def shaded_image(
     projected: Floats, faces: Ints, frame: Frame, columns: int, colours: Floats
 ) -> Floats:
     """An RGBA picture (rows, columns, 4), first row on top, of a mesh in view coordinates.
+
+    A surface seen from behind is lit as if from before.
 
     Parameters
     ----------
@@ -245,8 +210,11 @@ def shaded_image(
     shape = (rows_for(frame, columns) * fine, columns * fine)
     seen = seen_surface(projected, faces, frame, shape, culled=is_closed(faces))
     base = colours if colours.ndim == 1 else values_at(colours, seen.corners, seen.weights)
+    facing = np.where(seen.normals[:, 2] < 0, -1.0, 1.0)[:, None]
+    brightness = np.clip((facing * seen.normals) @ light_direction(), 0.0, 1.0)
+    shade = LIGHTING.ambient + (1.0 - LIGHTING.ambient) * brightness
     shaded = np.zeros((*shape, 3))
-    shaded[seen.covered] = colours_in_light(np.broadcast_to(base, seen.normals.shape), seen.normals)
+    shaded[seen.covered] = np.clip(base * shade[:, None] * LIGHTING.gain, 0.0, 1.0)
     return _coarse_image(shaded, seen.covered)[::-1]
 
 

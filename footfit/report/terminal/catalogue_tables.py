@@ -29,26 +29,12 @@ if TYPE_CHECKING:
 
     from rich.console import RenderableType
 
-    from footfit.results import (
-        BackupOutcome,
-        CatalogueFacts,
-        CheckOutcome,
-        DemoOutcome,
-        ExportOutcome,
-        LastRecord,
-        Library,
-        ReferenceOutcome,
-        RemoveOutcome,
-        RenameOutcome,
-        RestoreOutcome,
-        StoredLast,
-        UpgradeOutcome,
-    )
+    from footfit import results
 
 MEGABYTE = 1_000_000
 
 
-def list_lasts_table(library: Library) -> RenderableType:
+def list_lasts_table(library: results.Library) -> RenderableType:
     """The library, one line per last, by name: a star marks the reference, "!" a wrong label."""
     ordered, reference = library.by_name(), library.reference
     heads = ("last", "style", "size", "side", "length\nmm", "flare\ndeg", "class", "heel\nmm")
@@ -76,20 +62,20 @@ def list_lasts_table(library: Library) -> RenderableType:
     return Group(table, *notes, closing)
 
 
-def off_label(record: LastRecord) -> LabelCheck | None:
+def off_label(record: results.LastRecord) -> LabelCheck | None:
     """The check of a label that is more than a size from its last's length, else None."""
     check = record.label_check
     return check if check is not None and check.flagged else None
 
 
-def _size_row(record: LastRecord) -> Text:
+def _size_row(record: results.LastRecord) -> Text:
     """The size on the label, and what is wrong with it."""
     labels, off = record.labels, off_label(record)
     size = cell(size_text(labels.size, labels.size_system, labels.width_label))
     return size.append(f" ! {label_words(off)}", "yellow") if off else size
 
 
-def show_last_table(last: StoredLast) -> RenderableType:
+def show_last_table(last: results.StoredLast) -> RenderableType:
     """What a person reads of one last."""
     record, reference = last.record, last.reference
     labels, flare, info = record.labels, record.flare, record.info
@@ -114,7 +100,7 @@ def show_last_table(last: StoredLast) -> RenderableType:
     return facts([*rows, *warnings], title=labels.name)
 
 
-def _measures(record: LastRecord) -> list[tuple[str, str | Text]]:
+def _measures(record: results.LastRecord) -> list[tuple[str, str | Text]]:
     """Every stored measure except the length, which has its own row."""
     return [
         (measure.name.replace("_", " "), cell(measured_text(measure.measured, "mm")))
@@ -123,14 +109,14 @@ def _measures(record: LastRecord) -> list[tuple[str, str | Text]]:
     ]
 
 
-def _paper_words(last: StoredLast) -> str:
+def _paper_words(last: results.StoredLast) -> str:
     angle = last.paper_frame_angle_deg
     if angle is None:
         return "none: no reference is set"
     return f"turned by {plain(angle)} deg from footfit's"
 
 
-def catalogue_info_table(info: CatalogueFacts) -> RenderableType:
+def catalogue_info_table(info: results.CatalogueFacts) -> RenderableType:
     """Where the catalogue is, what it holds, and that it keeps no feet."""
     error = info.worst_copy_error_mm
     worst = "" if error is None else f", at most {plain(error, 2)} mm from the file's mesh"
@@ -160,25 +146,25 @@ def _total_words(total: int, sides: Iterable[tuple[str, int]]) -> Text:
     return cell(f"{total} ({split})" if split else str(total))
 
 
-def set_reference_line(outcome: ReferenceOutcome) -> Text:
+def set_reference_line(outcome: results.ReferenceOutcome) -> Text:
     """The new reference last, and how many frames were rewritten."""
     noun = "frame" if outcome.rewritten == 1 else "frames"
     line = Text("reference  ").append(visible(outcome.reference.last), "bold")
     return line.append(f"  {outcome.rewritten} stored {noun} rewritten", "not bold")
 
 
-def rename_last_line(outcome: RenameOutcome) -> Text:
+def rename_last_line(outcome: results.RenameOutcome) -> Text:
     """A last under its new name."""
     names = f"{visible(outcome.renamed_from)} to {visible(outcome.last)}"
     return Text("renamed  ").append(names, "bold")
 
 
-def remove_last_line(outcome: RemoveOutcome) -> Text:
+def remove_last_line(outcome: results.RemoveOutcome) -> Text:
     """A last that was removed."""
     return Text("removed  ").append(visible(outcome.last), "bold")
 
 
-def export_last_line(outcome: ExportOutcome) -> Text:
+def export_last_line(outcome: results.ExportOutcome) -> Text:
     """The file of a last, and how far its mesh is from the original."""
     line = Text("exported  ").append(visible(outcome.last), "bold")
     line.append(f" to {visible(outcome.output)}")
@@ -188,7 +174,7 @@ def export_last_line(outcome: ExportOutcome) -> Text:
     return line.append(f"  {outcome.faces:,} faces, at most {error} mm from the file's mesh")
 
 
-def upgrade_catalogue_line(outcome: UpgradeOutcome) -> RenderableType:
+def upgrade_catalogue_line(outcome: results.UpgradeOutcome) -> RenderableType:
     """What the upgrade changed, and where the old file is."""
     before, after = visible(outcome.revision_before), visible(outcome.revision_after)
     schema = f"{after}, as before" if before == after else f"{before} to {after}"
@@ -203,7 +189,7 @@ def upgrade_catalogue_line(outcome: UpgradeOutcome) -> RenderableType:
     )
 
 
-def demo_table(demo: DemoOutcome) -> RenderableType:
+def demo_table(demo: results.DemoOutcome) -> RenderableType:
     """The files of the demo; the page is in the last line."""
     files = [("file", cell(output)) for output in demo.outputs]
     rows: list[tuple[str, str | Text]] = [
@@ -215,7 +201,7 @@ def demo_table(demo: DemoOutcome) -> RenderableType:
     return facts(rows)
 
 
-def check_catalogue_table(outcome: CheckOutcome) -> RenderableType:
+def check_catalogue_table(outcome: results.CheckOutcome) -> RenderableType:
     """What was checked, and a line for each finding."""
     line = Text("checked  ").append(visible(outcome.path), "bold")
     line.append(f"  {outcome.lasts} lasts, {outcome.mesh_copies} mesh copies", "not bold")
@@ -227,7 +213,7 @@ def check_catalogue_table(outcome: CheckOutcome) -> RenderableType:
     return Group(line, table)
 
 
-def backup_catalogue_line(outcome: BackupOutcome) -> Text:
+def backup_catalogue_line(outcome: results.BackupOutcome) -> Text:
     """Where the copy is, and what it holds."""
     line = Text("backed up  ").append(visible(outcome.path), "bold")
     size = plain(outcome.bytes / MEGABYTE)
@@ -236,7 +222,7 @@ def backup_catalogue_line(outcome: BackupOutcome) -> Text:
     )
 
 
-def restore_catalogue_table(outcome: RestoreOutcome) -> RenderableType:
+def restore_catalogue_table(outcome: results.RestoreOutcome) -> RenderableType:
     """What was restored, and where the old file is."""
     return facts(
         [

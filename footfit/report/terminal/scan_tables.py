@@ -23,15 +23,7 @@ if TYPE_CHECKING:
 
     from rich.console import RenderableType
 
-    from footfit.results import (
-        Alignment,
-        Eigenframe,
-        IngestOutcome,
-        MeasuredScan,
-        Profiled,
-        SideVerdict,
-        SurfaceCurvature,
-    )
+    from footfit import results
 
 STATUS_STYLES = {"added": "green", "replaced": "green", "unchanged": "dim", "refused": "bold red"}
 
@@ -77,7 +69,7 @@ def lined_table(*columns: str, right: frozenset[str] = frozenset()) -> Table:
     return table
 
 
-def side_words(side: SideVerdict) -> str:
+def side_words(side: results.SideVerdict) -> str:
     """The side, how sure it is, and where it comes from.
 
     Examples
@@ -95,7 +87,7 @@ def side_words(side: SideVerdict) -> str:
     return f"{side.side} ({side.source}, {side.confidence}, score {signed(side.score)})"
 
 
-def align_table(alignment: Alignment) -> RenderableType:
+def align_table(alignment: results.Alignment) -> RenderableType:
     """One mesh, aligned."""
     frame, pose, info = alignment.eigenframe, alignment.pose, alignment.info
     centroid = ", ".join(plain(float(value)) for value in frame.centroid_mm)
@@ -114,7 +106,7 @@ def align_table(alignment: Alignment) -> RenderableType:
     return facts(rows, title=info.path or "standard input")
 
 
-def eigenvalue_words(frame: Eigenframe) -> str:
+def eigenvalue_words(frame: results.Eigenframe) -> str:
     """The value of each eigenvector, under the names in the picture of the frames.
 
     Examples
@@ -132,7 +124,7 @@ def _sole(sole: bool) -> str:
     return "rests on its sole" if sole else "no sole: referred to its rim"
 
 
-def flare_table(profiled: Profiled) -> RenderableType:
+def flare_table(profiled: results.Profiled) -> RenderableType:
     """The flare of one mesh, with the spread of its curvature."""
     alignment, flare = profiled.aligned.alignment, profiled.flare
     rows: list[tuple[str, str | Text]] = [
@@ -146,7 +138,7 @@ def flare_table(profiled: Profiled) -> RenderableType:
     return facts(rows, title=alignment.info.path or "standard input")
 
 
-def flare_words(profiled: Profiled) -> str:
+def flare_words(profiled: results.Profiled) -> str:
     """The flare angle with its uncertainty and class."""
     flare = profiled.flare
     angle, spread = signed(flare.angle_deg), plain(flare.angle_sd_deg)
@@ -163,7 +155,7 @@ def _range_words(values: Sequence[float] | object) -> str:
     return f"{signed(float(known.min()))} to {signed(float(known.max()))} (curvature times length)"
 
 
-def ingest_line(outcome: IngestOutcome) -> Text:
+def ingest_line(outcome: results.IngestOutcome) -> Text:
     """The outcome of one file, in one line."""
     line = Text(f"{outcome.status:<10}", STATUS_STYLES.get(outcome.status, ""))
     if outcome.failure is not None:
@@ -176,7 +168,7 @@ def ingest_line(outcome: IngestOutcome) -> Text:
     return line.append("  is now the reference", "not bold") if outcome.reference else line
 
 
-def curvature_table(curvature: SurfaceCurvature) -> RenderableType:
+def curvature_table(curvature: results.SurfaceCurvature) -> RenderableType:
     """The spread of a surface's curvature."""
     scale = f"radius {plain(curvature.radius_mm)} mm" if curvature.radius_mm else "one ring"
     rows: list[tuple[str, str | Text]] = [("scale", scale)]
@@ -190,7 +182,7 @@ def curvature_table(curvature: SurfaceCurvature) -> RenderableType:
     return facts(rows, title=curvature.info.path or "standard input")
 
 
-def measure_table(scan: MeasuredScan) -> RenderableType:
+def measure_table(scan: results.MeasuredScan) -> RenderableType:
     """One mesh: every measure with its uncertainty, or the reason why there is none."""
     alignment = scan.alignment
     rows: list[tuple[str, str | Text]] = [

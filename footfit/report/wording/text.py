@@ -81,7 +81,7 @@ def plain(value: float, digits: int = 1) -> str:
     return f"{round(value, digits) + 0.0:.{digits}f}"
 
 
-def measured_text(measured: Measured, unit: str, *, sign: bool = False) -> str:
+def measured_text(measured: Measured, unit: str) -> str:
     """A measured value with its uncertainty and unit, or the reason why there is none.
 
     Examples
@@ -89,16 +89,13 @@ def measured_text(measured: Measured, unit: str, *, sign: bool = False) -> str:
     >>> from footfit.results import Measured
     >>> measured_text(Measured(262.31, 0.42), "mm")
     '262.3 ± 0.4 mm'
-    >>> measured_text(Measured(12.0), "mm", sign=True)
-    '+12.0 mm'
     >>> measured_text(Measured(None, reason="the sole is missing"), "mm")
     'not measured (the sole is missing)'
     """
     if measured.value is None:
         return f"not measured ({measured.reason})" if measured.reason else "not measured"
-    number = signed(measured.value) if sign else plain(measured.value)
     spread = f" ± {plain(measured.sd)}" if measured.sd is not None else ""
-    return f"{number}{spread} {unit}"
+    return f"{plain(measured.value)}{spread} {unit}"
 
 
 def length_text(length: Measured) -> str:
