@@ -37,13 +37,17 @@ def v_cut(
     return _mesh(_solid(vertices_mm, faces) - _across(wedge))
 
 
-def hinge(vertices_mm: Floats, faces: Ints, *, gap_mm: float = 2.0) -> list[Solid]:
+def hinge(
+    vertices_mm: Floats, faces: Ints, *, gap_mm: float = 2.0, share: float = 0.44
+) -> list[Solid]:
     """A hinged last: cut through from the instep to the shank.
 
     Parameters
     ----------
     gap_mm : float
         The width of the cut; 0 gives two closed bodies that touch along the cut.
+    share : float
+        Where the cut is, over the length.
 
     Returns
     -------
@@ -51,7 +55,7 @@ def hinge(vertices_mm: Floats, faces: Ints, *, gap_mm: float = 2.0) -> list[Soli
         The bodies: the heel part first.
     """
     length_mm = float(np.ptp(vertices_mm[:, 0]))
-    x = vertices_mm[:, 0].min() + 0.44 * length_mm
+    x = vertices_mm[:, 0].min() + share * length_mm
     solid = _solid(vertices_mm, faces)
     low, high = -50.0, 0.7 * length_mm
     lean = 0.25 * (high - low)  # the cut runs forward as it goes up
@@ -67,6 +71,16 @@ def hinge(vertices_mm: Floats, faces: Ints, *, gap_mm: float = 2.0) -> list[Soli
         ]
         bodies.append(_mesh(solid ^ _across(half_space)))
     return bodies
+
+
+def slit(vertices_mm: Floats, faces: Ints, *, gap_mm: float = 2.0, left_mm: float = 15.0) -> Solid:
+    """A last of one body with a hinge: a slit across it that ends ``left_mm`` over its bottom."""
+    length_mm = float(np.ptp(vertices_mm[:, 0]))
+    x = vertices_mm[:, 0].min() + 0.44 * length_mm
+    near = np.abs(vertices_mm[:, 0] - x) < 0.02 * length_mm
+    low, half = float(vertices_mm[near, 2].min()) + left_mm, gap_mm / 2
+    outline = [[x - half, low], [x + half, low], [x + half + 40.0, 200.0], [x - half + 40.0, 200.0]]
+    return _mesh(_solid(vertices_mm, faces) - _across(outline))
 
 
 def joined(bodies: Sequence[Solid]) -> Solid:
