@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from footfit.geometry.measures.heel_girths import angle_to_deg, around_heel, shortest_around_heel
-from footfit.geometry.measures.landmarks import LANDMARKS, Shape
+from footfit.geometry.measures.landmarks import AXES, LANDMARKS, Shape
+from footfit.geometry.measures.least_tape import tape_about
 from footfit.geometry.measures.measure_value import (
     CUT,
     NO_BALL,
@@ -60,3 +61,13 @@ def short_heel_girth(shape: Shape) -> MeasureValue:
     if section is None:
         return MeasureValue(None, CUT.format(place="bend of the ankle"))
     return section_value(shape, section, "heel", hull_girth, over_cone=True)
+
+
+def ball_girth_least(shape: Shape) -> MeasureValue:
+    """Around the ball by the least tape: the plane turns about the line from MT5 to MT1 until the
+    girth is least.
+    """
+    if shape.mt1 is None or shape.mt5 is None:
+        return MeasureValue(None, NO_BALL)
+    tape = tape_about(shape, shape.mt5, shape.mt1, AXES[2])
+    return section_value(shape, tape.section(shape), "ball", hull_girth)

@@ -55,6 +55,7 @@ MEASURES: tuple[MeasureDefinition, ...] = (
     MeasureDefinition(girths.instep_girth, 1, 0.45),
     MeasureDefinition(girths.long_heel_girth, 1, 0.4),
     MeasureDefinition(girths.short_heel_girth, 1, 0.6, usual_share=(1.12, 1.47)),
+    MeasureDefinition(girths.ball_girth_least, 1, 0.6),
     MeasureDefinition(widths.heel_width, 2, 0.2, usual_share=(0.19, 0.35)),
     MeasureDefinition(heights.arch_height, 1, 0.2),
     MeasureDefinition(heights.instep_height, 1, 0.3),

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 
@@ -23,15 +24,26 @@ class OutlineSettings:
         The kernel's standard deviation, and how many of them it reaches.
     speck : float
         A loop shorter than this share of the longest loop is dropped.
+    corners : bool
+        Whether the shape's corners are kept, as by :func:`steady_loop`.
+    noise_times : float
+        What smoothing takes away is noise up to so many times the loop's own noise.
+    facets : float
+        What smoothing takes away below this is no noise: it is the facets of a clean mesh.
     """
 
     pitch: float = 0.007
     smoothing: float = 0.012
     reach: float = 4.0
     speck: float = 0.05
+    corners: bool = False
+    noise_times: float = 4.0
+    facets: float = 0.0001
 
 
 OUTLINES = OutlineSettings()
+TAPE_OUTLINES = OutlineSettings(pitch=0.004, corners=True)
+"""How a tape lies: over a last's feather edge, which the other outlines round off."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -91,8 +103,9 @@ def outline(
     segments = plane_sections(vertices, faces[cut], values, planes)
     loops, gaps = closed_loops(segments.points)
     lengths = [_steps(loop).sum() for loop in loops]
+    steadied = steady_loop if settings.corners else smooth_loop
     kept = [
-        smooth_loop((loop - origin) @ axes.T, length, settings)
+        steadied((loop - origin) @ axes.T, length, settings)
         for loop, long in zip(loops, lengths, strict=True)
         if long >= settings.speck * max(lengths)
     ]
@@ -198,21 +211,80 @@ def smooth_loop(loop: Floats, length: float, settings: OutlineSettings = OUTLINE
 
     It runs counter-clockwise from the point farthest across, for any order of the mesh's faces.
     """
+    even = _even_loop(_ordered(loop), length, settings)
+    return _convolved(even.points, parabola_keeping_kernel(even.spread, settings.reach))
+
+
+def steady_loop(loop: Floats, length: float, settings: OutlineSettings = TAPE_OUTLINES) -> Floats:
+    """A closed polyline (n, 2) with the same number of points, smoothed except at its corners.
+
+    Smoothing rounds a corner off by some tenths of a millimetre, and a tape would read that much
+    less. What smoothing takes away at a place is kept if its mean square there is several times
+    that of the whole loop's noise: then it is shape. So a clean section stays as it is.
+    """
+    loop = _ordered(loop)
+    even = _even_loop(loop, length, settings)
+    smooth = _convolved(even.points, parabola_keeping_kernel(even.spread, settings.reach))
+    off = even.points - smooth
+    square = np.square(off).sum(axis=1)
+    around = _convolved(square[:, None], bell(even.spread, settings.reach))[:, 0]
+    noise = float(np.median(square)) / MEDIAN_SQUARE - (settings.facets * length) ** 2
+    is_noise = np.minimum(1.0, settings.noise_times * max(0.0, noise) / np.maximum(around, 1e-12))
+    off *= is_noise[:, None]
+    moved = [np.interp(even.arc, even.at, column, period=even.length) for column in off.T]
+    return np.asarray(loop - np.column_stack(moved), dtype=np.float64)
+
+
+MEDIAN_SQUARE = np.log(2.0)
+"""The median of a squared length over its mean, if both its parts are noise: that of chi-square."""
+
+
+def _ordered(loop: Floats) -> Floats:
+    """A closed polyline (n, 2), counter-clockwise from the point farthest across."""
     after = np.roll(loop, -1, axis=0)
     if loop[:, 0] @ after[:, 1] < loop[:, 1] @ after[:, 0]:
         loop = loop[::-1]
-    loop = np.roll(loop, -int(np.argmax(loop[:, 0])), axis=0)
-    steps = _steps(loop)
-    arc = np.concatenate([[0.0], np.cumsum(steps)])
-    count = max(16, round(arc[-1] / (settings.pitch * length)))
+    return np.roll(loop, -int(np.argmax(loop[:, 0])), axis=0)
+
+
+class EvenLoop(NamedTuple):
+    """A closed polyline in even steps: ``points`` (k, 2) at ``at`` (k,) along its arc.
+
+    ``arc`` (n,) is where the polyline's own points lie, and ``length`` that of the whole arc.
+    ``spread`` is the smoothing's standard deviation in steps.
+    """
+
+    points: Floats
+    at: Floats
+    arc: Floats
+    length: float
+    spread: float
+
+
+def _even_loop(loop: Floats, length: float, settings: OutlineSettings) -> EvenLoop:
+    """A closed polyline (n, 2) in even steps; ``length`` is the shape's."""
+    arc = np.concatenate([[0.0], np.cumsum(_steps(loop))])
+    around = float(arc[-1])
+    count = max(16, round(around / (settings.pitch * length)))
     ring = np.concatenate([loop, loop[:1]])
-    at = np.arange(count) * (arc[-1] / count)
-    even = np.column_stack([np.interp(at, arc, ring[:, k]) for k in (0, 1)])
-    spread = min(settings.smoothing * length * count / arc[-1], count / (2 * settings.reach))
-    kernel = parabola_keeping_kernel(spread, settings.reach)
+    at = np.linspace(0.0, around, count, endpoint=False)
+    points = np.column_stack([np.interp(at, arc, ring[:, k]) for k in (0, 1)])
+    spread = min(settings.smoothing * length * count / around, count / (2 * settings.reach))
+    return EvenLoop(points, at, arc[:-1], around, spread)
+
+
+def _convolved(points: Floats, kernel: Floats) -> Floats:
+    """The rows (k, c) of a closed loop, smoothed by a kernel."""
     pad = len(kernel) // 2
-    wrapped = np.concatenate([even[-pad:], even, even[:pad]]) if pad else even
-    return np.column_stack([np.convolve(wrapped[:, k], kernel, "valid") for k in (0, 1)])
+    wrapped = np.concatenate([points[-pad:], points, points[:pad]]) if pad else points
+    return np.column_stack([np.convolve(column, kernel, "valid") for column in wrapped.T])
+
+
+def bell(spread: float, reach: float) -> Floats:
+    """A kernel (k,) with sum 1: a bell of standard deviation ``spread``, in steps."""
+    half = int(reach * spread)
+    weight = np.exp(-0.5 * np.square(np.arange(-half, half + 1) / max(spread, 1e-9)))
+    return np.asarray(weight / weight.sum())
 
 
 def parabola_keeping_kernel(spread: float, reach: float) -> Floats:
@@ -228,11 +300,10 @@ def parabola_keeping_kernel(spread: float, reach: float) -> Floats:
     >>> round(float(kernel.sum()), 12), abs(round(float(kernel @ at**2), 9))
     (1.0, 0.0)
     """
-    half = int(reach * spread)
-    at = np.arange(-half, half + 1, dtype=np.float64)
-    bell = np.exp(-0.5 * np.square(at / max(spread, 1e-9)))
-    zeroth, second, fourth = (float(bell @ at**power) for power in (0, 2, 4))
+    weight = bell(spread, reach)
+    half = len(weight) // 2
     if half < 2:
         return np.array([1.0])
-    determinant = zeroth * fourth - second * second
-    return np.asarray(bell * (fourth - second * np.square(at)) / determinant)
+    at = np.arange(-half, half + 1, dtype=np.float64)
+    second, fourth = (float(weight @ at**power) for power in (2, 4))
+    return np.asarray(weight * (fourth - second * np.square(at)) / (fourth - second * second))
