@@ -115,7 +115,7 @@ def sources_of(meshes: Sequence[str], reading: Scale, *, split: bool = False) ->
         raise BadOption("- reads one mesh from standard input; give it alone")
     if reading.format is None:
         raise BadOption("a mesh on standard input needs --format, for example --format stl")
-    source = stdin_source(sys.stdin.buffer, reading.format.value)
+    source = stdin_source(sys.stdin.buffer, reading.format)
     return scans.sources([source], split=split, **reading.keywords())
 
 

@@ -3,59 +3,40 @@
 from __future__ import annotations
 
 import sys
-from typing import Annotated
+from collections.abc import Callable
+from importlib import import_module
 
 import typer
 
 from footfit.cli.boundary import run_guarded
-from footfit.cli.command_group import LazyGroup
-from footfit.cli.commands.align import align
-from footfit.cli.commands.backup_catalogue import backup_catalogue
-from footfit.cli.commands.catalogue_info import catalogue_info
-from footfit.cli.commands.check_catalogue import check_catalogue
-from footfit.cli.commands.compare import compare
-from footfit.cli.commands.curvature import curvature
-from footfit.cli.commands.demo import demo
-from footfit.cli.commands.export_last import export_last
-from footfit.cli.commands.flare import flare
-from footfit.cli.commands.ingest_last import ingest_last
-from footfit.cli.commands.list_lasts import list_lasts
-from footfit.cli.commands.match import match
-from footfit.cli.commands.measure import measure
-from footfit.cli.commands.remove_last import remove_last
-from footfit.cli.commands.rename_last import rename_last
-from footfit.cli.commands.restore_catalogue import restore_catalogue
-from footfit.cli.commands.set_reference import set_reference
-from footfit.cli.commands.show_last import show_last
-from footfit.cli.commands.upgrade_catalogue import upgrade_catalogue
+from footfit.cli.command_group import CommandTable, LazyGroup
 from footfit.cli.settings import use_one_blas_thread
 from footfit.version import __version__
 
-PAPER, FIT = "The paper's commands", "Fit"
-LIBRARY, START = "The library of lasts", "Start here"
+HEADINGS = {
+    "Start here": "demo",
+    "The paper's commands": "ingest-last set-reference align flare curvature measure match",
+    "Fit": "compare",
+    "The library of lasts": (
+        "list-lasts show-last rename-last remove-last export-last catalogue-info check-catalogue"
+        " backup-catalogue restore-catalogue upgrade-catalogue"
+    ),
+}
+"""Every command below its heading in the help. Its file and its function have its name."""
 
-COMMANDS = (
-    ("demo", demo, START),
-    ("ingest-last", ingest_last, PAPER),
-    ("set-reference", set_reference, PAPER),
-    ("align", align, PAPER),
-    ("flare", flare, PAPER),
-    ("curvature", curvature, PAPER),
-    ("measure", measure, PAPER),
-    ("match", match, PAPER),
-    ("compare", compare, FIT),
-    ("list-lasts", list_lasts, LIBRARY),
-    ("show-last", show_last, LIBRARY),
-    ("rename-last", rename_last, LIBRARY),
-    ("remove-last", remove_last, LIBRARY),
-    ("export-last", export_last, LIBRARY),
-    ("catalogue-info", catalogue_info, LIBRARY),
-    ("check-catalogue", check_catalogue, LIBRARY),
-    ("backup-catalogue", backup_catalogue, LIBRARY),
-    ("restore-catalogue", restore_catalogue, LIBRARY),
-    ("upgrade-catalogue", upgrade_catalogue, LIBRARY),
+
+def _function(command: str) -> Callable[..., object]:
+    name = command.replace("-", "_")
+    function: Callable[..., object] = getattr(import_module(f"footfit.cli.commands.{name}"), name)
+    return function
+
+
+COMMANDS: CommandTable = tuple(
+    (name, _function(name), heading)
+    for heading, names in HEADINGS.items()
+    for name in names.split()
 )
-"""Every command: its name, its function, its panel in the help."""
+"""Every command: its name, its function, its heading in the help."""
 
 
 def _version(wanted: bool) -> None:
@@ -65,10 +46,9 @@ def _version(wanted: bool) -> None:
 
 
 def _root(
-    version: Annotated[
-        bool,
-        typer.Option("--version", callback=_version, is_eager=True, help="Show the version."),
-    ] = False,
+    version: bool = typer.Option(
+        False, "--version", callback=_version, is_eager=True, help="Show the version."
+    ),
 ) -> None:
     """Which shoe last fits this foot, and why?
 

@@ -7,7 +7,7 @@ command are read when the command is used, not when the list of commands is show
 from __future__ import annotations
 
 import inspect
-from collections.abc import Callable
+from collections.abc import Callable, Iterable, Iterator
 from dataclasses import fields, is_dataclass
 from functools import wraps
 from typing import Any, get_type_hints
@@ -16,16 +16,17 @@ import typer
 from typer.core import TyperCommand, TyperGroup
 from typer.main import get_command
 
-CommandTable = tuple[tuple[str, Callable[..., None], str], ...]
+CommandTable = tuple[tuple[str, Callable[..., object], str], ...]
 """Every command: its name, its function, its heading in the help."""
 
 
-def plain_command(command: Callable[..., None]) -> Callable[..., None]:
+def plain_command(command: Callable[..., object]) -> Callable[..., None]:
     """``command`` with a parameter for each option of its groups, as Typer reads them.
 
-    A group is a dataclass; its fields that are annotated with a Typer option are options.
+    A group is a dataclass; some of its fields are options. If the command returns a result, it is
+    told in the command's output mode.
     """
-    hints = get_type_hints(command, include_extras=True)
+    hints = get_type_hints(command)
     groups: dict[str, Any] = {name: hint for name, hint in hints.items() if is_dataclass(hint)}
     members = {name: _options_of(group) for name, group in groups.items()}
     parameters: list[inspect.Parameter] = []
@@ -36,7 +37,11 @@ def plain_command(command: Callable[..., None]) -> Callable[..., None]:
     def with_groups(**given: Any) -> None:
         for name, group in groups.items():
             given[name] = group(**{each.name: given.pop(each.name) for each in members[name]})
-        command(**given)
+        result = command(**given)
+        if result is not None:
+            from footfit.cli.answers import tell
+
+            tell(result, given["mode"])
 
     with_groups.__signature__ = inspect.Signature(parameters)  # type: ignore[attr-defined]
     with_groups.__annotations__ = {each.name: each.annotation for each in parameters}
@@ -44,9 +49,9 @@ def plain_command(command: Callable[..., None]) -> Callable[..., None]:
 
 
 def _options_of(group: Any) -> list[inspect.Parameter]:
-    hints = get_type_hints(group, include_extras=True)
-    members = [field for field in fields(group) if hasattr(hints[field.name], "__metadata__")]
-    return [_keyword(field.name, field.default, hints[field.name]) for field in members]
+    hints = get_type_hints(group)
+    members = [field for field in fields(group) if "option" in field.metadata]
+    return [_keyword(each.name, each.metadata["option"], hints[each.name]) for each in members]
 
 
 def _keyword(name: str, default: Any, hint: Any) -> inspect.Parameter:
@@ -54,21 +59,30 @@ def _keyword(name: str, default: Any, hint: Any) -> inspect.Parameter:
     return inspect.Parameter(name, kind, default=default, annotation=hint)
 
 
-def _write_options(command: Any, context: Any, formatter: Any) -> None:
-    """Arguments and options under the headings that they name."""
-    headings: dict[str, list[tuple[str, str]]] = {}
+Record = tuple[str, str]
+"""An option or a command as the help shows it, and its help text."""
+
+
+def _records(command: Any, context: Any) -> Iterator[tuple[str, Record]]:
+    """Arguments and options, each with the heading that it names."""
     for parameter in command.get_params(context):
         record = parameter.get_help_record(context)
         if record is None:
             continue
         if parameter.param_type_name == "argument":
-            heading, record = "Arguments", (parameter.metavar, record[1])
+            yield "Arguments", (parameter.metavar, record[1])
         else:
-            heading = getattr(parameter, "rich_help_panel", None) or "Options"
+            yield getattr(parameter, "rich_help_panel", None) or "Options", record
+
+
+def _write_sections(records: Iterable[tuple[str, Record]], formatter: Any) -> None:
+    """Records below their headings."""
+    headings: dict[str, list[Record]] = {}
+    for heading, record in records:
         headings.setdefault(heading, []).append(record)
-    for heading, records in headings.items():
+    for heading, below in headings.items():
         with formatter.section(heading):
-            formatter.write_dl(records)
+            formatter.write_dl(below)
 
 
 class PlainCommand(TyperCommand):
@@ -76,7 +90,7 @@ class PlainCommand(TyperCommand):
 
     def format_options(self, ctx: Any, formatter: Any) -> None:
         """Write the options."""
-        _write_options(self, ctx, formatter)
+        _write_sections(_records(self, ctx), formatter)
 
 
 class LazyGroup(TyperGroup):
@@ -90,24 +104,20 @@ class LazyGroup(TyperGroup):
 
     def get_command(self, ctx: Any, cmd_name: str) -> Any:
         """The command of that name, None where there is none."""
-        functions = (function for name, function, _ in self.table if name == cmd_name)
-        function = next(functions, None)
+        function = {name: function for name, function, _ in self.table}.get(cmd_name)
         if function is None:
             return None
         single = typer.Typer(add_completion=False, rich_markup_mode=None)
         settings = {"help_option_names": ["-h", "--help"]}
-        single.command(cmd_name, cls=PlainCommand, context_settings=settings)(
-            plain_command(function)
-        )
+        command = single.command(cmd_name, cls=PlainCommand, context_settings=settings)
+        command(plain_command(function))
         return get_command(single)
 
     def format_options(self, ctx: Any, formatter: Any) -> None:
         """Write the options, and the commands under their headings."""
-        _write_options(self, ctx, formatter)
-        headings: dict[str, list[tuple[str, str]]] = {}
-        for name, function, heading in self.table:
-            summary = (function.__doc__ or "").partition("\n\n")[0]
-            headings.setdefault(heading, []).append((name, " ".join(summary.split())))
-        for heading, records in headings.items():
-            with formatter.section(heading):
-                formatter.write_dl(records)
+        docs = ((name, function.__doc__ or "", heading) for name, function, heading in self.table)
+        summaries = (
+            (heading, (name, " ".join(doc.partition("\n\n")[0].split())))
+            for name, doc, heading in docs
+        )
+        _write_sections((*_records(self, ctx), *summaries), formatter)

@@ -3,41 +3,32 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Annotated
 
 from footfit.cli import options
 
 
 def compare(
-    foot: Annotated[
-        str, options.argument("FOOT", "Give the mesh file of the foot, or - to read it from stdin.")
-    ],
-    last: Annotated[
-        str,
-        options.argument("LAST", "Give a last by its name in the catalogue, or by its mesh file."),
-    ],
-    output: Annotated[
-        Path | None,
-        options.output_file(
-            "--output",
-            "Write the foot in the last's frame, coloured by the clearance (.ply, .svg, .png).",
-            "-o",
-        ),
-    ] = None,
-    plot: Annotated[
-        Path | None,
-        options.output_file(
-            "--plot", "Draw the sections of the foot over those of the last (.svg, .png)."
-        ),
-    ] = None,
-    html: Annotated[
-        Path | None,
-        options.output_file("--html", "Write a page with a 3D view that opens in any browser."),
-    ] = None,
-    csv: options.Csv = None,
-    catalogue: options.Catalogue = None,
-    force: options.Force = False,
+    foot: str = options.argument(
+        "FOOT", "Give the mesh file of the foot, or - to read it from stdin."
+    ),
+    last: str = options.argument(
+        "LAST", "Give a last by its name in the catalogue, or by its mesh file."
+    ),
+    output: Path | None = options.output_file(
+        "--output",
+        "Write the foot in the last's frame, coloured by the clearance (.ply, .svg, .png).",
+        "-o",
+    ),
+    plot: Path | None = options.output_file(
+        "--plot", "Draw the sections of the foot over those of the last (.svg, .png)."
+    ),
+    html: Path | None = options.output_file(
+        "--html", "Write a page with a 3D view that opens in any browser."
+    ),
+    csv: Path | None = options.CSV,
     *,
+    lasts: options.Lasts,
+    force: bool = options.FORCE,
     reading: options.Reading,
     mode: options.OutputMode,
 ) -> None:
@@ -46,10 +37,8 @@ def compare(
     Example: footfit compare foot.stl derby-42 --html report.html
     """
     from footfit.api import files, scans
-    from footfit.api.catalogues import open_catalogue
     from footfit.cli.answers import answer_result, sources_of
     from footfit.cli.outputs import OutputFile, Outputs
-    from footfit.cli.settings import catalogue_path
     from footfit.errors import BadOption
     from footfit.pipeline.export import PICTURE_KINDS
     from footfit.report.pictures.heat_figure import HEAT_KINDS
@@ -68,6 +57,5 @@ def compare(
     if Path(last).is_file():
         comparison = scans.compare(sources[0], last, **reading.keywords())
     else:
-        lasts = open_catalogue(catalogue_path(catalogue))
-        comparison = lasts.compare(sources[0], last, **reading.keywords())
+        comparison = lasts.open().compare(sources[0], last, **reading.keywords())
     answer_result(comparison, mode, outputs)

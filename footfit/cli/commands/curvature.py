@@ -3,9 +3,7 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any
-
-import typer
+from typing import TYPE_CHECKING, Any
 
 from footfit.cli import options
 
@@ -14,31 +12,23 @@ if TYPE_CHECKING:
 
 
 def curvature(
-    meshes: options.Meshes,
-    output: Annotated[
-        Path | None,
-        options.output_file(
-            "--output",
-            "Write k1, k2, mean and gaussian of each vertex (.ply coloured by the mean, .npz).",
-            "-o",
-        ),
-    ] = None,
-    plot: Annotated[
-        Path | None,
-        options.output_file("--plot", "Draw the mean curvature on the mesh (.svg, .png)."),
-    ] = None,
-    radius: Annotated[
-        float | None,
-        typer.Option(
-            "--radius",
-            metavar="MM",
-            min=0,
-            show_default=False,
-            help="Set the scale in mm; 0 is the paper's one ring. Else 6 % of the longest extent.",
-        ),
-    ] = None,
-    jobs: options.Jobs = 1,
-    force: options.Force = False,
+    meshes: list[str] = options.MESHES,
+    output: Path | None = options.output_file(
+        "--output",
+        "Write k1, k2, mean and gaussian of each vertex (.ply coloured by the mean, .npz).",
+        "-o",
+    ),
+    plot: Path | None = options.output_file(
+        "--plot", "Draw the mean curvature on the mesh (.svg, .png)."
+    ),
+    radius: float | None = options.option(
+        "--radius",
+        "Set the scale in mm; 0 is the paper's one ring. Else 6 % of the longest extent.",
+        "MM",
+        min=0,
+    ),
+    jobs: int = options.JOBS,
+    force: bool = options.FORCE,
     *,
     scale: options.Scale,
     mode: options.OutputMode,
@@ -55,7 +45,7 @@ def curvature(
     mesh, picture = (output, CURVATURE_KINDS, files.mesh_file), (plot, PICTURE_KINDS, files.picture)
     outputs = Outputs((OutputFile(*mesh), OutputFile(*picture)), force=force)
     chosen = {"radius_mm": radius, "output": None if output is None else str(output)}
-    batch = options.Batch(jobs=jobs)
+    batch = options.Batch(split=False, jobs=jobs)
     answer_scans(curvature_with_output, meshes, scale, batch, mode, outputs, **chosen)
 
 

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Annotated
 
 import typer
 
@@ -11,10 +10,10 @@ from footfit.cli import options
 
 
 def demo(
-    folder: Annotated[
-        Path, typer.Argument(metavar="FOLDER", help="Choose the folder for the files of the demo.")
-    ] = Path("footfit-demo"),
-    force: options.Force = False,
+    folder: Path = typer.Argument(
+        Path("footfit-demo"), metavar="FOLDER", help="Choose the folder for the files of the demo."
+    ),
+    force: bool = options.FORCE,
     *,
     mode: options.OutputMode,
 ) -> None:

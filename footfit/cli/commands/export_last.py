@@ -3,22 +3,21 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Annotated
 
 from footfit.cli import options
 
 
 def export_last(
-    last: options.LastName,
-    output: Annotated[
-        Path,
-        options.output_file(
-            "--output", "Write the mesh (.stl, .ply, .obj, .off), or the record (.json).", "-o"
-        ),
-    ],
-    catalogue: options.Catalogue = None,
-    force: options.Force = False,
+    last: str = options.LAST,
+    output: Path = options.output_file(
+        "--output",
+        "Write the mesh (.stl, .ply, .obj, .off), or the record (.json).",
+        "-o",
+        default=...,
+    ),
     *,
+    lasts: options.Lasts,
+    force: bool = options.FORCE,
     mode: options.OutputMode,
 ) -> None:
     """Write the mesh of a last (canonical frame, mm) or its record to a file.
@@ -26,22 +25,20 @@ def export_last(
     Example: footfit export-last derby-42 -o derby-42.stl
     """
     from footfit.api import files
-    from footfit.api.catalogues import open_catalogue
     from footfit.cli.answers import tell
     from footfit.cli.outputs import refuse_existing, write_output
-    from footfit.cli.settings import catalogue_path
     from footfit.pipeline.export import MESH_KINDS, file_kind
     from footfit.report.json import json_line
     from footfit.results import ExportOutcome
 
     kinds = (*MESH_KINDS, "json")
     refuse_existing(output, force=force, kinds=kinds)
-    lasts, kind = open_catalogue(catalogue_path(catalogue)), file_kind(output, kinds)
+    catalogue, kind = lasts.open(), file_kind(output, kinds)
     if kind == "json":
         outcome = ExportOutcome(last, str(output))
-        data: bytes | str = json_line(lasts.last(last).to_dict()) + "\n"
+        data: bytes | str = json_line(catalogue.last(last).to_dict()) + "\n"
     else:
-        copy = lasts.mesh(last)
+        copy = catalogue.mesh(last)
         outcome = ExportOutcome(last, str(output), copy.faces, copy.error_mm)
         data = files.mesh_file(copy, kind)
     write_output(output, data, force=force)

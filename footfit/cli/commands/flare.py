@@ -3,21 +3,17 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Annotated
 
 from footfit.cli import options
 
 
 def flare(
-    meshes: options.Meshes,
-    plot: Annotated[
-        Path | None,
-        options.output_file(
-            "--plot", "Draw the plan outline, the centre line and its curvature (.svg, .png)."
-        ),
-    ] = None,
-    csv: options.Csv = None,
-    force: options.Force = False,
+    meshes: list[str] = options.MESHES,
+    plot: Path | None = options.output_file(
+        "--plot", "Draw the plan outline, the centre line and its curvature (.svg, .png)."
+    ),
+    csv: Path | None = options.CSV,
+    force: bool = options.FORCE,
     *,
     reading: options.Reading,
     batch: options.Batch,

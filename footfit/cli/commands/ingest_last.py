@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
-from typing import Annotated, Any
+from typing import Any
 
 import typer
 
@@ -15,52 +15,35 @@ LABELS = "What people say of the last"
 
 
 def _label(flag: str, metavar: str, text: str) -> Any:
-    return typer.Option(
-        flag, metavar=metavar, show_default=False, rich_help_panel=LABELS, help=text
-    )
+    return options.option(flag, text, metavar, panel=LABELS)
 
 
 def ingest_last(
-    paths: Annotated[
-        list[str] | None,
-        options.argument(
-            "PATH",
-            "Give scans of lasts: files, folders or globs. Else the manifest names them.",
-        ),
-    ] = None,
-    name: Annotated[
-        str | None, _label("--name", "N", "Name the last. Without it the name comes from the file.")
-    ] = None,
-    manifest: Annotated[
-        Path | None,
-        _label(
-            "--manifest",
-            "CSV",
-            "Give a CSV with labels for each file: path, name, style, size, size_system, ...",
-        ),
-    ] = None,
-    style: Annotated[str | None, _label("--style", "S", "Set the style, such as derby.")] = None,
-    size: Annotated[
-        str | None, _label("--size", "42", "Set the size as it is marked on the last.")
-    ] = None,
-    size_system: Annotated[
-        str | None, _label("--size-system", "eu", "Set the system of the size, such as eu or uk.")
-    ] = None,
-    width_label: Annotated[
-        str | None, _label("--width-label", "G", "Set the width as it is marked.")
-    ] = None,
-    heel_height: Annotated[
-        float | None, _label("--heel-height", "MM", "Set the heel height in mm.")
-    ] = None,
-    replace: Annotated[
-        bool, options.switch("--replace", "Replace a stored last of the same name.")
-    ] = False,
-    dry_run: Annotated[
-        bool, options.switch("--dry-run", "Store nothing; say what would be stored.")
-    ] = False,
-    jobs: options.Jobs = 1,
-    catalogue: options.Catalogue = None,
+    paths: list[str] | None = options.argument(
+        "PATH",
+        "Give scans of lasts: files, folders or globs. Else the manifest names them.",
+        default=None,
+    ),
+    name: str | None = _label(
+        "--name", "N", "Name the last. Without it the name comes from the file."
+    ),
+    manifest: Path | None = _label(
+        "--manifest",
+        "CSV",
+        "Give a CSV with labels for each file: path, name, style, size, size_system, ...",
+    ),
+    style: str | None = _label("--style", "S", "Set the style, such as derby."),
+    size: str | None = _label("--size", "42", "Set the size as it is marked on the last."),
+    size_system: str | None = _label(
+        "--size-system", "eu", "Set the system of the size, such as eu or uk."
+    ),
+    width_label: str | None = _label("--width-label", "G", "Set the width as it is marked."),
+    heel_height: float | None = _label("--heel-height", "MM", "Set the heel height in mm."),
+    replace: bool = options.switch("--replace", "Replace a stored last of the same name."),
+    dry_run: bool = options.switch("--dry-run", "Store nothing; say what would be stored."),
+    jobs: int = options.JOBS,
     *,
+    lasts: options.Lasts,
     reading: options.Reading,
     mode: options.OutputMode,
 ) -> None:
@@ -72,10 +55,8 @@ def ingest_last(
     """
     from dataclasses import replace as changed
 
-    from footfit.api.catalogues import open_catalogue
     from footfit.cli.answers import failures_last, sources_of, tell, watched_items
     from footfit.cli.console import error_line, say, say_notices
-    from footfit.cli.settings import catalogue_path
     from footfit.cli.signals import LISTENER
     from footfit.pipeline.batch.runs import common_code
     from footfit.pipeline.batch.sources import ReadingOptions
@@ -91,7 +72,7 @@ def ingest_last(
     mode = changed(mode, total=len(batch))
     say_notices(unused_rows(batch, rows), str(manifest), quiet=mode.quiet)
     refused: list[int] = []
-    outcomes = open_catalogue(catalogue_path(catalogue)).ingest_each(
+    outcomes = lasts.open().ingest_each(
         batch, replace=replace, dry_run=dry_run, jobs=jobs, hold_signals=LISTENER.hold
     )
     with reader_required(), failures_last(mode) as tell_failure:

@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
+from pathlib import Path
+
 from footfit.cli import options
 
 
 def measure(
-    meshes: options.Meshes,
-    csv: options.Csv = None,
-    force: options.Force = False,
+    meshes: list[str] = options.MESHES,
+    csv: Path | None = options.CSV,
+    force: bool = options.FORCE,
     *,
     reading: options.Reading,
     batch: options.Batch,

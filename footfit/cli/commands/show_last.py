@@ -6,17 +6,10 @@ from footfit.cli import options
 
 
 def show_last(
-    last: options.LastName,
-    catalogue: options.Catalogue = None,
-    *,
-    mode: options.OutputMode,
-) -> None:
+    last: str = options.LAST, *, lasts: options.Lasts, mode: options.OutputMode
+) -> object:
     """Show one last: labels, frame, flare, measures, and what the paper's frame would cost.
 
     Example: footfit show-last derby-42
     """
-    from footfit.api.catalogues import open_catalogue
-    from footfit.cli.answers import tell
-    from footfit.cli.settings import catalogue_path
-
-    tell(open_catalogue(catalogue_path(catalogue)).last(last), mode)
+    return lasts.open().last(last)
