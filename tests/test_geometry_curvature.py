@@ -5,7 +5,6 @@ from __future__ import annotations
 import numpy as np
 import pytest
 from hypothesis import given, settings
-from hypothesis import strategies as st
 
 from footfit.geometry.curvature.one_ring import PrincipalCurvatures, one_ring_curvature
 from footfit.geometry.curvature.pooled_curvature import (
@@ -405,16 +404,6 @@ def test_slivers_lonely_vertices_and_empty_faces_break_nothing():
     assert np.isnan(nothing.k1).all()
     with pytest.raises(ValueError, match="positive"):
         pooled_curvature(vertices, faces, 0.0)
-
-
-@given(surfaces(), st.floats(-40.0, 40.0), st.floats(3.0, 40.0))
-@settings(max_examples=15, deadline=None)
-def test_a_subset_has_the_values_of_the_whole(mesh, height, radius):
-    vertices, faces = mesh
-    subset = vertices[:, 2] < height
-    whole, part = (pooled_curvature(vertices, faces, radius, s) for s in (None, subset))
-    assert np.isnan(part.mean[~subset]).all()
-    np.testing.assert_allclose(part.mean[subset], whole.mean[subset], atol=ROUNDING)
 
 
 def test_sections_of_a_torus_bend_as_its_surface_says():

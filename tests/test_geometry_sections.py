@@ -95,7 +95,7 @@ def measured(segments):
         highest(height, segments),
         *extremes_below(across, height, limit, segments),
         *band_edges(across, height, limit, segments, 2.0),
-        depth_at(middle, across, height, segments)[0],
+        depth_at(middle, across, height, segments),
     )
 
 
@@ -142,8 +142,7 @@ def test_nothing_is_found_where_nothing_is():
     height = segments.points[:, :, 2]
     assert np.isnan(lowest(height, segments)).tolist() == [True, False, True]
     assert np.isnan(highest(height, segments)).tolist() == [True, False, True]
-    depth, where = depth_at(np.full(3, 80.0), segments.points[:, :, 1], height, segments)
+    depth = depth_at(np.full(3, 80.0), segments.points[:, :, 1], height, segments)
     assert np.isnan(depth).all()
-    assert (where == -1).all()
     empty = plane_sections(vertices, faces[:0], vertices[:, 0], planes_across(np.array([0.0])))
     assert np.isnan(lowest(empty.points[:, :, 2], empty)).all()

@@ -13,8 +13,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from footfit.geometry.mesh.surface import area_vectors, vertex_sums
-from footfit.geometry.mesh.topology import dilated_mask
-from footfit.geometry.numeric.arrays import Bools, Floats, Ints, row_dots, row_lengths
+from footfit.geometry.numeric.arrays import Floats, Ints, row_dots, row_lengths
 
 if TYPE_CHECKING:
     from scipy.sparse import csr_array
@@ -60,19 +59,15 @@ SETTINGS = DiffusionSettings()
 class Diffusion:
     """Polynomials in a mesh's Laplacian, one for each deviation, for :func:`pooled_fields`.
 
-    ``kept`` (k,) are the vertices that the operator works on, and ``step`` (k, k) is the sparse
-    matrix of Y between them. ``coefficients`` are those of the Chebyshev polynomials in Y,
-    (degree + 1,) for each deviation.
+    ``step`` (n, n) is the sparse matrix of Y. ``coefficients`` are those of the Chebyshev
+    polynomials in Y, (degree + 1,) for each deviation.
     """
 
-    kept: Ints
     step: csr_array
     coefficients: tuple[Floats, ...]
 
 
-def diffusion(
-    vertices: Floats, faces: Ints, deviations: tuple[float, ...], subset: Bools | None = None
-) -> Diffusion:
+def diffusion(vertices: Floats, faces: Ints, deviations: tuple[float, ...]) -> Diffusion:
     """The operator that pools over a surface, with each of some standard deviations.
 
     Parameters
@@ -82,9 +77,6 @@ def diffusion(
         Welded and consistently wound; the mesh may be open.
     deviations : tuple of float
         In the coordinates' unit, > 0.
-    subset : (n,) bool, optional
-        Where pooled values are needed. A polynomial of degree k reaches k rings, so the operator
-        works on k rings around the subset. The subset's values are those of the whole mesh.
 
     Notes
     -----
@@ -93,7 +85,6 @@ def diffusion(
     """
     from scipy.sparse import diags_array
 
-    n = len(vertices)
     times = [0.5 * deviation * deviation for deviation in deviations]
     weights = _cotangent_matrix(vertices, faces)
     degree = weights.sum(axis=1)
@@ -105,22 +96,18 @@ def diffusion(
         - diags_array(scale / np.where(degree > 0.0, degree, 1.0)) @ weights
     )
     coefficients = tuple(_heat_coefficients(time * bound) for time in times)
-    kept = np.arange(n)
-    if subset is not None:
-        kept = np.flatnonzero(dilated_mask(subset, faces, max(map(len, coefficients)) - 1))
-        step = step.tocsr()[kept][:, kept]
-    return Diffusion(kept, step.tocsr(), coefficients)
+    return Diffusion(step.tocsr(), coefficients)
 
 
 def pooled_fields(operator: Diffusion, fields: Floats) -> Floats:
-    """Fields (c, n) pooled over the surface, (deviations, c, n); NaN outside of the subset.
+    """Fields (c, n) pooled over the surface, (deviations, c, n).
 
     Each value is a mean over its neighbourhood, with weights that sum to 1.
     """
-    pooled = np.full((len(operator.coefficients), *fields.shape), np.nan)
+    pooled = np.empty((len(operator.coefficients), *fields.shape))
     degree = max(map(len, operator.coefficients)) - 1
     for number, field in enumerate(fields):
-        before, now = np.zeros(len(operator.kept)), field[operator.kept]
+        before, now = np.zeros_like(field), field
         totals = [coefficients[0] * now for coefficients in operator.coefficients]
         for k in range(1, degree + 1):
             following = operator.step @ now
@@ -131,7 +118,7 @@ def pooled_fields(operator: Diffusion, fields: Floats) -> Floats:
             for total, coefficients in zip(totals, operator.coefficients, strict=True):
                 if k < len(coefficients):
                     total += coefficients[k] * now
-        pooled[:, number, operator.kept] = totals
+        pooled[:, number] = totals
     return pooled
 
 

@@ -19,7 +19,7 @@ from footfit.geometry.curvature.diffusion import (
 from footfit.geometry.curvature.one_ring import PrincipalCurvatures
 from footfit.geometry.mesh.refinement import with_flat_facets_split
 from footfit.geometry.mesh.surface import area_vectors, cross, unit, vertex_sums
-from footfit.geometry.numeric.arrays import Bools, Floats, Ints, row_dots, row_lengths
+from footfit.geometry.numeric.arrays import Floats, Ints, row_dots, row_lengths
 
 
 @dataclass(frozen=True, slots=True)
@@ -60,9 +60,7 @@ class PoolingSettings:
 POOLING = PoolingSettings()
 
 
-def pooled_curvature(
-    vertices: Floats, faces: Ints, radius: float, subset: Bools | None = None
-) -> PrincipalCurvatures:
+def pooled_curvature(vertices: Floats, faces: Ints, radius: float) -> PrincipalCurvatures:
     """Curvature at the scale ``radius``, 1/length: concentrated curvatures pooled over it.
 
     Between p and any q nearby, the normal turns by (n_q - n_p).(q - p)/|q - p|^2 per length, which
@@ -84,9 +82,6 @@ def pooled_curvature(
         > 0. If it is smaller than the edges, the nearest ring counts. If it is over
         :func:`longest_radius`, it is cut to that. Big flat facets are split first
         (:mod:`footfit.geometry.mesh.refinement`).
-    subset : (n,) bool, optional
-        Where the curvature is needed; it is NaN elsewhere. Only the part of the mesh around it is
-        worked on, and the values are those of the whole mesh.
 
     Returns
     -------
@@ -107,12 +102,11 @@ def pooled_curvature(
     >>> np.ptp(pooled_curvature(corners, octahedron, 1.0).k2) < 1e-12
     np.True_
     """
-    chosen = np.ones(len(vertices), dtype=bool) if subset is None else subset
-    centres, normals, operator = _pooling(vertices, faces, radius, subset)
+    centres, normals, operator = _pooling(vertices, faces, radius)
     pooled = pooled_fields(operator, _moment_fields(centres, normals))
-    whole = np.full((2, len(vertices)), np.nan)
-    whole[:, chosen] = _principal(*_unsmoothed(pooled[:, :, : len(chosen)][:, :, chosen]))
-    k1, k2 = whole
+    a, b, c = _unsmoothed(pooled[:, :, : len(vertices)])
+    mean, half = 0.5 * (a + c), np.hypot(0.5 * (a - c), b)
+    k1, k2 = mean - half, mean + half
     return PrincipalCurvatures(k1, k2, 0.5 * (k1 + k2), k1 * k2)
 
 
@@ -125,19 +119,14 @@ def longest_radius(vertices: Floats, faces: Ints) -> float:
     return POOLING.radius_over_deviation * widest / float(np.sqrt(POOLING.wider))
 
 
-def _pooling(
-    vertices: Floats, faces: Ints, radius: float, subset: Bools | None
-) -> tuple[Floats, Floats, Diffusion]:
+def _pooling(vertices: Floats, faces: Ints, radius: float) -> tuple[Floats, Floats, Diffusion]:
     """Centroids, normals and the pooling operator; the new vertices in flat facets come last."""
     if not radius > 0.0:
         raise ValueError("the pooling radius must be positive; for one ring use one_ring_curvature")
-    given = len(vertices)
     vertices, faces = with_flat_facets_split(vertices, faces, POOLING.side_over_radius * radius)
-    if subset is not None:
-        subset = np.append(subset, np.zeros(len(vertices) - given, dtype=bool))
     narrow = radius / POOLING.radius_over_deviation
     deviations = (narrow, narrow * float(np.sqrt(POOLING.wider)))
-    return *_stars(vertices, faces), diffusion(vertices, faces, deviations, subset)
+    return *_stars(vertices, faces), diffusion(vertices, faces, deviations)
 
 
 def _stars(vertices: Floats, faces: Ints) -> tuple[Floats, Floats]:
@@ -256,9 +245,3 @@ def _tangent_bases(normals: Floats) -> Floats:
     b = x * y * a
     first = np.stack([1.0 + sign * x * x * a, sign * b, -sign * x], axis=1)
     return np.stack([first, np.stack([b, sign + y * y * a, -y], axis=1)], axis=1)
-
-
-def _principal(a: Floats, b: Floats, c: Floats) -> tuple[Floats, Floats]:
-    """The eigenvalues of [[a, b], [b, c]], the smaller first."""
-    mean, half = 0.5 * (a + c), np.hypot(0.5 * (a - c), b)
-    return mean - half, mean + half

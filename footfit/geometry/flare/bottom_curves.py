@@ -37,7 +37,7 @@ def bottom_curvature(
     """
     bands = line.bands
     where = (1.0 - 2.0 * place) * bands.half_width + bands.offset
-    depth, _ = depth_at(where, bands.across, bands.height, bands.segments, down)
+    depth = depth_at(where, bands.across, bands.height, bands.segments, down)
     near = depth <= bands.floor + definition.band_height
     if near.mean() < definition.found_least:
         return None

@@ -188,7 +188,7 @@ def extremes_below(
 
 def depth_at(
     place: Floats, across: Floats, height: Floats, segments: Segments, counts: Bools | None = None
-) -> tuple[Floats, Ints]:
+) -> Floats:
     """The lowest height of each section at a place on its width.
 
     Parameters
@@ -201,10 +201,8 @@ def depth_at(
 
     Returns
     -------
-    depth : (planes,)
+    (planes,)
         NaN where the section has nothing there.
-    segment : (planes,)
-        The segment that has this height, -1 where there is none.
     """
     at = place[segments.plane]
     left, right = across[:, 0], across[:, 1]
@@ -212,14 +210,9 @@ def depth_at(
     index = np.flatnonzero(spans if counts is None else spans & counts)
     share = (at[index] - left[index]) / (right[index] - left[index])
     value = height[index, 0] + share * (height[index, 1] - height[index, 0])
-    order = np.lexsort((value, segments.plane[index]))
-    index, value = index[order], value[order]
-    start = np.flatnonzero(np.diff(segments.plane[index], prepend=-1))
-    depth = np.full(segments.planes, np.nan)
-    segment = np.full(segments.planes, -1, dtype=np.int64)
-    depth[segments.plane[index[start]]] = value[start]
-    segment[segments.plane[index[start]]] = index[start]
-    return depth, segment
+    depth = np.full(segments.planes, np.inf)
+    np.minimum.at(depth, segments.plane[index], value)
+    return np.where(np.isfinite(depth), depth, np.nan)
 
 
 @dataclass(frozen=True, slots=True)
@@ -257,5 +250,5 @@ def soles(
     floor = lowest(height, segments)
     lateral, medial = extremes_below(across, height, floor + band, segments)
     at = [lateral + place * (medial - lateral) for place in places]
-    depth = np.array([depth_at(place, across, height, segments, counts)[0] for place in at])
+    depth = np.array([depth_at(place, across, height, segments, counts) for place in at])
     return Soles(floor, floor + band, lateral, medial, depth)

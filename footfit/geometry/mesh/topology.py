@@ -118,21 +118,6 @@ def _loops_from(start: int, successors: dict[int, list[int]]) -> list[Ints]:
     return [*loops, np.array(path, dtype=np.int64)] if len(path) > 1 else loops
 
 
-def dilated_mask(mask: Bools, faces: Ints, rings: int) -> Bools:
-    """The vertices within ``rings`` edges of those in ``mask``, (n,) bool.
-
-    Examples
-    --------
-    >>> strip = np.array([[0, 1, 2], [2, 1, 3], [2, 3, 4]])
-    >>> dilated_mask(np.arange(5) == 0, strip, 1).tolist()
-    [True, True, True, False, False]
-    """
-    reached = mask.copy()
-    for _ in range(rings):
-        reached[faces[reached[faces].any(axis=1)]] = True
-    return reached
-
-
 def face_components(faces: Ints, n_vertices: int) -> Ints:
     """The connected component of each face, (m,) int64.
 
@@ -233,16 +218,13 @@ def closed_fan_vertices(faces: Ints, n_vertices: int) -> Bools:
     closed[ends[here[~regular]]] = False
     # A half-edge has the number of the corner where it starts; a fan is corners joined over edges.
     here, beyond = here[regular], beyond[regular]
-    joined = np.stack([np.append(here, beyond), _next_corner(np.append(beyond, here))], axis=1)
+    across = np.append(beyond, here)
+    following = across - across % 3 + (across + 1) % 3
+    joined = np.stack([np.append(here, beyond), following], axis=1)
     roots = np.unique(lowest_connected(joined, faces.size))
     fans = np.bincount(faces.ravel()[roots], minlength=n_vertices)
     single: Bools = closed & (fans == 1)
     return single
-
-
-def _next_corner(corner: Ints) -> Ints:
-    following: Ints = corner - corner % 3 + (corner + 1) % 3
-    return following
 
 
 def rows_differ(faces: Ints, others: Ints) -> Bools:

@@ -38,21 +38,12 @@ class SideSettings:
 SIDE = SideSettings()
 
 
-@dataclass(frozen=True, slots=True)
-class SideScore:
-    """The features that change sign in a mirror, and their sum ``score``: + for a right shape."""
+def side_score(points: Floats, length: float) -> float:
+    """The score of points (n, 3) of a surface, evenly spread, in the canonical frame: + is right.
 
-    bend: float
-    instep: float
-    arch: float
-    score: float
-
-
-def side_score(points: Floats, length: float) -> SideScore:
-    """The score of points (n, 3) of a surface, evenly spread, in the canonical frame.
-
-    ``bend`` is the quadratic coefficient of the low part's centre line (inflare: towards +y),
-    ``instep`` by how much the +y half is higher on top, ``arch`` the same underneath.
+    It is the sum of three features that change sign in a mirror: ``bend`` is the quadratic
+    coefficient of the low part's centre line (inflare: towards +y), ``instep`` by how much the +y
+    half is higher on top, ``arch`` the same underneath.
     """
     low = points[points[:, 2] < SIDE.height * length] / length
     start = low[:, 0].min()
@@ -63,7 +54,7 @@ def side_score(points: Floats, length: float) -> SideScore:
         if np.count_nonzero(station == place) >= SIDE.fewest_points
     ]
     if len(rows) < SIDE.stations // 2:
-        return SideScore(0.0, 0.0, 0.0, 0.0)
+        return 0.0
     s, middle, top, bottom = (np.array(rows) - [start, 0.0, 0.0, 0.0]).T
     bend = float(np.polynomial.polynomial.polyfit(s, middle, 2)[2])
     instep, arch = _median(top, s, SIDE.instep), _median(bottom, s, SIDE.arch)
@@ -72,7 +63,7 @@ def side_score(points: Floats, length: float) -> SideScore:
         (instep / SIDE.instep_unit, SIDE.height_limit),
         (arch / SIDE.arch_unit, SIDE.height_limit),
     )
-    return SideScore(bend, instep, arch, sum(min(max(v, -most), most) for v, most in parts))
+    return sum(min(max(value, -most), most) for value, most in parts)
 
 
 def confidence(score: float) -> Literal["sure", "low", "undecided"]:

@@ -218,7 +218,7 @@ def _refuse_half(frame: _Frame, rims: list[Floats]) -> None:
 
 def _verdict(frame: _Frame, side: str) -> SideVerdict:
     """The side detected, or the one given with what the shape says of it."""
-    score = side_score(frame.surface.points, frame.extent).score
+    score = side_score(frame.surface.points, frame.extent)
     word: Confidence = confidence(score)
     detected: SideName = "right" if score >= 0 else "left"
     if side == "auto":
