@@ -104,13 +104,13 @@ def signed_clearance(
     return clearance
 
 
-def foot_clearance(foot: Shape, last: Shape, settings: ClearanceSettings = CLEARANCE) -> Floats:
+def foot_clearance(foot: Shape, last: Shape) -> Floats:
     """The clearance (n,) at each vertex of a foot that lies in a last, mm.
 
     NaN where the shoe does not reach: over the topline, at the foot's own top cut, where the last's
     top or an open rim is nearest, and at vertices without a face.
     """
-    compared = in_shoe(foot, settings)
+    compared = in_shoe(foot)
     clearance_mm = np.full(len(foot.vertices_mm), np.nan)
     clearance_mm[compared] = signed_clearance(
         foot.vertices_mm[compared], last.vertices_mm, last.faces, last.top_cut
@@ -118,9 +118,9 @@ def foot_clearance(foot: Shape, last: Shape, settings: ClearanceSettings = CLEAR
     return clearance_mm
 
 
-def in_shoe(foot: Shape, settings: ClearanceSettings = CLEARANCE) -> Bools:
+def in_shoe(foot: Shape) -> Bools:
     """Which vertices (n,) lie under the topline and are not part of a leg's top cut."""
-    share, height = np.array(settings.topline).T
+    share, height = np.array(CLEARANCE.topline).T
     at = (foot.vertices_mm[:, 0] - foot.x_mm(0.0)) / foot.length_mm
     limit = np.interp(at, share, height, right=np.inf) * foot.length_mm
     inside = foot.vertices_mm[:, 2] <= limit
@@ -129,7 +129,7 @@ def in_shoe(foot: Shape, settings: ClearanceSettings = CLEARANCE) -> Bools:
     return np.asarray(inside & used)
 
 
-def zone_of(foot: Shape, settings: ClearanceSettings = CLEARANCE) -> Ints:
+def zone_of(foot: Shape) -> Ints:
     """The zone of each vertex (n,): its place in ``ZONES``.
 
     By where the surface looks: down is bottom, up is dorsal, else medial or lateral. In front of
@@ -137,32 +137,28 @@ def zone_of(foot: Shape, settings: ClearanceSettings = CLEARANCE) -> Ints:
     """
     normals = vertex_normals(foot.vertices_mm, foot.faces)
     zone = np.where(normals[:, 1] > 0.0, ZONES.index("medial"), ZONES.index("lateral"))
-    zone[normals[:, 2] > settings.facing_up] = ZONES.index("dorsal")
-    zone[foot.vertices_mm[:, 0] > foot.x_mm(settings.toe_from)] = ZONES.index("toe")
-    zone[normals[:, 2] < -settings.facing_down] = ZONES.index("bottom")
+    zone[normals[:, 2] > CLEARANCE.facing_up] = ZONES.index("dorsal")
+    zone[foot.vertices_mm[:, 0] > foot.x_mm(CLEARANCE.toe_from)] = ZONES.index("toe")
+    zone[normals[:, 2] < -CLEARANCE.facing_down] = ZONES.index("bottom")
     return zone
 
 
-def zone_clearances(
-    foot: Shape, clearance_mm: Floats, settings: ClearanceSettings = CLEARANCE
-) -> tuple[ZoneClearance, ...]:
+def zone_clearances(foot: Shape, clearance_mm: Floats) -> tuple[ZoneClearance, ...]:
     """The clearance of each zone, from the clearance (n,) at the foot's vertices."""
-    zone, areas = zone_of(foot, settings), vertex_areas(foot.vertices_mm, foot.faces)
+    zone, areas = zone_of(foot), vertex_areas(foot.vertices_mm, foot.faces)
     known = np.isfinite(clearance_mm) & (areas > 0.0)
     return tuple(
-        _zone_clearance(name, clearance_mm[chosen], areas[chosen], settings)
+        _zone_clearance(name, clearance_mm[chosen], areas[chosen])
         for index, name in enumerate(ZONES)
         for chosen in (known & (zone == index),)
     )
 
 
-def _zone_clearance(
-    name: str, clearance_mm: Floats, areas_mm2: Floats, settings: ClearanceSettings
-) -> ZoneClearance:
+def _zone_clearance(name: str, clearance_mm: Floats, areas_mm2: Floats) -> ZoneClearance:
     if not len(clearance_mm):
         return ZoneClearance(name, None, None, None, 0.0, 0.0, 0.0)
-    low, high = (area_quantile(clearance_mm, areas_mm2, share) for share in settings.quantiles)
-    tight, loose = clearance_mm < settings.tight_mm, clearance_mm > settings.loose_mm
+    low, high = (area_quantile(clearance_mm, areas_mm2, share) for share in CLEARANCE.quantiles)
+    tight, loose = clearance_mm < CLEARANCE.tight_mm, clearance_mm > CLEARANCE.loose_mm
     return ZoneClearance(
         zone=name,
         mean_mm=float(clearance_mm @ areas_mm2 / areas_mm2.sum()),

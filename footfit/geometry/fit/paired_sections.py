@@ -66,16 +66,14 @@ class SectionPair:
     last_sizes: dict[str, MeasureValue]
 
 
-def section_pairs(
-    foot: Shape, last: Shape, settings: SectionSettings = SECTIONS
-) -> tuple[SectionPair, ...]:
+def section_pairs(foot: Shape, last: Shape) -> tuple[SectionPair, ...]:
     """The sections of a foot and the last around it, at every station."""
-    return tuple(_pair(foot, last, station, settings) for station in STATIONS)
+    return tuple(_pair(foot, last, station) for station in STATIONS)
 
 
-def _pair(foot: Shape, last: Shape, station: Station, settings: SectionSettings) -> SectionPair:
+def _pair(foot: Shape, last: Shape, station: Station) -> SectionPair:
     origin, axes = _plane(foot, station)
-    band_mm = settings.band * foot.length_mm
+    band_mm = SECTIONS.band * foot.length_mm
     ours, theirs = foot.cut(origin, axes), last.cut(origin, axes)
     return SectionPair(
         station=station,

@@ -72,7 +72,7 @@ class _Rest:
     z: float
 
 
-def placement(foot: Shape, last: Shape, settings: PlacementSettings = PLACEMENT) -> Placement:
+def placement(foot: Shape, last: Shape) -> Placement:
     """The movement that puts ``foot`` into ``last``.
 
     Raises
@@ -80,15 +80,15 @@ def placement(foot: Shape, last: Shape, settings: PlacementSettings = PLACEMENT)
     NoSole
         One of the two has no bottom where it would rest.
     """
-    length_mm, front = foot.length_mm, settings.tread[1]
-    hinge = _rest(foot, (front - 0.01, front), foot.x_mm(0.0), length_mm, settings)
+    length_mm, front = foot.length_mm, PLACEMENT.tread[1]
+    hinge = _rest(foot, (front - 0.01, front), foot.x_mm(0.0), length_mm)
     if hinge is None:
         raise NoSole("the foot's sole is open at the tread, so it cannot be placed in a last")
     start = np.array([foot.x_mm(front), hinge.z])
-    place = Placement(start, settings.hinge * length_mm)
+    place = Placement(start, PLACEMENT.hinge * length_mm)
     around = Shape(last.vertices_mm, last.low, last.kind)
-    for _ in range(settings.rounds):
-        place = _shifted(foot, around, _turned(foot, around, place, settings), settings)
+    for _ in range(PLACEMENT.rounds):
+        place = _shifted(foot, around, _turned(foot, around, place))
     return place
 
 
@@ -114,13 +114,13 @@ def _moved(foot: Shape, place: Placement) -> tuple[Shape, float]:
     return moved, _heel_back(moved, foot.length_mm)
 
 
-def _turned(foot: Shape, last: Shape, place: Placement, settings: PlacementSettings) -> Placement:
+def _turned(foot: Shape, last: Shape, place: Placement) -> Placement:
     """The placement with bend, pitch and yaw that bring seat, tread and toes to the last's."""
     length_mm = foot.length_mm
     moved, back = _moved(foot, place)
-    windows = (settings.seat, settings.tread, settings.toes)
-    seat, tread, toes = (_rest(moved, w, back, length_mm, settings) for w in windows)
-    to_seat, to_tread, to_toes = (_rest(last, w, back, length_mm, settings) for w in windows)
+    windows = (PLACEMENT.seat, PLACEMENT.tread, PLACEMENT.toes)
+    seat, tread, toes = (_rest(moved, w, back, length_mm) for w in windows)
+    to_seat, to_tread, to_toes = (_rest(last, w, back, length_mm) for w in windows)
     if seat is None or tread is None or to_seat is None or to_tread is None:
         raise NoSole("foot and last share no bottom to rest on: the last is far too short, or open")
     reach = tread.x - seat.x
@@ -129,24 +129,24 @@ def _turned(foot: Shape, last: Shape, place: Placement, settings: PlacementSetti
     bend_deg = place.bend_deg
     if toes is not None and to_toes is not None:
         rise = (to_toes.z - to_tread.z) - (toes.z - tread.z) - np.tan(pitch) * (toes.x - tread.x)
-        hinge = back + settings.tread[1] * length_mm
+        hinge = back + PLACEMENT.tread[1] * length_mm
         bend_deg += float(np.degrees(np.arctan2(rise, toes.x - hinge)))
     yaw_deg = place.yaw_deg + float(np.degrees(turn))
     return replace(
         place,
-        bend_deg=float(np.clip(bend_deg, -settings.most_bend_deg, settings.most_bend_deg)),
+        bend_deg=float(np.clip(bend_deg, -PLACEMENT.most_bend_deg, PLACEMENT.most_bend_deg)),
         pitch_deg=place.pitch_deg + float(np.degrees(pitch)),
         yaw_deg=yaw_deg,
         swing_mm=float(np.tan(np.radians(yaw_deg))) * (tread.x - back),
     )
 
 
-def _shifted(foot: Shape, last: Shape, place: Placement, settings: PlacementSettings) -> Placement:
+def _shifted(foot: Shape, last: Shape, place: Placement) -> Placement:
     """The same turns with the shift that puts heel on heel and seat on seat."""
     moved, back = _moved(foot, place)
     to_back = _heel_back(last, foot.length_mm)
-    seat = _rest(moved, settings.seat, back, foot.length_mm, settings)
-    to_seat = _rest(last, settings.seat, to_back, foot.length_mm, settings)
+    seat = _rest(moved, PLACEMENT.seat, back, foot.length_mm)
+    to_seat = _rest(last, PLACEMENT.seat, to_back, foot.length_mm)
     if seat is None or to_seat is None:
         raise NoSole("foot and last share no seat to rest on: the heel of one of them is open")
     step = (to_back - back, to_seat.y - seat.y, to_seat.z - seat.z)
@@ -164,18 +164,14 @@ def _heel_back(shape: Shape, length_mm: float) -> float:
 
 
 def _rest(
-    shape: Shape,
-    window: tuple[float, float],
-    start_mm: float,
-    length_mm: float,
-    settings: PlacementSettings,
+    shape: Shape, window: tuple[float, float], start_mm: float, length_mm: float
 ) -> _Rest | None:
     """Where a sole lies in a window, in shares of a length from ``start_mm`` along X; None if there
     is no sole.
     """
-    x = start_mm + np.linspace(*window, settings.sections) * length_mm
+    x = start_mm + np.linspace(*window, PLACEMENT.sections) * length_mm
     segments = sections_across(shape.vertices_mm, shape.faces, x)
-    sole = soles(segments, settings.band * length_mm, settings.places)
+    sole = soles(segments, PLACEMENT.band * length_mm, PLACEMENT.places)
     middle, height = 0.5 * (sole.lateral + sole.medial), sole.depth.mean(axis=0)
     height = np.where(height <= sole.limit, height, sole.floor)  # an open sole
     if not np.isfinite(middle).all():

@@ -40,9 +40,7 @@ class ProfileDistances:
     parts: dict[str, Floats]
 
 
-def profile_distances(
-    profile: FlareProfile, many: Sequence[FlareProfile], settings: DistanceSettings = DISTANCE
-) -> ProfileDistances:
+def profile_distances(profile: FlareProfile, many: Sequence[FlareProfile]) -> ProfileDistances:
     """The distance D of one profile to each of many.
 
     D^2 = sum over the channels of w_c times the mean over stations of (difference)^2 / sd_c^2.
@@ -53,7 +51,6 @@ def profile_distances(
     profile : FlareProfile
     many : sequence of k FlareProfile
         With the same stations as ``profile``.
-    settings : DistanceSettings
 
     Returns
     -------
@@ -67,14 +64,14 @@ def profile_distances(
     count = len(profile.stations)
     if any(len(other.stations) != count for other in many):
         raise ValueError("profiles of different definitions cannot be compared: upgrade the older")
-    low, high = settings.stations
+    low, high = DISTANCE.stations
     inside = (profile.stations >= low) & (profile.stations <= high)
     here = _stacked([profile])[0][:, inside]
     there = _stacked(many).reshape(len(many), len(CHANNELS), count)[:, :, inside]
-    squared = ((there - here) ** 2).mean(axis=2) / np.square(settings.sd)
-    weights = np.where(np.isfinite(squared), np.array(settings.weights), 0.0)
+    squared = ((there - here) ** 2).mean(axis=2) / np.square(DISTANCE.sd)
+    weights = np.where(np.isfinite(squared), np.array(DISTANCE.weights), 0.0)
     carried = weights.sum(axis=1, keepdims=True)
-    parts = squared * np.array(settings.weights) / np.where(carried > 0.0, carried, np.nan)
+    parts = squared * np.array(DISTANCE.weights) / np.where(carried > 0.0, carried, np.nan)
     total = np.sqrt(np.where(weights > 0.0, parts, 0.0).sum(axis=1))
     total = np.where(carried[:, 0] > 0.0, total, np.nan)
     return ProfileDistances(total, {name: parts[:, i] for i, name in enumerate(CHANNELS)})

@@ -54,13 +54,7 @@ class TopCutSettings:
 TOP_CUT = TopCutSettings()
 
 
-def top_cut_faces(
-    vertices: Floats,
-    faces: Ints,
-    length: float,
-    start_x: float,
-    settings: TopCutSettings = TOP_CUT,
-) -> Bools:
+def top_cut_faces(vertices: Floats, faces: Ints, length: float, start_x: float) -> Bools:
     """The faces (m,) that close a shape at its top.
 
     These are the faces that look up behind the bend of the ankle. If those lie in one plane, then
@@ -74,26 +68,26 @@ def top_cut_faces(
         The shape's length, and where it begins along X.
     """
     on_top = np.zeros(len(faces), dtype=bool)
-    a, b, c = (vertices[:, 2] > settings.height * length)[faces.T]
+    a, b, c = (vertices[:, 2] > TOP_CUT.height * length)[faces.T]
     candidates = np.flatnonzero(a & b & c)
     high = faces[candidates]
     vectors = area_vectors(vertices, high)
-    for _ in range(settings.calm_rounds):
+    for _ in range(TOP_CUT.calm_rounds):
         vectors = calm_vectors(vectors, high, len(vertices))
     areas = row_lengths(vectors)
     middles = (vertices[high[:, 0]] + vertices[high[:, 1]]) / 3.0 + vertices[high[:, 2]] / 3.0
-    behind = middles[:, 0] < start_x + settings.front * length
-    behind &= vectors[:, 2] > settings.facing * areas
+    behind = middles[:, 0] < start_x + TOP_CUT.front * length
+    behind &= vectors[:, 2] > TOP_CUT.facing * areas
     total = float(areas[behind].sum())
-    if total <= settings.area * length**2:
+    if total <= TOP_CUT.area * length**2:
         return on_top
     points, share = middles[behind], areas[behind]
     normal = vectors[behind].sum(axis=0)
     normal /= np.linalg.norm(normal)
     start = Plane(normal, float(normal @ (share @ points) / share.sum()))
-    plane = robust_plane(points, share, settings.scale * length, settings.rounds, start)
-    level = np.abs(plane.heights(middles)) < settings.thickness * length
-    level &= vectors @ plane.normal > settings.flatness * areas
-    flat = float(areas[behind & level].sum()) > settings.flat_share * total
+    plane = robust_plane(points, share, TOP_CUT.scale * length, TOP_CUT.rounds, start)
+    level = np.abs(plane.heights(middles)) < TOP_CUT.thickness * length
+    level &= vectors @ plane.normal > TOP_CUT.flatness * areas
+    flat = float(areas[behind & level].sum()) > TOP_CUT.flat_share * total
     on_top[candidates[level if flat else behind]] = True
     return on_top

@@ -48,10 +48,7 @@ class Underside:
 
 
 def underside(
-    shape: Shape,
-    window: tuple[float, float],
-    places: tuple[float, ...],
-    settings: BottomSettings = BOTTOM,
+    shape: Shape, window: tuple[float, float], places: tuple[float, ...]
 ) -> Underside | None:
     """The underside's mean height (mm) at some shares of the width.
 
@@ -68,12 +65,12 @@ def underside(
     Underside or None
         None if a section has no surface that looks down at one of the places.
     """
-    count = 1 + round((window[1] - window[0]) / settings.step)
+    count = 1 + round((window[1] - window[0]) / BOTTOM.step)
     x = shape.x_mm(0.0) + np.linspace(*window, count) * shape.length_mm
-    faces = shape.under(settings.reach)
+    faces = shape.under(BOTTOM.reach)
     segments = sections_across(shape.vertices_mm, faces, x)
     down = area_vectors(shape.vertices_mm, faces[segments.face])[:, 2] < 0.0
-    bottom = soles(segments, settings.band * shape.length_mm, places, down)
+    bottom = soles(segments, BOTTOM.band * shape.length_mm, places, down)
     if not np.all(bottom.depth <= bottom.limit):
         return None
     return Underside(x, bottom.depth.mean(axis=0))

@@ -48,9 +48,7 @@ class Nearest:
     distance: Floats
 
 
-def nearest_on_surface(
-    points: Floats, vertices: Floats, faces: Ints, settings: NearestSettings = NEAREST
-) -> Nearest:
+def nearest_on_surface(points: Floats, vertices: Floats, faces: Ints) -> Nearest:
     """The point of a surface that is nearest to each given point.
 
     Parameters
@@ -70,14 +68,14 @@ def nearest_on_surface(
     from scipy.spatial import KDTree
 
     corner, first = np.unique(faces.ravel(), return_index=True)
-    spacing = settings.spacing * float(np.ptp(vertices[corner], axis=0).max()) or 1.0
-    middles, owners = triangle_samples(vertices, faces, spacing, settings.most_splits)
+    spacing = NEAREST.spacing * float(np.ptp(vertices[corner], axis=0).max()) or 1.0
+    middles, owners = triangle_samples(vertices, faces, spacing, NEAREST.most_splits)
     owners = np.append(first // 3, owners)  # a needle's middle is far from its tip
     tree = KDTree(np.concatenate([vertices[corner], middles]))
-    count = min(settings.candidates, len(owners))
+    count = min(NEAREST.candidates, len(owners))
     parts = []
-    for start in range(0, max(len(points), 1), settings.points_at_once):
-        batch = points[start : start + settings.points_at_once]
+    for start in range(0, max(len(points), 1), NEAREST.points_at_once):
+        batch = points[start : start + NEAREST.points_at_once]
         sample = tree.query(batch, k=count)[1].reshape(len(batch), count)
         parts.append(_nearest_of(batch, owners[sample], vertices[faces]))
     face, place, weights, distance = (np.concatenate(field) for field in zip(*parts, strict=True))

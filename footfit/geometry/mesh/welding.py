@@ -110,10 +110,10 @@ def _distinct(ordered: NDArray[np.uint64]) -> int:
     return 1 + int(np.count_nonzero(ordered[1:] != ordered[:-1]))
 
 
-def rounding_distance(points: Floats, settings: RoundingSettings = ROUNDING) -> float:
+def rounding_distance(points: Floats) -> float:
     """How far apart rounding may put two points (k, 3) that were the same."""
     diagonal = float(np.linalg.norm(np.ptp(points, axis=0)))
-    return max(settings.extent * diagonal, settings.coordinate * float(np.abs(points).max()))
+    return max(ROUNDING.extent * diagonal, ROUNDING.coordinate * float(np.abs(points).max()))
 
 
 def nearby_vertices(points: Floats, cell: float) -> Ints:

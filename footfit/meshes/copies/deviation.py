@@ -36,11 +36,7 @@ DEVIATION_SETTINGS = DeviationSettings()
 
 
 def largest_deviation_mm(
-    vertices_mm: Floats,
-    faces: Ints,
-    copy_vertices_mm: Floats,
-    copy_faces: Ints,
-    settings: DeviationSettings = DEVIATION_SETTINGS,
+    vertices_mm: Floats, faces: Ints, copy_vertices_mm: Floats, copy_faces: Ints
 ) -> float:
     """The two-sided largest distance between a mesh and a coarser copy, at samples of both.
 
@@ -58,21 +54,19 @@ def largest_deviation_mm(
     float
         mm.
     """
-    lattice = (settings.spacing_mm, settings.most_splits)
+    lattice = (DEVIATION_SETTINGS.spacing_mm, DEVIATION_SETTINGS.most_splits)
     here, owners = triangle_samples(vertices_mm, faces, *lattice)
     there, copy_owners = triangle_samples(copy_vertices_mm, copy_faces, *lattice)
     large = (np.bincount(owners) > 1)[owners]
     points = np.concatenate([vertices_mm, here[large]])
     copy_points = np.concatenate([copy_vertices_mm, there])
     return max(
-        _farthest(points, there, copy_vertices_mm[copy_faces[copy_owners]], settings),
-        _farthest(copy_points, here, vertices_mm[faces[owners]], settings),
+        _farthest(points, there, copy_vertices_mm[copy_faces[copy_owners]]),
+        _farthest(copy_points, here, vertices_mm[faces[owners]]),
     )
 
 
-def _farthest(
-    points: Floats, samples: Floats, corners: Floats, settings: DeviationSettings
-) -> float:
+def _farthest(points: Floats, samples: Floats, corners: Floats) -> float:
     """The largest of the points' distances to the triangles (s, 3, 3) that samples (s, 3) lie on.
 
     Only the maximum is needed, so only the farthest points are tried with more triangles.
@@ -81,17 +75,17 @@ def _farthest(
 
     tree = KDTree(samples)
     best = np.full(len(points), np.inf)
-    chosen, count = np.arange(len(points)), settings.candidates
+    chosen, count = np.arange(len(points)), DEVIATION_SETTINGS.candidates
     while True:
         count = min(count, len(samples))
         nearest = tree.query(points[chosen], k=count)[1].reshape(len(chosen), -1)
-        at_once = max(1, settings.trials // len(chosen))
+        at_once = max(1, DEVIATION_SETTINGS.trials // len(chosen))
         for start in range(0, count, at_once):
             tried = nearest[:, start : start + at_once]
             repeated = np.repeat(points[chosen], tried.shape[1], axis=0)
             squared = nearest_on_triangles(repeated, corners[tried.ravel()])[2]
             best[chosen] = np.minimum(best[chosen], squared.reshape(tried.shape).min(axis=1))
-        if count >= min(settings.most_candidates, len(samples)):
+        if count >= min(DEVIATION_SETTINGS.most_candidates, len(samples)):
             return float(np.sqrt(best.max()))
         count *= 4
-        chosen = np.argsort(best)[-(settings.trials // count) :]
+        chosen = np.argsort(best)[-(DEVIATION_SETTINGS.trials // count) :]
