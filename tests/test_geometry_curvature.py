@@ -270,7 +270,7 @@ def test_of_a_wave_no_more_is_smoothed_away_than_two_widths_leave(radius):
     depth, rate = 1e-3, (2.0 * np.pi / 60.0) ** 2
     vertices[:, 2] = depth * np.cos(np.sqrt(rate) * vertices[:, 0])
     crest = np.hypot(vertices[:, 0] - 120.0, vertices[:, 1] - 120.0) < 1e-6
-    found = pooled_curvature(vertices, faces, radius, crest).k2[crest]
+    found = pooled_curvature(vertices, faces, radius).k2[crest]
     lost = 1.0 - float(found[0]) / (depth * rate)
     x, wider = 0.5 * (radius / POOLING.radius_over_deviation) ** 2 * rate, POOLING.wider
     expected = 1.0 - (wider * np.exp(-x) - np.exp(-wider * x)) / (wider - 1.0)
