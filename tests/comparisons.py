@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 from functools import cache
 
+from footfit.geometry.measures.landmarks import Shape
 from footfit.pipeline.fit.compare import LastShape, compared
 from footfit.results import Comparison, SideVerdict
 from tests import answers
@@ -19,7 +20,7 @@ def last(name: str = "derby-42", left: bool = False) -> LastShape:
     record = answers.record(name, length_mm=272.0, left=left)
     if left:  # its mesh is the right-side copy all the same
         record = replace(record, side=SideVerdict("left", "sure", -4.1, "detected"))
-    return LastShape(record, vertices, faces)
+    return LastShape(record, Shape(vertices, faces, "last"))
 
 
 @cache

@@ -19,7 +19,7 @@ from footfit.pipeline.fit.candidates import choice
 from footfit.pipeline.fit.compare import best_comparison
 from footfit.pipeline.fit.fit_profile import fit_profile
 from footfit.pipeline.fit.match import Question, matched, meets
-from footfit.pipeline.fit.ranking import TIE_DISTANCE
+from footfit.pipeline.fit.scoring import rescan_spread
 from footfit.pipeline.fit.zones import BALL_SHARE, ball_line, last_shape, pitch_gain_mm
 from footfit.pipeline.scan.reading import profiled_source
 from footfit.report.page.match_page import match_page
@@ -259,7 +259,8 @@ def test_by_flare_knows_no_size_and_says_so_and_still_judges() -> None:
 def test_by_flare_a_tie_is_as_wide_as_two_rescans() -> None:
     found = answer(last("z"), last("y"), last("w", turn_deg=25), by="flare")
     assert set(found.candidates[0].tied_with) == {"z"}
-    assert found.candidates[-1].distance - found.candidates[0].distance > TIE_DISTANCE
+    apart = found.candidates[-1].distance - found.candidates[0].distance
+    assert apart > rescan_spread(2).difference(0, 1)
 
 
 def test_by_shape_finds_length_and_width_and_judges_no_fit() -> None:

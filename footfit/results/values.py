@@ -177,6 +177,11 @@ class Notice(Part):
     message: str
 
 
+def count_notice(code: str, count: int, words: str) -> tuple[Notice, ...]:
+    """A notice of how many there were; none if there were none."""
+    return (Notice(code, f"{count:,} {words}"),) if count else ()
+
+
 def measured_part(values: Iterable[tuple[str, Measured]]) -> Json:
     """Measured values by name, completed with the names that every document has."""
     return part(dict.fromkeys(FIT_NAMES, NOT_YET) | dict(values))

@@ -20,7 +20,7 @@ from footfit.geometry.mesh.welding import (
 )
 from footfit.geometry.numeric.arrays import Bools, Floats, Ints
 from footfit.meshes.clean.spikes import pressed_spikes
-from footfit.results.values import Notice
+from footfit.results.values import Notice, count_notice
 
 
 @dataclass(frozen=True, slots=True)
@@ -88,11 +88,6 @@ def welded_mesh(vertices: Floats, faces: Ints) -> WeldedMesh:
     vertices, pressed = pressed_spikes(vertices, faces)
     notices += count_notice("spikes_pressed", pressed, "spikes were pressed back into the surface")
     return WeldedMesh(vertices, faces, source, int((~distinct).sum()), notices)
-
-
-def count_notice(code: str, count: int, words: str) -> tuple[Notice, ...]:
-    """A notice of how many there were; none if there were none."""
-    return (Notice(code, f"{count:,} {words}"),) if count else ()
 
 
 def _welded(vertices: Floats, faces: Ints) -> tuple[Floats, Ints, Ints, tuple[Notice, ...]]:

@@ -22,7 +22,7 @@ from footfit.geometry.numeric.rotations import rotation_matrices, transform
 from footfit.meshes.formats.placed_parts import Part, joined_parts, placed_nodes
 from footfit.meshes.formats.raw import RawMesh, check_counts, doubles
 from footfit.meshes.read_limits import Limits
-from footfit.results.values import Notice
+from footfit.results.values import count_notice
 
 Tree = dict[str, Any]
 Types = dict[int, str]
@@ -77,10 +77,8 @@ def read_glb(data: bytes, limits: Limits) -> RawMesh:
         for (points, rows), (row, placing) in zip(corners, listed, strict=True)
     ]
     raw = joined_parts(parts, len(meshes), "m")
-    if not trailing:
-        return raw
-    notice = Notice("trailing_bytes", f"{trailing:,} bytes after the GLB were ignored")
-    return replace(raw, warnings=(notice, *raw.warnings))
+    notices = count_notice("trailing_bytes", trailing, "bytes after the GLB were ignored")
+    return replace(raw, warnings=notices + raw.warnings)
 
 
 # ---------------------------------------------------------------- chunks

@@ -13,7 +13,7 @@ from footfit.geometry.numeric.arrays import Floats, Ints
 from footfit.meshes.formats.raw import RawMesh, check_counts, doubles
 from footfit.meshes.formats.tokens import BLANK, floats, unix_text, word_offsets
 from footfit.meshes.read_limits import Limits
-from footfit.results.values import Notice
+from footfit.results.values import Notice, count_notice
 
 HEADER_BYTES = 84
 FACET = np.dtype([("normal", "<f4", (3,)), ("corners", "<f4", (9,)), ("attribute", "<u2")])
@@ -80,7 +80,8 @@ def read_binary_stl(data: bytes, limits: Limits) -> RawMesh:
         raise EmptyMesh("the STL holds no facets: export it again")
     check_counts(0, count, limits)
     facets = np.frombuffer(data, dtype=FACET, count=count, offset=HEADER_BYTES)
-    return _soup(doubles(facets["corners"].reshape(-1, 3)), _trailing_notice(trailing))
+    notices = count_notice("trailing_bytes", trailing, "bytes after the last facet were ignored")
+    return _soup(doubles(facets["corners"].reshape(-1, 3)), notices)
 
 
 def read_ascii_stl(data: bytes, limits: Limits) -> RawMesh:
@@ -174,9 +175,3 @@ def _check_keyword(
 
 def _soup(corners: Floats, warnings: tuple[Notice, ...]) -> RawMesh:
     return RawMesh(corners, np.arange(len(corners), dtype=np.int64).reshape(-1, 3), warnings)
-
-
-def _trailing_notice(trailing: int) -> tuple[Notice, ...]:
-    if not trailing:
-        return ()
-    return (Notice("trailing_bytes", f"{trailing:,} bytes after the last facet were ignored"),)

@@ -37,7 +37,6 @@ _UNITS = {  # the unit that footfit reports, and how many of it each unit of the
     "foot": ("in", 12.0),
 }
 _TRANSFORM = 12
-_BLOCK = 60_000  # words that are turned into numbers at once
 
 Attributes = dict[str, str]
 Step = tuple[str, str | None]  # an object's id and the transform it is used with
@@ -97,29 +96,19 @@ def _model_part(zipped: ZipFile) -> ZipInfo:
 
 @dataclass(slots=True)
 class _Triples:
-    """Words that come in threes; ``numbers`` turns them into numbers, a block at a time."""
+    """Words that come in threes, and what turns them into numbers."""
 
     numbers: Callable[[bytes, int], NDArray[Any]]
-    words: list[str] = field(default_factory=list)
-    blocks: list[NDArray[Any]] = field(default_factory=list)
+    text: bytearray = field(default_factory=bytearray)
     count: int = 0
 
     def add(self, first: str, second: str, third: str) -> None:
-        self.words += (first, second, third)
+        self.text += f"{first} {second} {third}\n".encode()
         self.count += 1
-        if len(self.words) >= _BLOCK:
-            self._close()
-
-    def _close(self) -> None:
-        text = " ".join(self.words).encode()
-        self.blocks.append(self.numbers(text, len(self.words)))
-        self.words = []
 
     def rows(self) -> NDArray[Any]:
         """All numbers, (count, 3)."""
-        self._close()
-        self.blocks = [np.concatenate(self.blocks)]
-        return self.blocks[0].reshape(-1, 3)
+        return self.numbers(bytes(self.text), 3 * self.count).reshape(-1, 3)
 
 
 @dataclass(slots=True)
@@ -133,7 +122,7 @@ class _Shape:
 
 @dataclass(slots=True)
 class _Model:
-    """The parts of the XML that have been read; each method takes one kind of element."""
+    """The parts of the XML that have been read."""
 
     limits: Limits
     unit: str = "millimeter"
@@ -154,41 +143,26 @@ class _Model:
                 raise TooLarge(
                     "the 3MF's XML has far more parts than a mesh has: export the foot as STL"
                 )
-            handler = _ELEMENTS.get(name)
-            if handler is not None:
-                handler(self, attributes)
+            self._take_other(name, attributes)
 
-    def model(self, attributes: Attributes) -> None:
-        """Take a ``model``."""
-        self.unit = attributes.get("unit", self.unit)
-        needed = attributes.get("requiredextensions", "").split()
-        if needed:
-            raise UnknownFormat(
-                f"the 3MF needs the extension {needed[0][:20]!a}, which footfit does not read:"
-                " export a plain 3MF, or STL"
-            )
-
-    def object(self, attributes: Attributes) -> None:
-        """Take an ``object``."""
-        if attributes["id"] in self.shapes:
-            raise DamagedMesh("two objects of the 3MF have the same id: export it again")
-        self.current = self.shapes[attributes["id"]] = _Shape()
-
-    def component(self, attributes: Attributes) -> None:
-        """Take a ``component``."""
-        self.current.components.append(_step(attributes))
-
-    def item(self, attributes: Attributes) -> None:
-        """Take an ``item``."""
-        self.items.append(_step(attributes))
-
-
-_ELEMENTS: dict[str, Callable[[_Model, Attributes], None]] = {
-    _CORE + "model": _Model.model,
-    _CORE + "object": _Model.object,
-    _CORE + "component": _Model.component,
-    _CORE + "item": _Model.item,
-}
+    def _take_other(self, name: str, attributes: Attributes) -> None:
+        """Take the beginning of an element that is no part of a mesh."""
+        if name == _CORE + "model":
+            self.unit = attributes.get("unit", self.unit)
+            needed = attributes.get("requiredextensions", "").split()
+            if needed:
+                raise UnknownFormat(
+                    f"the 3MF needs the extension {needed[0][:20]!a}, which footfit does not read:"
+                    " export a plain 3MF, or STL"
+                )
+        elif name == _CORE + "object":
+            if attributes["id"] in self.shapes:
+                raise DamagedMesh("two objects of the 3MF have the same id: export it again")
+            self.current = self.shapes[attributes["id"]] = _Shape()
+        elif name == _CORE + "component":
+            self.current.components.append(_step(attributes))
+        elif name == _CORE + "item":
+            self.items.append(_step(attributes))
 
 
 def _step(attributes: Attributes) -> Step:

@@ -14,7 +14,7 @@ from footfit.geometry.fit.placement import Placement, placed, placement
 from footfit.geometry.measures.landmarks import Shape
 from footfit.geometry.measures.measure_table import measure_named
 from footfit.geometry.measures.measure_value import MeasureValue
-from footfit.geometry.numeric.arrays import Floats, Ints
+from footfit.geometry.numeric.arrays import Floats
 from footfit.pipeline.batch.sources import ReadingOptions, Source
 from footfit.pipeline.scan.measure import last_record
 from footfit.pipeline.scan.preparation import stored_shape
@@ -50,8 +50,7 @@ class LastShape:
     """A last to compare with: its record, and its right shape, canonical mm, holes closed."""
 
     record: LastRecord
-    vertices_mm: Floats
-    faces: Ints
+    shape: Shape
 
 
 def stored_last(path: Path, name: str) -> LastShape:
@@ -64,7 +63,8 @@ def stored_last(path: Path, name: str) -> LastShape:
     """
     with open_catalogue(path) as catalogue:
         record = catalogue.record(name)
-        return LastShape(record, *stored_shape(catalogue.mesh_copy(name).data, record.side.side))
+        mesh = stored_shape(catalogue.mesh_copy(name).data, record.side.side)
+        return LastShape(record, Shape(*mesh, "last"))
 
 
 def scanned_last(source: Source, reading: ReadingOptions) -> LastShape:
@@ -77,17 +77,17 @@ def scanned_last(source: Source, reading: ReadingOptions) -> LastShape:
     """
     shape = profiled_source(source, reading)
     record = last_record(shape, LastLabels(Path(source.path or "last").stem))
-    return LastShape(record, shape.aligned.prepared.vertices_mm, shape.aligned.prepared.faces)
+    prepared = shape.aligned.prepared
+    return LastShape(record, Shape(prepared.vertices_mm, prepared.faces, "last"))
 
 
 @dataclass(frozen=True, slots=True)
 class PlacedFoot:
-    """A foot in a last, both right shapes in the last's frame, with the ``clearance_mm`` (n,) at
-    the foot's vertices and the clearance by zone.
+    """A foot in the last's frame, a right shape, with the ``clearance_mm`` (n,) at its vertices
+    and the clearance by zone.
     """
 
     foot: Shape
-    last: Shape
     placement: Placement
     clearance_mm: Floats
     zones: tuple[ZoneClearance, ...]
@@ -101,12 +101,11 @@ def placed_foot(foot: Profiled, last: LastShape) -> PlacedFoot:
     NoSole
         One of the two has no bottom to rest on.
     """
-    around = Shape(last.vertices_mm, last.faces, "last")
     vertices_mm, faces = foot.aligned.prepared.vertices_mm, foot.aligned.prepared.faces
-    place = placement(Shape(vertices_mm, faces, "foot"), around)
-    inside = Shape(placed(vertices_mm, place), faces, "foot")
-    clearance_mm = foot_clearance(inside, around)
-    return PlacedFoot(inside, around, place, clearance_mm, zone_clearances(inside, clearance_mm))
+    place = placement(Shape(vertices_mm, faces), last.shape)
+    inside = Shape(placed(vertices_mm, place), faces)
+    clearance_mm = foot_clearance(inside, last.shape)
+    return PlacedFoot(inside, place, clearance_mm, zone_clearances(inside, clearance_mm))
 
 
 def compared(foot: Profiled, last: LastShape) -> Comparison:
@@ -125,11 +124,11 @@ def compared(foot: Profiled, last: LastShape) -> Comparison:
         placement=inside.placement,
         vertices_mm=inside.foot.vertices_mm,
         faces=inside.foot.faces,
-        last_vertices_mm=inside.last.vertices_mm,
-        last_faces=inside.last.faces,
+        last_vertices_mm=last.shape.vertices_mm,
+        last_faces=last.shape.faces,
         clearance_mm=inside.clearance_mm,
         zones=inside.zones,
-        sections=tuple(_section(pair) for pair in section_pairs(inside.foot, inside.last)),
+        sections=tuple(_section(pair) for pair in section_pairs(inside.foot, last.shape)),
         warnings=_warnings(foot, last.record),
     )
 

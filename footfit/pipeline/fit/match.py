@@ -71,7 +71,8 @@ def matched(feet: Sequence[Profiled], library: Library, question: Question = Que
         By fit: a foot's length is not known, for example if its toes were not scanned.
     """
     if not library.lasts:
-        raise NoCandidate(_nothing_left(library))
+        nothing = "no last passes these filters; see footfit list-lasts"
+        raise NoCandidate(next((notice.message for notice in library.warnings), nothing))
     if question.by == "fit":
         _refuse_unknown_length(feet)
     profile = question.profile or fit_profile()
@@ -178,13 +179,6 @@ def meets(match: Match, least: Verdict) -> bool:
     return best is not None and VERDICTS.index(best) <= VERDICTS.index(least)
 
 
-def _nothing_left(library: Library) -> str:
-    """Why there is no last to rank, and what to do."""
-    if library.warnings:
-        return library.warnings[0].message
-    return "no last passes these filters; see footfit list-lasts"
-
-
 # ---------------------------------------------------------------- candidates
 
 
@@ -288,13 +282,11 @@ def _notices(
         for notice in (*foot.unusual, *unusual_measures(foot.measures, kind))
     ]
     if judged.by == "flare":
-        notices.append(
-            Notice("scale_free", "a search by flare knows no size: look at the length too")
-        )
+        words = "a search by flare knows no size: look at the length too"
+        notices.append(Notice("scale_free", words))
     if judged.by != "shape" and "last" in kinds:
-        notices.append(
-            Notice("looks_like_a_last", "its shape is like a last's; use --by shape for a last")
-        )
+        words = "its shape is like a last's; use --by shape for a last"
+        notices.append(Notice("looks_like_a_last", words))
     if len(feet) == 2 and len(sides) == 1:
         notices.append(Notice("same_side", f"both feet of the pair are {sides.pop()} feet"))
     differ = reasons.pair_notice(feet, size_system)

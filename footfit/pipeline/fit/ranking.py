@@ -19,7 +19,7 @@ from footfit.pipeline.fit.scoring import (
     Spread,
     distance_spread,
     fit_distance,
-    fixed_tiers,
+    rescan_spread,
     scores,
     tiers,
     worst_levels,
@@ -35,8 +35,6 @@ from footfit.results import (
     ZoneFit,
 )
 
-TIE_DISTANCE = 2.0**0.5
-"""Two distances by flare or shape that are closer are a tie: each has the spread of a rescan."""
 TWIN_LENGTH_MM = 2.0
 """Two lasts with the same labels and opposite sides are one pair if their lengths differ less."""
 INDEPENDENT = 6.0
@@ -50,7 +48,7 @@ class JudgedLasts:
     """n lasts, judged for one customer in z columns: the zones of each foot.
 
     ``clearances`` has a row for each last. ``level`` (n,) indexes VERDICTS; ``distance`` (n,) is
-    what the search goes by; ``spread`` belongs to the fit distance.
+    what the search goes by, and ``spread`` how sure it is: by flare or shape that of a rescan.
     """
 
     feet: tuple[Profiled, ...]
@@ -119,7 +117,7 @@ def judged_lasts(
         level=worst_levels(judged.level, columns),
         flare=tuple(flare),
         distance=_distance(by, judged, flare, feet[longer], chosen),
-        spread=distance_spread(judged),
+        spread=distance_spread(judged) if by == "fit" else rescan_spread(len(chosen)),
     )
 
 
@@ -219,8 +217,8 @@ def ranking(judged: JudgedLasts, tie_sds: float) -> Ranking:
     """
     if judged.by != "fit":
         rows = _by_distance(judged, range(len(judged.lasts)))
-        tier = fixed_tiers([float(judged.distance[i]) for i in rows], TIE_DISTANCE)
-        return Ranking(tuple(rows), tuple(tier))
+        one = np.zeros(len(judged.lasts), dtype=np.int64)
+        return Ranking(tuple(rows), tuple(tiers(rows, judged.distance, one, judged.spread, 1.0)))
     group = judged.scores.level[:, _length_column(judged)] * len(VERDICTS) + judged.level
     kept = [i for i in with_toe_room(judged) if judged.level[i] < REJECT]
     rows = sorted(_by_distance(judged, kept), key=lambda i: group[i])

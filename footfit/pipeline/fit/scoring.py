@@ -165,6 +165,12 @@ class Spread:
         return float(np.sqrt(foot + self.own[i] + self.own[j]))
 
 
+def rescan_spread(count: int) -> Spread:
+    """The spread of distances in units of what two scans of one shape are apart."""
+    nothing = np.zeros((count, 1))
+    return Spread(nothing, nothing, np.ones(count), np.zeros(count))
+
+
 def distance_spread(scores: Scores) -> Spread:
     """The spread of the fit distance, propagated from the measures' standard deviations.
 
@@ -199,21 +205,4 @@ def tiers(
         else:
             first = i
             tier.append(tier[-1] + 1 if tier else 0)
-    return tier
-
-
-def fixed_tiers(distances: Sequence[float], tie: float) -> list[int]:
-    """The tier of each of the distances, which rise: a tier is ``tie`` wide from its smallest.
-
-    Examples
-    --------
-    >>> fixed_tiers([1.0, 2.0, 3.0, 9.0], tie=1.5)
-    [0, 0, 1, 2]
-    """
-    starts: list[float] = []
-    tier: list[int] = []
-    for distance in distances:
-        if not starts or distance > starts[-1] + tie:
-            starts.append(distance)
-        tier.append(len(starts) - 1)
     return tier

@@ -9,10 +9,10 @@ from footfit.geometry.mesh.welding import without_unused_vertices
 from footfit.geometry.numeric.arrays import Ints, row_lengths
 from footfit.geometry.pose.facing import outward_faces
 from footfit.geometry.pose.loose_pieces import KeptPieces, kept_pieces
-from footfit.meshes.clean.triangles import count_notice
 from footfit.meshes.read import FileMesh
 from footfit.meshes.units import settled_units
 from footfit.results import MeshInfo, Notice, Scan
+from footfit.results.values import count_notice
 
 SLIVER = 1e-12
 """A face whose area is below this share of the mean area has none."""

@@ -83,14 +83,12 @@ def shape_measures(vertices_mm: Floats, faces: Ints, kind: str = "foot") -> tupl
     tuple of Measure
         In the table's order; one that cannot be taken has a reason instead of a value.
     """
-    shape = Shape(vertices_mm, faces, kind)
-    return tuple(_measure(entry, shape) for entry in measure_table.of_kind(kind))
-
-
-def _measure(entry: measure_table.MeasureDefinition, shape: Shape) -> Measure:
-    reading = entry.value_of(shape)
-    sd = None if reading.value is None else entry.sd
-    return Measure(entry.name, Measured(reading.value, sd, reading.reason), entry.definition_id)
+    shape, measures = Shape(vertices_mm, faces, kind), []
+    for entry in measure_table.of_kind(kind):
+        value, reason = entry.value_of(shape)
+        measured = Measured(value, None if value is None else entry.sd, reason)
+        measures.append(Measure(entry.name, measured, entry.definition_id))
+    return tuple(measures)
 
 
 def unusual_measures(measures: Iterable[Measure], kind: str) -> tuple[Notice, ...]:
