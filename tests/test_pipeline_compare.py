@@ -60,7 +60,8 @@ def test_the_room_in_a_wider_copy_is_what_was_added_along_the_normals():
     vertices, faces = last_mesh(spec)
     foot = comparison().foot
     inside = replace(foot, aligned=aligned_of(foot.aligned.alignment, vertices, faces))
-    found = compared(inside, replace(last(), vertices_mm=vertices * [1.0, 1.06, 1.0]))
+    wider = Shape(vertices * [1.0, 1.06, 1.0], last().shape.faces, "last")
+    found = compared(inside, replace(last(), shape=wider))
     normals, areas = vertex_normals(vertices, faces), vertex_areas(vertices, faces)
     added = 0.06 * vertices[:, 1] * normals[:, 1]
     zone = zone_of(Shape(vertices, faces))
@@ -90,10 +91,10 @@ def test_a_foot_in_a_last_far_too_short_is_said(stocked):
 
 
 def test_a_last_without_a_bottom_is_refused():
-    vertices, faces = last().vertices_mm, last().faces
+    vertices, faces = last().shape.vertices_mm, last().shape.faces
     front = faces[(vertices[faces][:, :, 0] < 60.0).all(axis=1)]
     with pytest.raises(NoSole):
-        compared(comparison().foot, replace(last(), faces=front))
+        compared(comparison().foot, replace(last(), shape=Shape(vertices, front, "last")))
 
 
 def test_a_match_is_shown_in_its_best_last(scan, stocked):
