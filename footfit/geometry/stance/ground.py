@@ -7,14 +7,16 @@ Two cues are combined by their own uncertainties: a model of the whole bottom
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Callable
+from dataclasses import dataclass, field
 
 import numpy as np
 
 from footfit.geometry.numeric.arrays import Floats, Ints
-from footfit.geometry.stance.middle_line import MiddleLine, MiddleLines
+from footfit.geometry.stance.middle_line import MiddleLine, middle_line
 from footfit.geometry.stance.tread_fit import (
     TREAD_FIT,
+    SlopedLine,
     TreadFit,
     fitted_tread,
     model_arc,
@@ -28,12 +30,19 @@ class GroundSettings:
 
     Attributes
     ----------
+    first_deg : float
+        The ground that the fit begins from. Its result is taken if it is below ``low_deg``, its
+        cost is below ``low_cost``, and the toe springs by less than ``low_spring`` of the length.
+        A wrong fit has the toe rise far from the ground, because its ground is too low.
     starts_deg : tuple of float
-        Grounds that the fit begins from; the least cost wins.
+        Else the grounds that more fits begin from; the least cost wins.
     range_deg : tuple of float
         A ground outside of this range is no ground.
     rounds, damping, settled_deg
         Of finding the place of the tread along the ground that the fit gives.
+    step_deg : float
+        While the ground is sought, lines are cut for multiples of this angle. The last fit is to a
+        line cut for its own ground.
     near_bandwidth : float
         Standard deviation of the local parabolas of the near slope, over the length.
     near_reach : float
@@ -47,11 +56,16 @@ class GroundSettings:
         was two to five times that of the near slope.
     """
 
-    starts_deg: tuple[float, ...] = (1.0, 9.0, 17.0, 25.0, 33.0)
+    first_deg: float = 9.0
+    low_deg: float = 17.0
+    low_cost: float = 25.0
+    low_spring: float = 0.06
+    starts_deg: tuple[float, ...] = (1.0, 17.0, 25.0, 33.0, 41.0)
     range_deg: tuple[float, float] = (-1.5, 45.0)
     rounds: int = 10
     damping: float = 0.8
     settled_deg: float = 0.03
+    step_deg: float = 4.0
     near_window: tuple[float, float] = (0.45, 0.92)
     near_samples: int = 95
     near_bandwidth: float = 0.022
@@ -62,6 +76,7 @@ class GroundSettings:
 
 
 GROUND = GroundSettings()
+_TIP = 0.94  # the toe spring is read at this place
 
 
 @dataclass(frozen=True, slots=True)
@@ -75,7 +90,7 @@ class StandingGround:
     sd : float
         Its standard deviation, radians: of where a tread may lie, not of a second scan.
     line : MiddleLine
-        The middle line, cut for a ground within a degree of this one.
+        The middle line over this ground.
     """
 
     angle: float
@@ -93,37 +108,85 @@ def standing_ground(
     StandingGround or None
         None if the bottom is open or has no tread.
     """
-    lines = MiddleLines(vertices_mm, faces)
-    fits = [_fit(lines, float(np.radians(start)), settings) for start in settings.starts_deg]
-    least, most = np.radians(settings.range_deg)
-    possible = [fit for fit in fits if fit is not None and least < fit.ground < most]
-    if not possible:
+    rough = _rough_fit(_Trials(vertices_mm, faces, settings), settings)
+    line = None if rough is None else middle_line(vertices_mm, faces, rough.ground)
+    bottom = _bottom(line)
+    if rough is None or line is None or bottom is None:
         return None
-    fit = min(possible, key=lambda each: each.cost)
-    line = lines.near(fit.ground)
-    near = None if line is None else _near_slope(line, fit.ground, settings)
-    if line is None or near is None:
+    fit = _fit(lambda _: bottom, rough.ground, rough.parameters, settings)
+    near = None if fit is None else _near_slope(line, fit.ground, settings)
+    if fit is None or near is None:
         return None
     near_angle, near_sd = near
     fit_sd = settings.fit_doubt * fit.ground_sd
     share = near_sd**-2 / (near_sd**-2 + fit_sd**-2)
     angle = share * near_angle + (1.0 - share) * fit.ground
     variance = 0.5 * (fit.ground_sd**2 + near_sd**2) + 0.25 * (near_angle - fit.ground) ** 2
-    return StandingGround(angle, float(np.sqrt(variance)), line)
+    return StandingGround(angle, float(np.sqrt(variance)), line.on(angle, vertices_mm))
 
 
-def _fit(lines: MiddleLines, ground: float, settings: GroundSettings) -> TreadFit | None:
+@dataclass
+class _Trials:
+    """The bottom of one shape over trial grounds, each cut when it is first asked for, and kept."""
+
+    vertices_mm: Floats
+    faces: Ints
+    settings: GroundSettings
+    _cut: dict[int, SlopedLine | None] = field(default_factory=dict)
+
+    def near(self, ground: float) -> SlopedLine | None:
+        """The bottom that is cut for the trial ground nearest to an angle (radians)."""
+        step = np.radians(self.settings.step_deg)
+        number = round(ground / step)
+        if number not in self._cut:
+            self._cut[number] = _bottom(middle_line(self.vertices_mm, self.faces, number * step))
+        return self._cut[number]
+
+
+def _bottom(line: MiddleLine | None) -> SlopedLine | None:
+    """A middle line as the model is fitted to it."""
+    return None if line is None else sloped(line, model_arc(), TREAD_FIT.bandwidth)
+
+
+def _rough_fit(trials: _Trials, settings: GroundSettings) -> TreadFit | None:
+    """The best fit to lines that are cut for grounds nearby; None if there is none."""
+    first = np.radians(settings.first_deg)
+    fit = _fit(trials.near, first, first, settings)
+    if fit is not None and _is_low(fit, trials, settings):
+        return fit
+    starts = np.radians(settings.starts_deg).tolist()
+    fits = [fit, *(_fit(trials.near, start, start, settings) for start in starts)]
+    least, most = np.radians(settings.range_deg)
+    possible = [each for each in fits if each is not None and least < each.ground < most]
+    return min(possible, key=lambda each: each.cost, default=None)
+
+
+def _is_low(fit: TreadFit, trials: _Trials, settings: GroundSettings) -> bool:
+    """Whether a fit is that of a low heel, with a toe that springs as toes do."""
+    bottom = trials.near(fit.ground)
+    lowest = np.radians(settings.range_deg[0])
+    low = lowest < fit.ground < np.radians(settings.low_deg) and fit.cost < settings.low_cost
+    if bottom is None or not low:
+        return False
+    place = bottom.places(fit.ground)
+    toe = (place > TREAD_FIT.tread[0]) & (place < _TIP)
+    rise = np.sin(bottom.slope - fit.ground)[toe].sum() * (bottom.arc[1] - bottom.arc[0])
+    return bool(rise < settings.low_spring)
+
+
+def _fit(
+    bottom_at: Callable[[float], SlopedLine | None],
+    ground: float,
+    start: Floats | float,
+    settings: GroundSettings,
+) -> TreadFit | None:
     """The model's ground, the tread's place being counted along that very ground."""
-    start: Floats | float = ground
     fit = None
     for _ in range(settings.rounds):
-        line = lines.near(ground)
-        if line is None:
-            return None
-        bottom = sloped(line, ground, model_arc(), TREAD_FIT.bandwidth)
+        bottom = bottom_at(ground)
         if bottom is None:
             return None
-        fit = fitted_tread(bottom, start)
+        fit = fitted_tread(bottom, ground, start)
         start = fit.parameters
         off = fit.ground - ground
         ground += settings.damping * off
@@ -137,11 +200,11 @@ def _near_slope(
 ) -> tuple[float, float] | None:
     """The mean slope near the tread's usual place, and its standard deviation, radians."""
     arc = np.linspace(*settings.near_window, settings.near_samples)
-    bottom = sloped(line, ground, arc, settings.near_bandwidth)
+    bottom = sloped(line, arc, settings.near_bandwidth)
     if bottom is None:
         return None
     bend = np.gradient(bottom.slope, arc)
-    off = (bottom.place - TREAD_FIT.tread[0]) / settings.near_reach
+    off = (bottom.places(ground) - TREAD_FIT.tread[0]) / settings.near_reach
     weight = np.exp(-0.5 * (off**2 + (bend / settings.near_bend) ** 2))
     mean = float(weight @ bottom.slope / weight.sum())
     variance = float(weight @ (bottom.slope - mean) ** 2 / weight.sum())

@@ -8,7 +8,7 @@ at right angles to the resting plane spoil the seat of a high heel.
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 
 import numpy as np
 
@@ -34,8 +34,6 @@ class MiddleLineSettings:
     reach : tuple of float
         From where to where the line is cut.
     sections : int
-    step_deg : float
-        Cuts are made for grounds at multiples of this angle, and used for those between.
     """
 
     places: tuple[float, ...] = (0.35, 0.50, 0.65)
@@ -44,7 +42,6 @@ class MiddleLineSettings:
     cells: int = 64
     reach: tuple[float, float] = (0.02, 0.98)
     sections: int = 129
-    step_deg: float = 2.0
 
 
 MIDDLE_LINE = MiddleLineSettings()
@@ -80,6 +77,16 @@ class MiddleLine:
         start = self.points_mm[0, 0] - self.ends_mm[0]
         arc: Floats = (start + np.concatenate([[0.0], np.cumsum(steps)])) / self.length_mm
         return arc
+
+    def on(self, ground: float, vertices_mm: Floats) -> MiddleLine:
+        """The same line over a ground that is within some degrees of the one it was cut for.
+
+        ``vertices_mm`` (n, 3) is the shape, in its resting frame.
+        """
+        points = turned(vertices_mm, ground)
+        cosine, sine = np.cos(ground - self.ground), np.sin(ground - self.ground)
+        turn = np.array([[cosine, -sine], [sine, cosine]])
+        return MiddleLine(ground, self.points_mm @ turn, _ends(points[low_points(points)]))
 
 
 def turned(vertices_mm: Floats, ground: float) -> Floats:
@@ -119,10 +126,11 @@ def middle_line(
     """
     points = turned(vertices_mm, ground)
     low = low_points(points, settings)
-    ends = float(points[low, 0].min()), float(points[low, 0].max())
+    ends = _ends(points[low])
     length = ends[1] - ends[0]
     x = ends[0] + np.linspace(*settings.reach, settings.sections) * length
-    near = faces[low[faces].any(axis=1)]
+    a, b, c = low[faces.T]
+    near = faces[a | b | c]
     segments = sections_across(points, near, x)
     down = area_vectors(points, near[segments.face])[:, 2] < 0.0
     bottom = soles(segments, settings.band * length, settings.places, down)
@@ -131,6 +139,11 @@ def middle_line(
         return None
     line = np.column_stack([x[whole], bottom.depth[:, whole].mean(axis=0)])
     return MiddleLine(ground, line, ends)
+
+
+def _ends(low_mm: Floats) -> tuple[float, float]:
+    """The rearmost and the foremost of the low points (k, 3), along X."""
+    return float(low_mm[:, 0].min()), float(low_mm[:, 0].max())
 
 
 def low_points(points: Floats, settings: MiddleLineSettings = MIDDLE_LINE) -> Bools:
@@ -142,23 +155,3 @@ def low_points(points: Floats, settings: MiddleLineSettings = MIDDLE_LINE) -> Bo
     np.minimum.at(lowest, cell + 1, points[:, 2])
     around = np.minimum(np.minimum(lowest[:-2], lowest[1:-1]), lowest[2:])
     return np.asarray(points[:, 2] < around[cell] + settings.low * length)
-
-
-@dataclass
-class MiddleLines:
-    """The middle lines of one shape, each cut when it is first asked for, and kept."""
-
-    vertices_mm: Floats
-    faces: Ints
-    settings: MiddleLineSettings = MIDDLE_LINE
-    _cut: dict[int, MiddleLine | None] = field(default_factory=dict)
-
-    def near(self, ground: float) -> MiddleLine | None:
-        """The line that is cut for the trial ground nearest to an angle (radians)."""
-        step = np.radians(self.settings.step_deg)
-        number = round(ground / step)
-        if number not in self._cut:
-            self._cut[number] = middle_line(
-                self.vertices_mm, self.faces, number * step, self.settings
-            )
-        return self._cut[number]

@@ -125,9 +125,9 @@ def stance_of(
     if kind == "foot":
         return _foot_stance(vertices_mm, faces)
     ground = standing_ground(vertices_mm, faces)
-    line = None if ground is None else middle_line(vertices_mm, faces, ground.angle)
-    if ground is None or line is None:
+    if ground is None:
         return None
+    line = ground.line
     x, z = line.points_mm.T
     place = (x - line.ends_mm[0]) / line.length_mm
     near = np.linspace(*settings.touch, 1 + round(np.ptp(settings.touch) / 0.005))

@@ -13,6 +13,7 @@ shank and the toe spring into it.
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import lru_cache
 
 import numpy as np
 
@@ -68,15 +69,30 @@ _CORRELATED = 12.0  # samples this close count as one: the smoothing ties them t
 
 @dataclass(frozen=True, slots=True)
 class SlopedLine:
-    """A middle line as slopes over arc length, about a ground that is near the true one.
+    """A middle line, smoothed at some arc lengths.
 
-    ``slope`` (k,) in radians from the resting plane at ``arc`` (k,); ``place`` (k,) along the
-    standing length.
+    ``slope`` (k,) in radians from the resting plane at ``arc`` (k,), ``points_mm`` (k, 2) along and
+    over the trial ground that ``line`` was cut for.
     """
 
     arc: Floats
     slope: Floats
-    place: Floats
+    points_mm: Floats
+    line: MiddleLine
+
+    def places(self, ground: float) -> Floats:
+        """Where the points lie along the standing length on a ground (radians), (k,).
+
+        The line was cut for a ground close by.
+        """
+        line, off = self.line, ground - self.line.ground
+        cosine, sine = np.cos(off), np.sin(off)
+        rear, front = (
+            end * cosine + height * sine
+            for end, height in zip(line.ends_mm, line.points_mm[[0, -1], 1], strict=True)
+        )
+        along = self.points_mm[:, 0] * cosine + self.points_mm[:, 1] * sine
+        return np.asarray((along - rear) / (front - rear))
 
 
 @dataclass(frozen=True, slots=True)
@@ -89,26 +105,19 @@ class TreadFit:
     parameters: Floats
 
 
-def sloped(line: MiddleLine, ground: float, arc: Floats, bandwidth: float) -> SlopedLine | None:
-    """The slope of a middle line at arc lengths (k,), smoothed by local parabolas.
+def sloped(line: MiddleLine, arc: Floats, bandwidth: float) -> SlopedLine | None:
+    """A middle line at arc lengths (k,), smoothed by local parabolas.
 
-    ``ground`` (radians) is the ground along which places are counted; the line may have been cut
-    for another one close by. None where the line has a gap, or ends before.
+    None where the line has a gap, or ends before.
     """
     after = np.clip(np.searchsorted(line.arc, arc), 1, len(line.arc) - 1)
     nearest = np.minimum(np.abs(arc - line.arc[after - 1]), np.abs(line.arc[after] - arc))
     if nearest.max() > 2.0 * bandwidth:
         return None
     value, change = local_quadratic(arc, line.arc, bandwidth)
-    points, direction = value @ line.points_mm, change @ line.points_mm
+    direction = change @ line.points_mm
     slope = np.arctan2(direction[:, 1], direction[:, 0]) + line.ground
-    cosine, sine = np.cos(ground - line.ground), np.sin(ground - line.ground)
-    rear, front = (
-        end * cosine + height * sine
-        for end, height in zip(line.ends_mm, line.points_mm[[0, -1], 1], strict=True)
-    )
-    place = (points[:, 0] * cosine + points[:, 1] * sine - rear) / (front - rear)
-    return SlopedLine(arc, slope, np.asarray(place))
+    return SlopedLine(arc, slope, value @ line.points_mm, line)
 
 
 def model_arc(settings: TreadFitSettings = TREAD_FIT) -> Floats:
@@ -118,7 +127,7 @@ def model_arc(settings: TreadFitSettings = TREAD_FIT) -> Floats:
 
 
 def fitted_tread(
-    line: SlopedLine, start: Floats | float, settings: TreadFitSettings = TREAD_FIT
+    line: SlopedLine, ground: float, start: Floats | float, settings: TreadFitSettings = TREAD_FIT
 ) -> TreadFit:
     """The model that fits a line best, by damped Gauss-Newton steps.
 
@@ -126,6 +135,8 @@ def fitted_tread(
     ----------
     line : SlopedLine
         At :func:`model_arc`.
+    ground : float
+        The ground along which the tread's place is counted, radians.
     start : (6,) or float
         The parameters to begin with, or the ground's angle alone.
     """
@@ -134,7 +145,8 @@ def fitted_tread(
     )
     begin = _START + np.array([start, 0, 0, 0, 0, 0]) if np.ndim(start) == 0 else np.array(start)
     parameters = np.clip(begin, least + 1e-6, most - 1e-6)
-    residual, jacobian = _residuals(parameters, line, settings)
+    places = line.places(ground)
+    residual, jacobian = _residuals(parameters, line, places, settings)
     damping = 1e-2
     for _ in range(settings.rounds):
         scaled = jacobian * scale
@@ -143,7 +155,7 @@ def fitted_tread(
             damped = normal + damping * np.diag(np.diag(normal) + 1e-9)
             tried = parameters - np.linalg.solve(damped, gradient) * scale
             tried = np.clip(tried, least + 1e-6, most - 1e-6)
-            left, slopes = _residuals(tried, line, settings)
+            left, slopes = _residuals(tried, line, places, settings)
             if left @ left < residual @ residual:
                 break
             damping *= 6.0
@@ -160,7 +172,7 @@ def fitted_tread(
 
 
 def _residuals(
-    parameters: Floats, line: SlopedLine, settings: TreadFitSettings
+    parameters: Floats, line: SlopedLine, places: Floats, settings: TreadFitSettings
 ) -> tuple[Floats, Floats]:
     """What the model leaves, over its standard deviations, and its Jacobian (r,), (r, 6)."""
     model, slopes = _model(parameters, settings)
@@ -169,7 +181,7 @@ def _residuals(
     height -= height.mean()
     height_change -= height_change.mean(axis=1, keepdims=True)
     share = np.sqrt(_CORRELATED / len(off))
-    place, place_change = _place_at(parameters[3], line)
+    place, place_change = _place_at(parameters[3], line.arc, places)
     prior = np.array(
         [
             (place - settings.tread[0]) / settings.tread[1],
@@ -190,21 +202,30 @@ def _residuals(
     )
 
 
-def _place_at(arc: float, line: SlopedLine) -> tuple[float, float]:
+def _place_at(at: float, arc: Floats, places: Floats) -> tuple[float, float]:
     """Where along the standing length an arc length lies, and how fast that changes."""
-    step = float(line.arc[1] - line.arc[0])
-    before, place, after = np.interp([arc - step, arc, arc + step], line.arc, line.place)
+    step = float(arc[1] - arc[0])
+    before, place, after = np.interp([at - step, at, at + step], arc, places)
     return float(place), float((after - before) / (2 * step))
+
+
+@lru_cache(maxsize=4)
+def _model_grid(settings: TreadFitSettings) -> tuple[Floats, Floats]:
+    """Where the model is computed, (n,), and what smooths it to :func:`model_arc`, (k, n)."""
+    margin, reach = 24, 20
+    low, high = settings.window
+    arc = np.arange(
+        low - margin * settings.step, high + (margin + 1) * settings.step, settings.step
+    )
+    off = np.arange(len(arc)) - (margin + 2 * np.arange(len(model_arc(settings))))[:, None]
+    kernel = np.exp(-0.5 * (off * settings.step / settings.bandwidth) ** 2) * (np.abs(off) <= reach)
+    return arc, kernel / kernel.sum(axis=1, keepdims=True)
 
 
 def _model(parameters: Floats, settings: TreadFitSettings) -> tuple[Floats, Floats]:
     """The smoothed slopes at :func:`model_arc`, (k,), and their derivatives, (6, k)."""
     ground, fall, turn, tread, spring, power = parameters
-    margin = 24
-    low, high = settings.window
-    arc = np.arange(
-        low - margin * settings.step, high + (margin + 1) * settings.step, settings.step
-    )
+    arc, smoothing = _model_grid(settings)
     share = (arc - tread + turn) / turn
     inside = np.clip(share, 0.0, 1.0)
     rest = 1.0 - (3.0 - 2.0 * inside) * inside**2
@@ -223,8 +244,4 @@ def _model(parameters: Floats, settings: TreadFitSettings) -> tuple[Floats, Floa
             spring * rise * np.log(safe),
         ]
     )
-    kernel = np.exp(-0.5 * (np.arange(-20, 21) * settings.step / settings.bandwidth) ** 2)
-    kernel /= kernel.sum()
-    picked = slice(margin, margin + 2 * len(model_arc(settings)), 2)
-    smooth = [np.convolve(row, kernel, "same")[picked] for row in (slope, *rows)]
-    return smooth[0], np.array(smooth[1:])
+    return smoothing @ slope, rows @ smoothing.T
