@@ -99,6 +99,15 @@ def measured(segments):
     )
 
 
+def test_sections_across_are_the_general_ones_to_the_bit():
+    vertices, faces = shapes.sphere(50.0, 3)
+    x = np.linspace(-49.0, 49.0, 23)
+    quick = sections_across(vertices, faces, x)
+    general = plane_sections(vertices, faces, vertices[:, 0], planes_across(x))
+    assert np.array_equal(quick.face, general.face)
+    assert np.array_equal(quick.points, general.points)
+
+
 def test_extremes_stop_at_the_limit_inside_a_segment():
     vertices, faces = shapes.sphere(50.0, 5)
     segments = sections_across(vertices, faces, np.array([0.0]))
