@@ -14,6 +14,7 @@ The whole tree (a test compares this drawing with the classes)::
     │   ├── EmptyMesh             empty_mesh
     │   ├── TooLarge              too_large
     │   ├── TooSlow               too_slow
+    │   ├── TooCoarse             too_coarse
     │   ├── UnknownUnits          unknown_units
     │   ├── ImplausibleSize       implausible_size
     │   ├── BadManifest           bad_manifest
@@ -155,6 +156,10 @@ class TooLarge(InputError):
 
 class TooSlow(InputError):
     """The work on the file takes longer than is allowed for a file."""
+
+
+class TooCoarse(InputError):
+    """The file keeps its coordinates in steps that are too coarse to measure."""
 
 
 class UnknownUnits(InputError):

@@ -13,6 +13,7 @@ from footfit.meshes.clean.triangles import WeldedMesh, welded_mesh
 from footfit.meshes.formats.known_formats import raw_mesh
 from footfit.meshes.formats.raw import RawMesh, checked_mesh
 from footfit.meshes.read_limits import LIMITS, Limits
+from footfit.meshes.resolution import coordinate_step
 from footfit.results.values import Notice
 
 if TYPE_CHECKING:
@@ -24,7 +25,8 @@ class FileMesh:
     """What a mesh file holds, welded, in the file's numbers.
 
     ``format`` and ``sha256`` are as in ``MeshInfo``; ``unit`` is the one that the file declares,
-    None where it declares none; ``notices`` are the reader's.
+    None where it declares none; ``notices`` are the reader's. ``step`` is the step in which the
+    file keeps its coordinates, 0 if there is none.
     """
 
     format: str
@@ -32,6 +34,7 @@ class FileMesh:
     unit: str | None
     mesh: WeldedMesh
     notices: tuple[Notice, ...]
+    step: float = 0.0
 
 
 def file_mesh(
@@ -61,7 +64,9 @@ def file_mesh(
     """
     name, raw = raw_mesh(data, path, format, limits)
     sha256 = hashlib.sha256(data).hexdigest()
-    return FileMesh(name, sha256, raw.unit, welded_mesh(raw.vertices, raw.faces), raw.warnings)
+    mesh = welded_mesh(raw.vertices, raw.faces)
+    step = coordinate_step(raw.vertices)
+    return FileMesh(name, sha256, raw.unit, mesh, raw.warnings, step)
 
 
 def array_mesh(vertices: ArrayLike, faces: ArrayLike, limits: Limits = LIMITS) -> FileMesh:
@@ -89,4 +94,5 @@ def array_mesh(vertices: ArrayLike, faces: ArrayLike, limits: Limits = LIMITS) -
         raise DamagedMesh(f"faces must be (m, 3) integers; these are {rows.shape} {rows.dtype}")
     raw = checked_mesh(RawMesh(points, rows.astype(np.int64)), limits)
     sha256 = hashlib.sha256(raw.vertices.tobytes() + raw.faces.tobytes()).hexdigest()
-    return FileMesh("arrays", sha256, None, welded_mesh(raw.vertices, raw.faces), ())
+    mesh = welded_mesh(raw.vertices, raw.faces)
+    return FileMesh("arrays", sha256, None, mesh, (), coordinate_step(raw.vertices))

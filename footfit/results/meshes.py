@@ -20,7 +20,8 @@ class MeshInfo(Part):
     ``vertices`` and ``faces`` count what is left after welding and cleaning, ``sha256`` is of
     the file's bytes, ``unit_scale`` takes the file's coordinates to mm, ``units`` is
     "mm", "cm", "m", "in" or "scaled" (``--known-length``), ``units_source`` is
-    "declared", "detected" or "known-length".
+    "declared", "detected" or "known-length". ``step`` is the step in which the file keeps its
+    coordinates, 0 if there is none.
     """
 
     path: str | None
@@ -32,11 +33,18 @@ class MeshInfo(Part):
     units: str
     units_source: str
     unit_scale: float
+    step: float = 0.0
 
     not_written = (
         "format",
         "unit_scale",
+        "step",
     )
+
+    @property
+    def resolution_mm(self) -> float:
+        """The step in which the file keeps its coordinates, in mm; 0 if there is none."""
+        return self.step * self.unit_scale
 
 
 @dataclass(frozen=True, slots=True)

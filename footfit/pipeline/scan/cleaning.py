@@ -65,6 +65,7 @@ def scan_of(
         units=unit.name,
         units_source=unit.source,
         unit_scale=unit.scale,
+        step=file.step,
     )
     notices = (
         *file.notices,

@@ -20,6 +20,7 @@ from footfit.geometry.pose.frame import FRAME, canonical_frame, length_of, turne
 from footfit.geometry.pose.missing_parts import doubtful_end, missing_part
 from footfit.geometry.pose.side import confidence, side_score
 from footfit.meshes.copies.compact_copy import expanded_mesh
+from footfit.meshes.resolution import check_resolution, resolution_notices
 from footfit.pipeline.scan.one_shape import PosedShape, shape_in
 from footfit.pipeline.scan.settled_unit import (
     info_with_unit,
@@ -84,7 +85,10 @@ def prepared_scan(
         If it is not one whole foot or last.
     UnknownUnits, ImplausibleSize
         If no unit, or not the declared one, gives it a plausible length.
+    TooCoarse
+        If its file keeps coordinates in steps that are too coarse.
     """
+    check_resolution(scan.info.resolution_mm)
     shape = shape_in(scan, length_windows(scan.info, known_length_mm))
     closed = closed_mesh(shape.vertices, shape.faces, shape.pose.length)
     frame = _Frame.of(shape, closed)
@@ -101,6 +105,7 @@ def prepared_scan(
         length = Measured(None, reason=open_end[0].message)
     notices = (
         *read_notices(scan, info, length.value),
+        *resolution_notices(info.resolution_mm),
         *shape.notices,
         *_hole_notices(closed, factor),
         *open_end,
