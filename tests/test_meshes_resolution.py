@@ -92,7 +92,7 @@ def taken(vertices, **options):
 
 
 def test_what_is_too_coarse_is_refused_with_what_to_do():
-    with pytest.raises(TooCoarse, match=r"steps of 10 mm.*needs 3 mm or finer: export it with more"):
+    with pytest.raises(TooCoarse, match=r"steps of 10 mm.*needs 3 mm or finer: export it"):
         taken(decimals(1e-3, 2))
     with pytest.raises(TooCoarse, match="steps of 16 mm"):
         taken(far_in_float32(2e8))
