@@ -26,7 +26,7 @@ from footfit.results import (
 )
 
 _labels = LAST.reader("labels", LastLabels, parent=itemgetter("parent"))
-_info = LAST.reader("info", MeshInfo)
+_info = LAST.reader("info", MeshInfo, step=lambda row: 0.0)  # noqa: ARG005  no column keeps it
 _side = LAST.reader("side", SideVerdict)
 _pose = FRAME.reader("pose", PoseQuality)
 _eigenframe = FRAME.reader("eigenframe", Eigenframe)
