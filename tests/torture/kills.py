@@ -1,4 +1,4 @@
-"""kill -9 at a random moment of a script."""
+"""kill -9 at a random moment of a random step of a script."""
 
 from __future__ import annotations
 
@@ -12,13 +12,17 @@ import sys
 import time
 from collections.abc import Callable
 from dataclasses import dataclass
+from itertools import pairwise
 from pathlib import Path
 
 from tests.torture.scripts import Script, Truth, content, finished, observed, truth
+from tests.torture.signals import first_lines
 from tests.torture.tally import Tally
 
 ROOT = Path(__file__).resolve().parents[2]
 SAMPLES = ROOT / "sample_data" / "lasts"
+TRIALS_PER_STRIKE = 6
+"""A kill misses where the script ended before it: so many trials for each that must strike."""
 
 
 @dataclass
@@ -80,30 +84,42 @@ def run(script: Script, folder: Path, done: int = 0) -> Child:
 def kill_trials(folder: Path, script: Script, count: int, seed: int) -> Tally:
     """0 corrupt, 0 half, 0 acknowledged lost, and the rest of the work leads to the same end.
 
-    Every other kill is timed from an acknowledgement, not from the start: on a machine that is
-    busy now and idle then, it meets unfinished work all the same.
+    There are as many trials as it takes for ``count`` kills to strike unfinished work, up to
+    ``TRIALS_PER_STRIKE`` for each.
     """
     tally = Tally(f"kill -9: {script.name}")
     known = truth(script, folder / "undisturbed")
-    span_s = _span_s(script, folder)
+    steps_s = _script_steps_s(script, folder, len(known.states) - 1)
     generator = random.Random(seed)
-    for trial in range(count):
-        place = folder / f"kill-{trial}"
+    while tally.struck < count and tally.trials < TRIALS_PER_STRIKE * count:
+        place = folder / f"kill-{tally.trials}"
         place.mkdir()
         script.prepare(place)
         child = run(script, place)
-        wait_s, steps = span_s * generator.uniform(0.0, 1.0), len(known.states) - 1
-        if trial % 2:
-            child.heard(generator.randrange(steps))
-            wait_s /= steps
+        step, wait_s = _moment(steps_s, generator)
+        child.heard(step)
         time.sleep(wait_s)
         child.kill()
         acknowledged, code = child.wait()
+        judge(tally, known, place, acknowledged, f"trial {tally.trials}")
         tally.trials += 1
-        tally.struck += code == -signal.SIGKILL
-        judge(tally, known, place, acknowledged, f"trial {trial}")
+        tally.struck += code == -signal.SIGKILL and acknowledged < len(steps_s)
         shutil.rmtree(place)
     return tally
+
+
+def _moment(steps_s: list[float], generator: random.Random) -> tuple[int, float]:
+    """When to kill: after so many steps, and so many seconds into the next one.
+
+    The wait is timed from the step before, not from the start. So a machine that was busy when
+    the steps were timed, and is idle now, still has work to do when the kill comes.
+    """
+    step = generator.randrange(len(steps_s))
+    return step, steps_s[step] * generator.uniform(0.0, 1.0)
+
+
+def _seconds_between(marks_s: list[float]) -> list[float]:
+    return [after - before for before, after in pairwise(marks_s)]
 
 
 def judge(
@@ -121,34 +137,42 @@ def judge(
         tally.breach(f"{what}: after {acknowledged} acknowledged steps: {error!r}")
 
 
-def _span_s(script: Script, folder: Path) -> float:
-    """How long a script takes in a child."""
-    place = folder / "timed"
-    place.mkdir()
-    script.prepare(place)
-    begun = time.monotonic()
-    run(script, place).wait()
-    return time.monotonic() - begun
+def _script_steps_s(script: Script, folder: Path, steps: int) -> list[float]:
+    """How long each step of a script takes in a child, at its quickest of three runs."""
+    runs = []
+    for number in range(3):
+        place = folder / f"timed-{number}"
+        place.mkdir()
+        script.prepare(place)
+        marks_s = [time.monotonic()]
+        child = run(script, place)
+        for step in range(1, steps + 1):
+            child.heard(step)
+            marks_s.append(time.monotonic())
+        child.wait()
+        runs.append(_seconds_between(marks_s))
+    return [min(step) for step in zip(*runs, strict=True)]
 
 
 def command_trials(folder: Path, count: int, seed: int, lasts: int = 3) -> Tally:
-    """kill -9 of the real command with two workers, on real meshes; run again, it goes on."""
+    """kill -9 of the real command with two workers, on real meshes; run again, it goes on.
+
+    ``count`` kills must strike, as in ``kill_trials``.
+    """
     tally = Tally("kill -9: footfit ingest-last --jobs 2")
     scans = [str(path) for path in sorted(SAMPLES.glob("*.stl"))[:lasts]]
-    undisturbed = folder / "undisturbed"
-    begun = time.monotonic()
-    _ingesting(undisturbed, scans).communicate()
-    span_s, wanted = time.monotonic() - begun, content(undisturbed)
+    steps_s = _command_steps_s(folder / "undisturbed", scans)
+    wanted = content(folder / "undisturbed")
     generator = random.Random(seed)
-    for trial in range(count):
-        path = folder / f"killed-{trial}"
+    while tally.struck < count and tally.trials < TRIALS_PER_STRIKE * count:
+        path = folder / f"killed-{tally.trials}"
         process = _ingesting(path, scans)
-        time.sleep(span_s * generator.uniform(0.1, 0.8))
+        step, wait_s = _moment(steps_s, generator)
+        out = first_lines(process, step)
+        time.sleep(wait_s)
         os.killpg(process.pid, signal.SIGKILL)
-        out, _ = process.communicate()
+        out += process.communicate()[0]
         told = {json.loads(line)["last"] for line in out.splitlines() if line.endswith("}")}
-        tally.trials += 1
-        tally.struck += len(told) < lasts
         again, _ = _ingesting(path, scans).communicate()
         unchanged = {
             line["last"]
@@ -156,10 +180,24 @@ def command_trials(folder: Path, count: int, seed: int, lasts: int = 3) -> Tally
             if line["status"] == "unchanged"
         }
         if not told <= unchanged:
-            tally.breach(f"trial {trial}: {told - unchanged} was acknowledged and is not there")
+            lost = told - unchanged
+            tally.breach(f"trial {tally.trials}: {lost} was acknowledged and is not there")
         if content(path) != wanted:
-            tally.breach(f"trial {trial}: the rerun ends elsewhere")
+            tally.breach(f"trial {tally.trials}: the rerun ends elsewhere")
+        tally.trials += 1
+        tally.struck += len(told) < lasts
     return tally
+
+
+def _command_steps_s(path: Path, scans: list[str]) -> list[float]:
+    """How long the command takes to each of its lines."""
+    marks_s = [time.monotonic()]
+    process = _ingesting(path, scans)
+    for _ in scans:
+        first_lines(process, 1)
+        marks_s.append(time.monotonic())
+    process.communicate()
+    return _seconds_between(marks_s)
 
 
 def _ingesting(path: Path, scans: list[str]) -> subprocess.Popen[str]:

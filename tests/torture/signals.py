@@ -50,7 +50,7 @@ def signal_trials(folder: Path, count: int, seed: int, jobs: int, until_s: float
         )
         told = ""
         if trial % 2:  # in the midst of the work, however slow the machine is
-            told = _lines(process, generator.randrange(1, 4))
+            told = first_lines(process, generator.randrange(1, 4))
             time.sleep(generator.uniform(0.0, until_s / 10))
         else:
             time.sleep(generator.uniform(0.0, until_s))
@@ -70,7 +70,7 @@ def signal_trials(folder: Path, count: int, seed: int, jobs: int, until_s: float
     return tally
 
 
-def _lines(process: subprocess.Popen[str], count: int) -> str:
+def first_lines(process: subprocess.Popen[str], count: int) -> str:
     """The first lines that a process answers, byte by byte: ``communicate`` gets the rest."""
     assert process.stdout is not None
     told = b""
