@@ -12,3 +12,11 @@ ROUNDING = 1e-9
 
 POSED = 1e-8
 """Equal but for rounding that the pose search has passed on, in mm: 3.6e-9 is the most seen."""
+
+
+def printed(digits: int) -> float:
+    """Half of the last decimal that a document prints: it is what printing takes from a number.
+
+    Two numbers that are printed alike may differ by twice that.
+    """
+    return 0.500001 * 10.0**-digits

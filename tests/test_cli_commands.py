@@ -13,6 +13,9 @@ import pytest
 
 from footfit.geometry.flare.definition import CHANNELS
 from footfit.meshes.write import encoded_mesh
+from footfit.pipeline.fit.fit_profile import fit_profile
+from footfit.results.values import MILLIMETRE_DIGITS
+from tests.bounds import printed
 from tests.conftest import SAMPLES, Footfit
 from tests.distortions import in_metres, moved, random_pose
 from tests.reading import read_scan
@@ -63,8 +66,10 @@ def test_align_takes_the_file_to_the_frame_it_reports(
     assert np.linalg.det(transform[:3, :3]) > 0
     ours = read_scan(output).vertices_mm
     theirs = moved(read_scan(foot).vertices_mm, transform)
-    assert np.allclose(np.sort(ours, axis=0), np.sort(theirs, axis=0), atol=2e-3)
-    assert ours[:, 0].max() == pytest.approx(document["length_mm"], abs=1.5)
+    # the transform has 6 decimals, which reach a third of a metre; measured: 9.0e-5 mm
+    assert np.allclose(np.sort(ours, axis=0), np.sort(theirs, axis=0), rtol=0.0, atol=1.7e-4)
+    extent_mm = pytest.approx(document["extent_mm"], abs=2 * printed(MILLIMETRE_DIGITS))
+    assert np.ptp(ours[:, 0]) == extent_mm
     assert plot.read_text().startswith("<?xml")
 
 
@@ -101,7 +106,7 @@ def test_curvature_writes_what_it_counts(footfit: Footfit, foot: Path, tmp_path:
         }
         assert len(arrays["k1"]) == len(arrays["vertices"]) == document["mesh"]["vertices"]
         defined = np.isfinite(arrays["mean"])
-        assert (arrays["k1"][defined] <= arrays["k2"][defined] + 1e-12).all()
+        assert (arrays["k1"][defined] <= arrays["k2"][defined]).all()
     assert footfit("curvature", foot, "-o", tmp_path / "c.ply", "--radius", 0).code == 0
     ply = (tmp_path / "c.ply").read_bytes()
     assert ply.startswith(b"ply")
@@ -117,11 +122,13 @@ def test_match_ranks_with_every_key_of_the_contract(
     document = run.document
     assert set(document) >= {"feet", "by", "profile", "catalogue", "candidates", "rejected"}
     assert document["candidates"], "the sample lasts are made to fit the sample feet"
+    gate = next(rule for rule in fit_profile(document["profile"]).zones if rule.zone == "length")
+    shortest, longest = gate.poor or gate.acceptable
     for rank, candidate in enumerate(document["candidates"], start=1):
         assert set(candidate) >= CANDIDATE_KEYS
         assert candidate["rank"] == rank
         length = candidate["clearance_mm"]["length"]
-        assert 8 <= length["value"] <= 20
+        assert shortest <= length["value"] <= longest
         assert length["sd"] > 0
         girth = candidate["clearance_mm"]["ball_girth"]
         assert (girth["value"] is None) == bool(girth["reason"])
@@ -142,7 +149,7 @@ def test_match_is_the_same_in_any_pose_and_unit(
     names = [[c["last"] for c in answer["candidates"]] for answer in answers]
     assert names[0] == names[1]
     lengths = [answer["feet"][0]["measures"]["length"]["value"] for answer in answers]
-    assert lengths[0] == pytest.approx(lengths[1], abs=0.3)
+    assert lengths[0] == pytest.approx(lengths[1], abs=2 * printed(MILLIMETRE_DIGITS))
 
 
 def test_a_stored_last_finds_itself_by_shape(footfit: Footfit, stocked: Path) -> None:

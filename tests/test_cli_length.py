@@ -18,7 +18,9 @@ from footfit.report.terminal.catalogue_tables import list_lasts_table, show_last
 from footfit.report.terminal.match_tables import match_table
 from footfit.report.terminal.scan_tables import align_table, terminal_text
 from footfit.results import Library, Measure, Measured, StoredLast
+from footfit.results.values import MILLIMETRE_DIGITS
 from tests import answers
+from tests.bounds import printed
 from tests.comparisons import comparison
 from tests.conftest import SAMPLES, Footfit
 
@@ -43,9 +45,10 @@ def test_every_document_says_the_measured_length(
     flare = footfit("flare", FOOT, "--json").document
     for document in (align, flare):
         assert document["length_mm"] == foot
-        assert foot + 0.05 < document["extent_mm"] < foot + 0.8
+        # the outermost vertex lies beyond the steadied end; measured: 0.33 mm
+        assert foot + 0.17 < document["extent_mm"] < foot + 0.66
     compare = footfit("compare", FOOT, "derby-41", "--catalogue", stocked, "--json").document
-    difference = pytest.approx(last - foot, abs=0.0011)
+    difference = pytest.approx(last - foot, abs=3 * printed(MILLIMETRE_DIGITS))
     assert compare["length_mm"] == {"foot": foot, "last": last, "difference": difference}
     shown = footfit("show-last", "derby-41", "--catalogue", stocked, "--json").document
     assert shown["length_mm"] == shown["measures"]["length"]["value"] == last

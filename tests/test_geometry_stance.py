@@ -7,6 +7,7 @@ import pytest
 
 from footfit.geometry.stance.ground import standing_ground
 from footfit.geometry.stance.middle_line import middle_line, turned
+from tests.bounds import EXACT
 from tests.test_shapes import euler, is_closed_and_wound, volume
 from tools import last_cuts
 from tools.last_specs import HEEL_BANDS_MM, STYLES, LastSpec, wide
@@ -53,7 +54,7 @@ def test_the_ground_of_a_standing_last_is_found(style, band):
 
 def test_a_turned_point_goes_round_the_axis_across():
     turn = turned(np.array([[3.0, 5.0, 4.0]]), np.arctan2(4.0, 3.0))
-    np.testing.assert_allclose(turn, [[5.0, 5.0, 0.0]], atol=1e-12)
+    np.testing.assert_allclose(turn, [[5.0, 5.0, 0.0]], atol=EXACT)
 
 
 @pytest.mark.parametrize(
@@ -72,6 +73,7 @@ def test_a_cut_last_is_sound_and_smaller(cut, bodies):
     assert len(parts) == bodies
     assert all(is_closed_and_wound(faces) for _, faces in parts)
     kept = sum(volume(*part) for part in parts)
-    assert 0.97 * volume(*whole) < kept < volume(*whole) * (1 + 1e-6)
+    # a hinge without a gap takes nothing, the others at most 0.6 %
+    assert 0.988 * volume(*whole) < kept < volume(*whole) * (1 + EXACT)
     vertices, faces = last_cuts.joined(parts)
     assert faces.max() == len(vertices) - 1

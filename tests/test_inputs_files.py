@@ -12,7 +12,9 @@ from pathlib import Path
 
 import pytest
 
+from footfit.results.values import MILLIMETRE_DIGITS
 from tests import corpus, packed
+from tests.bounds import printed
 from tests.conftest import SAMPLES, Footfit
 
 ROOT = Path(__file__).resolve().parents[1]
@@ -180,5 +182,5 @@ def test_a_foot_as_glb_and_3mf_is_the_same_foot(footfit: Footfit, foot: Path, tm
     assert [document["mesh"]["units"] for document in documents] == ["mm", "m", "in"]
     assert len({document["side"] for document in documents}) == 1
     lengths = [document["length_mm"] for document in documents]
-    assert lengths == pytest.approx([lengths[0]] * 3, abs=0.01)
+    assert lengths == pytest.approx([lengths[0]] * 3, abs=2 * printed(MILLIMETRE_DIGITS))
     assert len(footfit("align", tmp_path, "--json").lines) == 2  # a folder takes them too

@@ -18,6 +18,8 @@ import pytest
 import footfit
 from footfit import errors, results
 from footfit.meshes.write import encoded_mesh
+from footfit.results.values import MILLIMETRE_DIGITS
+from tests.bounds import POSED, printed
 from tests.conftest import ROOT, SAMPLES
 
 PAGE = ROOT / "docs" / "library.md"
@@ -67,8 +69,8 @@ def test_the_page_runs_and_prints_what_it_says(tmp_path: Path, monkeypatch) -> N
 
 def test_the_import_opens_no_heavy_library_and_is_quick() -> None:
     code = (
-        "import time; start = time.perf_counter(); import footfit;"
-        "took = time.perf_counter() - start; import sys;"
+        "import time; start = time.process_time(); import footfit;"
+        "took = time.process_time() - start; import sys;"
         "print(took, sorted({'numpy', 'typer', 'rich', 'sqlalchemy'} & set(sys.modules)))"
     )
     runs = [
@@ -77,7 +79,7 @@ def test_the_import_opens_no_heavy_library_and_is_quick() -> None:
     ]
     took = min(float(run.stdout.split()[0]) for run in runs)
     assert {run.stdout.split(maxsplit=1)[1].strip() for run in runs} == {"[]"}
-    assert took < 0.05  # the promise of docs/library.md; measured: 0.003 s
+    assert took < 0.05  # the promise of docs/library.md, of a processor; measured: 0.012 s
 
 
 def test_what_the_front_names_is_there() -> None:
@@ -114,7 +116,9 @@ def test_arrays_give_what_their_file_gives(foot: Path) -> None:
     unnamed = footfit.measure((scan.vertices_mm, scan.faces), units="mm").rows()
     assert unnamed == [row | {"path": None} for row in named]
     inches = footfit.align((scan.vertices_mm / 25.4, scan.faces.tolist()), units="in")
-    assert inches.alignment.length_mm == pytest.approx(named[0]["value_mm"], abs=0.001)
+    assert inches.alignment.length_mm == pytest.approx(
+        named[0]["value_mm"], abs=printed(MILLIMETRE_DIGITS)
+    )
 
 
 @pytest.mark.parametrize(
@@ -162,7 +166,7 @@ def test_two_feet_of_one_file_are_taken_apart(foot: Path) -> None:
     lengths = [
         outcome.value.alignment.length_mm for outcome in footfit.outcomes(footfit.align, parts)
     ]
-    assert lengths == pytest.approx([alone, alone], abs=0.01)  # a weld may move a vertex
+    assert lengths == pytest.approx([alone, alone], abs=POSED)
 
 
 def test_a_catalogue_reads_its_lasts_once_and_again_after_a_change(

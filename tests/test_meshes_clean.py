@@ -10,7 +10,9 @@ from hypothesis import strategies as st
 from footfit.errors import DamagedMesh, EmptyMesh
 from footfit.geometry.mesh.surface import unit
 from footfit.geometry.mesh.topology import is_closed
+from footfit.geometry.pose.pieces import PIECES
 from tests import distortions, shapes
+from tests.bounds import EXACT, ROUNDING
 from tests.scans import cleaned
 from tests.solids import is_consistently_wound, signed_volume, surface_area
 
@@ -57,12 +59,14 @@ def test_soup_becomes_a_surface():
 
 def test_corners_rounded_apart_are_joined_and_it_is_said():
     vertices, faces = distortions.soup(*posed(*FOOT))
-    vertices = vertices + rng().uniform(-2e-5, 2e-5, vertices.shape)
+    off_mm = 2e-5
+    vertices = vertices + rng().uniform(-off_mm, off_mm, vertices.shape)
     mesh = cleaned(vertices, faces)
     assert "near_vertices_welded" in codes(mesh)
     assert len(mesh.vertices_mm) == len(FOOT[0])
     assert mesh.info.watertight
-    assert np.abs(mesh.vertices_mm[mesh.source_to_vertex] - vertices).max() < 1e-4
+    joined_mm = np.abs(mesh.vertices_mm[mesh.source_to_vertex] - vertices).max()
+    assert joined_mm <= 2.0 * off_mm + ROUNDING  # it is one of the corners
 
 
 def test_faces_without_area_and_faces_twice_go():
@@ -114,8 +118,9 @@ def test_many_strays_about_a_shape_go_and_its_own_patches_stay():
     mesh = cleaned(*distortions.joined(FOOT, toe, *strays))
     assert message(mesh, "specks_removed").startswith("60 ")
     assert len(mesh.faces) == len(FOOT[1]) + len(toe[1])
-    strays_share = 60 * surface_area(*strays[0]) / surface_area(*FOOT)
-    assert strays_share > 0.12  # else they are dust by their area alone
+    strays_area = 60 * surface_area(*strays[0])
+    strays_share = strays_area / (strays_area + surface_area(*FOOT))
+    assert strays_share > PIECES.specks  # else they are dust by their area alone
 
 
 @pytest.mark.parametrize("scale", [1.0, 0.001])
@@ -128,8 +133,8 @@ def test_spikes_are_pressed_back_and_the_surface_stays_closed(scale):
     assert message(mesh, "spikes_pressed").startswith("4 ")
     assert mesh.info.watertight
     off = np.linalg.norm(mesh.vertices_mm / scale - vertices, axis=1)
-    assert off.max() < 0.02 * np.ptp(vertices, axis=0).max()
-    assert np.count_nonzero(off > 1e-9) == 4
+    assert off.max() < 2.9  # of 150 mm: in the middle of their neighbours; measured: 1.49
+    assert np.count_nonzero(off > ROUNDING) == 4
 
 
 def test_needles_that_are_no_spikes_stay():
@@ -249,5 +254,5 @@ def test_order_does_not_matter(seed):
     assert codes(one) == codes(other)
     assert one.info.watertight == other.info.watertight
     assert surface_area(one.vertices_mm, one.faces) == pytest.approx(
-        surface_area(other.vertices_mm, other.faces), rel=1e-12
+        surface_area(other.vertices_mm, other.faces), rel=EXACT
     )

@@ -101,7 +101,8 @@ def test_the_spread_is_what_noisy_measures_give(rows) -> None:
     own = rng.normal(0, last_sd, (draws, 2, 3))
     noisy = (values + foot + own).reshape(-1, 3)
     distances = fit_distance(judge(noisy)).reshape(draws, 2)
-    # To first order only: within 0.1 of both targets the formula is up to 0.23 off.
+    # To first order only: within 0.1 of all targets the formula is up to 27 % or 0.016 off, as
+    # 3,000 rows have shown. Few draws are left where a distance hardly varies.
     assert spread.alone() == pytest.approx(distances.std(axis=0), rel=0.35, abs=0.01)
     drawn = (distances[:, 0] - distances[:, 1]).std()
     assert spread.difference(0, 1) == pytest.approx(drawn, rel=0.35, abs=0.015)
@@ -128,7 +129,7 @@ def test_small_errors_move_a_distance_by_its_slopes() -> None:
     slope = slopes(rows)
     own = np.square(slope * last_sd).sum(axis=1)
     alone = np.sqrt(np.square(slope * foot_sd).sum(axis=1) + own)
-    linear = {"rel": 1e-5}  # what is left of the errors' squares: 2e-6
+    linear = {"rel": 7e-8}  # what is left of the errors' squares; measured: 3.6e-8
     assert spread.alone() == pytest.approx(alone, **linear)
     for i, j in ((0, 1), (1, 2), (2, 0)):
         common = np.square((slope[i] - slope[j]) * foot_sd[0]).sum()
@@ -152,7 +153,8 @@ def test_at_the_target_the_errors_alone_make_the_spread() -> None:
 def test_the_foots_own_error_does_not_make_two_alike_lasts_a_tie_of_chance() -> None:
     found = judge([[14, 3, 0], [14, 3, 0]], foot_sd=2.0, last_sd=0.0)
     spread = distance_spread(found)
-    assert spread.difference(0, 1) < 0.5 * spread.alone()[0]
+    assert spread.alone()[0] > 0.0
+    assert spread.difference(0, 1) == pytest.approx(0.0, abs=EXACT)
 
 
 def test_tiers_begin_with_the_best_and_never_cross_a_verdict() -> None:

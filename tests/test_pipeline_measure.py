@@ -30,7 +30,10 @@ from tests.reading import read_scan
 from tests.scans import aligned, aligned_of
 
 AHEAD = np.array([1.0, 0.0, 0.0])
-BOUNDS_MM = {"length": 0.5, "width": 1.0, "girth": 2.0}
+NOISE_MM = {"length": 0.55, "width": 0.76, "girth": 2.0}
+"""Under noise of 0.3 mm, or with a quarter of the faces; measured: 0.28, 0.38 and 1.04."""
+OTHERS_MM = 1.0
+"""The same for heights and the toe spring; measured: 0.50."""
 
 
 def moved_scan(scan, vertices, faces):
@@ -48,11 +51,13 @@ def test_measures_come_back_in_any_pose_with_noise_and_from_a_quarter_of_the_fac
     scan, rng = read_scan(SAMPLES / name), np.random.default_rng(11)
     before = values(scan, "right")
     noisy = white_noise(scan.vertices_mm, rng, 0.3), scan.faces
-    for mesh in ((scan.vertices_mm, scan.faces), noisy, decimated(scan.vertices_mm, scan.faces, 4)):
+    as_read = (scan.vertices_mm, scan.faces)
+    for mesh in (as_read, noisy, decimated(*as_read, 4)):
         vertices = moved(mesh[0], random_pose(rng))
         after = values(moved_scan(scan, vertices, mesh[1]), "right")
         for measure, value in before.items():
-            bound = next((b for word, b in BOUNDS_MM.items() if word in measure), 3.0)
+            noise_mm = next((b for word, b in NOISE_MM.items() if word in measure), OTHERS_MM)
+            bound = POSED if mesh is as_read else noise_mm
             if value is not None and measure != "ball_length":
                 assert after[measure] == pytest.approx(value, abs=bound), measure
 

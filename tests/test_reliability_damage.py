@@ -26,13 +26,13 @@ COUNTS = dict(zip(HARMS, (100, 20, 20, 10), strict=True))
 def test_every_changed_value_is_found_and_none_is_ranked(tmp_path: Path, harm: str) -> None:
     tally = damage_trials(tmp_path, harm, COUNTS[harm], seed=3)
     assert tally.bad == []
-    assert tally.struck > COUNTS[harm] / 3
+    assert tally.struck >= COUNTS[harm] / 2  # the rest met unused bytes; measured: 65 % or more
 
 
 def test_every_column_is_under_a_check(tmp_path: Path) -> None:
     tally = column_trials(tmp_path)
     assert tally.bad == []
-    assert tally.trials > 80
+    assert tally.trials > 80  # measured: 93; the tables' own rules refuse some changes
 
 
 OBJECTS = {

@@ -48,14 +48,14 @@ def test_kill_9_of_the_command_and_its_workers(folder: Path) -> None:
 def test_a_power_cut_leaves_before_or_after(folder: Path, script: Script, count: int) -> None:
     tally = power.cut_trials(folder, script, count, SEED)
     assert tally.bad == []
-    assert tally.struck > count / 2
+    assert tally.struck > count / 2  # else the cuts show little; measured: 20, 20 and 9
 
 
 @needs_strace
 def test_without_syncs_a_power_cut_is_seen_to_harm(folder: Path) -> None:
     """The trials above can fail: with synchronous OFF more than half of them do."""
     tally = power.cut_trials(folder, INGEST, 20, SEED, "OFF")
-    assert len(tally.bad) > 10
+    assert len(tally.bad) > 10  # measured: 20
 
 
 @needs_strace
@@ -63,7 +63,7 @@ def test_without_syncs_a_power_cut_is_seen_to_harm(folder: Path) -> None:
 def test_a_failing_call_is_said_and_harms_nothing(folder: Path, script: Script, every: int) -> None:
     tally = syscalls.failing_trials(folder, script, every, SEED)
     assert tally.bad == []
-    assert tally.struck == tally.trials > 8
+    assert tally.struck == tally.trials > 8  # measured: 10 and 13
 
 
 def test_writers_and_readers_at_once(folder: Path) -> None:
@@ -81,7 +81,7 @@ def test_backups_under_a_writer(folder: Path) -> None:
 def test_a_migration_that_fails_at_any_statement_changes_nothing(folder: Path) -> None:
     tally = upgrades.failing_upgrade_trials(folder, every=5)
     assert tally.bad == []
-    assert tally.struck > 5
+    assert tally.struck > 5  # measured: 10
 
 
 @pytest.mark.parametrize("script", [INGEST, EDIT], ids=str)

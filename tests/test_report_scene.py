@@ -29,6 +29,7 @@ from footfit.report.pictures.heat import (
     step_words,
 )
 from tests import browsing, shapes
+from tests.bounds import printed
 from tests.comparisons import comparison
 
 needs_browser = pytest.mark.skipif(browsing.BROWSER is None, reason=browsing.MISSING)
@@ -55,7 +56,7 @@ def test_a_packed_mesh_reads_back_within_its_step():
     vertices, faces = shapes.ellipsoid(subdivisions=3)
     mesh = packed_mesh(vertices, faces)
     back = array(mesh["vertices"], "<u2").reshape(-1, 3) * mesh["step"] + mesh["origin"]
-    assert np.abs(back - vertices).max() < 0.003
+    assert np.abs(back - vertices).max() <= mesh["step"] / 2 + printed(4)  # of the origin
     assert np.array_equal(array(mesh["faces"], "<u2").reshape(-1, 3), faces)
 
 
@@ -71,7 +72,7 @@ def test_left_feet_are_shown_as_left_feet():
     assert right["view"][0] == -left["view"][0]
     low = right["foot"]["origin"][1]
     span = right["foot"]["step"] * array(right["foot"]["vertices"], "<u2")[1::3].max()
-    assert left["foot"]["origin"][1] == pytest.approx(-(low + span), abs=0.01)
+    assert left["foot"]["origin"][1] == pytest.approx(-(low + span), abs=3 * printed(4))
 
 
 def test_the_colours_of_the_view_are_the_legends():
@@ -122,8 +123,8 @@ def test_lighter_meshes_keep_the_figures_and_carry_the_colours_over():
     assert np.nanmin(whole.clearance_mm) <= light.clearance_mm[known].min()
     assert light.clearance_mm[known].max() <= np.nanmax(whole.clearance_mm)
     assert light.clearance_mm[known].mean() == pytest.approx(
-        np.nanmean(whole.clearance_mm), abs=0.8
-    )
+        np.nanmean(whole.clearance_mm), abs=0.63
+    )  # of fewer vertices, which lie elsewhere; measured: 0.32 mm
 
 
 # ---------------------------------------------------------------- in a browser
@@ -148,11 +149,12 @@ def test_the_view_is_drawn_with_and_without_webgl(tmp_path, way):
     seen = browsing.browse(shown(), tmp_path / "on", way, size=(1100, 700))
     assert seen.console == ""
     assert seen.requests == []
-    assert coloured(seen.picture) > 0.03, "the canvas is blank"
+    assert coloured(seen.picture) > 0.073, "the canvas is blank"  # measured: 0.145
     off = "document.querySelector('[data-show=foot]').click();"
     without = browsing.browse(shown(off), tmp_path / "off", way, size=(1100, 700))
-    assert coloured(without.picture) < 0.5 * coloured(seen.picture)
-    assert np.ptp(without.picture[60:480], axis=(0, 1)).max() > 0.1, "the last is gone too"
+    assert coloured(without.picture) == 0.0
+    glass = np.ptp(without.picture[60:480], axis=(0, 1)).max()  # measured: 0.41 and 0.54
+    assert glass > 0.21, "the last is gone too"
     off += "document.querySelector('[data-show=last]').click();"
     nothing = browsing.browse(shown(off), tmp_path / "none", way, size=(1100, 700))
     assert coloured(nothing.picture) == 0.0
@@ -173,7 +175,7 @@ def test_buttons_and_keys_turn_the_view(tmp_path):
     for index, act in enumerate(acts):
         moved = browsing.browse(shown(act), tmp_path / f"moved{index}", size=(1100, 700))
         assert moved.console == ""
-        assert np.abs(moved.picture - still)[60:480].max() > 0.2, act
+        assert np.abs(moved.picture - still)[60:480].max() > 0.49, act  # measured: 0.96
 
 
 @needs_browser

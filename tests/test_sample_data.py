@@ -101,9 +101,9 @@ def test_no_pose_is_canonical_and_no_two_are_alike():
         vertices, _ = stl(SAMPLES / row["path"])
         axes.append(np.linalg.svd(vertices - vertices.mean(axis=0), full_matrices=False)[2][0])
     axes = np.array(axes)
-    assert np.abs(axes[:, 0]).max() < np.cos(np.radians(10))
+    assert np.abs(axes[:, 0]).max() < np.cos(np.radians(12))  # measured: 24 deg
     alike = np.abs(axes @ axes.T) - np.eye(len(axes))
-    assert alike.max() < np.cos(np.radians(3))
+    assert alike.max() < np.cos(np.radians(3.6))  # measured: 7.1 deg
 
 
 def test_the_readme_states_the_planted_flare_and_the_sizes():

@@ -65,7 +65,8 @@ def test_a_last_is_a_closed_solid_in_the_canonical_pose(name):
     assert vertices[:, 2].min() == 0
     rear = vertices[vertices[:, 0] < 0.3 * spec.length_mm, 2].min()
     fore = vertices[vertices[:, 0] > 0.5 * spec.length_mm, 2].min()
-    assert max(rear, fore) < 0.006 * spec.length_mm  # it rests on the seat and on the tread
+    # it rests on the seat and on the tread, of which one is drafted at 0; measured: 0.097 mm
+    assert max(rear, fore) < 7e-4 * spec.length_mm
 
 
 @pytest.mark.parametrize("name", SPECS)
@@ -74,7 +75,7 @@ def test_the_planted_line_halves_the_lower_band(name):
     vertices, faces = last_mesh(spec)
     for s in np.linspace(0.04, 0.96, 24):
         low, high = band_across(spec, vertices, faces, s)
-        assert abs(low + high) / 2 < 2e-4 * spec.length_mm
+        assert abs(low + high) / 2 < 2e-4 * spec.length_mm  # between facets; measured: 1.3e-4
         half_mm = lasts.half_width_mm(spec, np.array([s]))[0]
         assert (high - low) / 2 == pytest.approx(half_mm, abs=1.5e-3 * spec.length_mm)
 
@@ -88,7 +89,7 @@ def test_any_last_is_sound_and_has_the_flare_it_states(spec):
     assert lasts.true_flare_deg(spec) == pytest.approx(spec.flare_deg, abs=ROUNDING)
     for s in (0.1, 0.43, 0.67, 0.9):
         low, high = band_across(spec, vertices, faces, s)
-        assert abs(low + high) / 2 < 2.5e-4 * spec.length_mm
+        assert abs(low + high) / 2 < 2.5e-4 * spec.length_mm  # measured: 1.3e-4
     s = np.linspace(0.002, 0.998, 400)
     line = lasts.centre_line_mm(spec, s)
     step = np.diff(line, axis=0)
@@ -140,12 +141,12 @@ def test_the_sides_differ_where_a_foot_differs():
     waist = section(vertices, faces, 0, 0.43 * 270).reshape(-1, 3)
     instep = section(vertices, faces, 0, 0.56 * 270).reshape(-1, 3)
     middle = lasts.centre_line_mm(spec, np.array([0.56]))[0, 1]
-    assert instep[np.argmax(instep[:, 2]), 1] - middle > 0.5 * spec.ridge_mm
+    assert instep[np.argmax(instep[:, 2]), 1] - middle > 0.6 * spec.ridge_mm  # measured: 1.0
     centre = lasts.centre_line_mm(spec, np.array([0.43]))[0, 1]
     half_mm = lasts.half_width_mm(spec, np.array([0.43]))[0]
     medial = waist[np.abs(waist[:, 1] - centre - 0.7 * half_mm) < 2, 2].min()
     lateral = waist[np.abs(waist[:, 1] - centre + 0.7 * half_mm) < 2, 2].min()
-    assert medial > lateral + 0.3 * spec.arch_mm
+    assert medial > lateral + 0.8 * spec.arch_mm  # measured: 1.55
 
 
 @pytest.mark.parametrize("heel_mm", [0.0, 25.0, 40.0])
