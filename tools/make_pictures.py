@@ -12,8 +12,7 @@ from pathlib import Path
 
 import numpy as np
 
-from footfit.pipeline.demo import demonstrate
-from footfit.pipeline.library import lasts
+import footfit
 from footfit.pipeline.scan.curvature import surface_curvature
 from footfit.pipeline.scan.flare import profiled_scan
 from footfit.report.pictures.curvature_figure import curvature_figure
@@ -48,8 +47,10 @@ def pictures() -> dict[str, bytes]:
 def method_pictures(scan: Scan) -> dict[str, bytes]:
     """One scan in one arbitrary pose, aligned by each method."""
     with tempfile.TemporaryDirectory() as folder:
-        catalogue = demonstrate(Path(folder)).catalogue
-        reference = lasts.alignment_reference(catalogue, "paper", None)
+        lasts = footfit.open_catalogue(Path(folder) / "lasts.footfit")
+        lasts.ingest(manifest=SAMPLES / "lasts.csv")
+        lasts.set_reference("loafer-42")
+        reference = lasts.reference()
     drawn = {"align-footfit.png": png_bytes(frames_figure(aligned(scan)))}
     for method in ("paper", "paper-literal"):
         shape = aligned(scan, method=method, reference=reference)  # type: ignore[arg-type]

@@ -20,10 +20,11 @@ from footfit.api.inputs import (
 )
 from footfit.api.scans import profiled_shape, sources
 from footfit.catalogue import store
-from footfit.errors import BadOption
+from footfit.catalogue.file.opening import FIRST_STEPS
+from footfit.errors import BadOption, NoReference
 from footfit.pipeline.batch.runs import HERE, Outcome
 from footfit.pipeline.batch.sources import Source
-from footfit.pipeline.library import lasts
+from footfit.pipeline.library import backup, check, lasts
 
 if TYPE_CHECKING:
     from footfit.pipeline.fit.match import Question
@@ -262,7 +263,16 @@ class Catalogue:
         BadOption
             A last for the method "footfit", which needs no reference.
         """
-        return lasts.alignment_reference(self.path, method, last)
+        if method == "footfit":
+            if last is not None:
+                raise BadOption("--to goes with --method paper or paper-literal")
+            return None
+        with store.open_catalogue(self.path) as catalogue:
+            reference = catalogue.reference(last)
+        if reference is None:
+            words = f"the paper's methods need a reference last; {FIRST_STEPS}"
+            raise NoReference(words, str(self.path))
+        return reference
 
     # ------------------------------------------------------------ the file
 
@@ -273,20 +283,14 @@ class Catalogue:
 
     def check(self) -> results.CheckOutcome:
         """Everything that is not as it was stored. Nothing is changed."""
-        from footfit.pipeline.library import check
-
         return check.check(self.path)
 
     def backup(self, file: FilePath, *, replace: bool = False) -> results.BackupOutcome:
         """Copy the catalogue and check the copy; raises OutputExists, CheckFailed or BadOption."""
-        from footfit.pipeline.library import backup
-
         return backup.back_up(self.path, Path(file), replace=replace)
 
     def restore(self, file: FilePath) -> results.RestoreOutcome:
         """Make the catalogue what a backup is; raises UnreadableFile, CheckFailed or BadOption."""
-        from footfit.pipeline.library import backup
-
         self._chosen.clear()
         return backup.restore(self.path, Path(file))
 

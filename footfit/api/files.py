@@ -54,7 +54,11 @@ def mesh_file(result: Any, kind: str) -> bytes:
     ------
     BadOption
         There is no mesh in such a result.
+    CatalogueDamaged
+        The mesh copy cannot be expanded.
     """
+    from footfit.meshes.copies.compact_copy import expanded_mesh
+    from footfit.meshes.write import encoded_mesh
     from footfit.pipeline import export
     from footfit.report.pictures.curvature_figure import curvature_colours
     from footfit.report.pictures.heat_figure import HEAT_KINDS, heat_bytes
@@ -66,9 +70,9 @@ def mesh_file(result: Any, kind: str) -> bytes:
     export.require_kind(kind, kinds.get(type(result), export.MESH_KINDS))
     match result:
         case results.AlignedScan():
-            return export.aligned_bytes(result, kind)
+            return encoded_mesh(export.method_vertices(result), result.faces, kind)
         case results.MeshCopy():
-            return export.copy_bytes(result, kind)
+            return encoded_mesh(*expanded_mesh(result.data), kind)
         case results.SurfaceCurvature():
             colours = curvature_colours(result) if kind == "ply" else None
             return export.curvature_bytes(result, kind, colours)

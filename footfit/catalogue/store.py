@@ -124,29 +124,19 @@ class Catalogue:
         with self.file.reading() as connection:
             return verified_records(connection, style=style, size_system=size_system)
 
-    def reference(self) -> Reference | None:
-        """The reference last; None in an empty catalogue.
+    def reference(self, name: str | None = None) -> Reference | None:
+        """The reference last, None in an empty catalogue; or what the last ``name`` would be as it.
 
         Raises
         ------
-        CatalogueDamaged
-            Its row is not what was stored.
+        CatalogueDamaged, UnknownLast
+            Its rows are not what was stored; there is no last of that name.
         """
+        if name is not None:
+            return reference_of(self.record(name))
         with self.file.reading() as connection:
             reference = stored_reference(connection)
             return None if reference is None else reference[1]
-
-    def as_reference(self, name: str) -> Reference:
-        """What a last would be as the reference; nothing is changed.
-
-        Raises
-        ------
-        UnknownLast, CatalogueDamaged
-            There is no last of that name, or its rows are not what was stored.
-        """
-        with self.file.reading() as connection:
-            stored = intact_last(connection, last_id(connection, name))
-            return reference_of(record_of(stored, last_names(connection)))
 
     def mesh_copy(self, name: str) -> MeshCopy:
         """A last's compact mesh, in its canonical frame.

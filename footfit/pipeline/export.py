@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 from footfit.errors import BadOption
 from footfit.geometry.numeric.arrays import Floats
-from footfit.results import AlignedScan, MeshCopy, SurfaceCurvature
+from footfit.results import AlignedScan, SurfaceCurvature
 
 if TYPE_CHECKING:
     import numpy as np
@@ -47,27 +47,6 @@ def require_kind(kind: str, kinds: tuple[str, ...]) -> None:
     """
     if kind not in kinds:
         raise BadOption(f"a file cannot be of the kind {kind!r}; give {' or '.join(kinds)}")
-
-
-def aligned_bytes(scan: AlignedScan, kind: str) -> bytes:
-    """An aligned mesh where its own method puts it, as a file of that kind, mm."""
-    from footfit.meshes.write import encoded_mesh
-
-    return encoded_mesh(method_vertices(scan), scan.faces, kind)
-
-
-def copy_bytes(copy: MeshCopy, kind: str) -> bytes:
-    """A catalogue's mesh copy as a file of that kind, canonical mm.
-
-    Raises
-    ------
-    CatalogueDamaged
-        The copy cannot be expanded.
-    """
-    from footfit.meshes.copies.compact_copy import expanded_mesh
-    from footfit.meshes.write import encoded_mesh
-
-    return encoded_mesh(*expanded_mesh(copy.data), kind)
 
 
 def method_vertices(scan: AlignedScan) -> Floats:

@@ -67,9 +67,11 @@ def match(
     from footfit.api import files
     from footfit.cli.answers import answer_outcomes, sources_of
     from footfit.cli.outputs import OutputFile, Outputs
+    from footfit.errors import BadOption
     from footfit.results import Match
 
-    refuse_check(by, fail_under)
+    if by == "shape" and fail_under is not None:
+        raise BadOption("--fail-under goes with --by fit or flare: a search by shape judges no fit")
     catalogue = lasts.open()
     page = OutputFile(html, ("html", "htm"), lambda answer, _: files.page(answer, catalogue.path))
     outputs = Outputs((page,), Match, csv, force)
@@ -94,20 +96,6 @@ def match(
     if fail_under is not None:
         code = checked_code(matches, fail_under, code, as_json=mode.json)
     raise typer.Exit(code)
-
-
-def refuse_check(by: ByName, least: Least | None) -> None:
-    """Refuse to check a search that gives no verdict.
-
-    Raises
-    ------
-    BadOption
-        A search by shape gives no verdict.
-    """
-    from footfit.errors import BadOption
-
-    if by == "shape" and least is not None:
-        raise BadOption("--fail-under goes with --by fit or flare: a search by shape judges no fit")
 
 
 def checked_code(matches: Sequence[Match], least: Least, code: int, *, as_json: bool) -> int:

@@ -8,10 +8,10 @@ from pathlib import Path
 
 from footfit.catalogue.file.opening import FIRST_STEPS
 from footfit.catalogue.store import Catalogue, open_catalogue
-from footfit.errors import BadOption, EmptyCatalogue, NoReference
+from footfit.errors import EmptyCatalogue
 from footfit.geometry.measures.measure_table import of_kind
 from footfit.geometry.pose.paper_frame import paper_frame_angle_deg
-from footfit.results import LastRecord, Library, Method, Notice, Reference, StoredLast
+from footfit.results import LastRecord, Library, Notice, StoredLast
 
 
 def list_lasts(path: Path) -> Library:
@@ -113,26 +113,3 @@ def _other_measures(records: Sequence[LastRecord]) -> list[Notice]:
     lasts = f"{other[0]} was" if len(other) == 1 else f"{len(other)} of {len(records)} lasts were"
     words = f"{lasts} measured by other definitions: zones whose definition changed are not"
     return [Notice("other_measures", f"{words} judged; type: footfit upgrade-catalogue")]
-
-
-def alignment_reference(path: Path, method: Method, to: str | None) -> Reference | None:
-    """The reference that a method of alignment needs: the last ``to``, the catalogue's, or None.
-
-    Raises
-    ------
-    NoCatalogue, NoReference
-        A paper's method needs a reference last, and there is none.
-    BadOption
-        ``to`` is given for a method that uses no reference.
-    """
-    if method == "footfit":
-        if to is not None:
-            raise BadOption("--to goes with --method paper or paper-literal")
-        return None
-    with open_catalogue(path) as catalogue:
-        if to is not None:
-            return catalogue.as_reference(to)
-        reference = catalogue.reference()
-    if reference is None:
-        raise NoReference(f"the paper's methods need a reference last; {FIRST_STEPS}", str(path))
-    return reference

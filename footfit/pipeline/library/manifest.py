@@ -12,18 +12,8 @@ from footfit.meshes.units import UNIT_SCALES
 from footfit.pipeline.batch.sources import ReadingOptions
 from footfit.results import LastLabels
 
-COLUMNS = (
-    "path",
-    "name",
-    "style",
-    "size",
-    "size_system",
-    "width_label",
-    "side",
-    "units",
-    "heel_height_mm",
-)
 LABEL_TEXTS = ("name", "style", "size", "size_system", "width_label")
+COLUMNS = ("path", *LABEL_TEXTS, "side", "units", "heel_height_mm")
 CHOICES = {"side": ("auto", "left", "right"), "units": ("auto", *UNIT_SCALES)}
 LARGEST_BYTES = 16_000_000
 HEEL_HEIGHTS_MM = (0, 200)
