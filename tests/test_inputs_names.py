@@ -121,7 +121,7 @@ def test_no_cell_of_the_csv_is_a_formula(
             "match", argument, "--catalogue", hostile, "--csv", "-", "--top", 12, "--by", "flare"
         )
         rows = list(csv.reader(io.StringIO(run.out)))
-        assert len(rows) > 5
+        assert len(rows) == 1 + 12
         numbers = [cell for row in rows[1:] for cell in row]
         for cell in numbers:
             assert not cell.startswith(("=", "@", "\t", "\r")), cell

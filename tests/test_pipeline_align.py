@@ -67,7 +67,7 @@ def test_many_faces_lie_as_they_would_if_nothing_were_gathered(last, monkeypatch
     )
     gathered = aligned(scan_of(*fine)).alignment
     there, here = gathered.canonical_transform, whole.canonical_transform
-    assert 0.0 < angle_deg(there[:3, :3], here[:3, :3]) < 0.01
+    assert 0.0 < angle_deg(there[:3, :3], here[:3, :3]) < 3.2e-4  # measured 1.6e-4
     # measured 0.00099
     assert np.abs(moved_points(there, last[0]) - moved_points(here, last[0])).max() < 0.0015
 
@@ -235,7 +235,7 @@ def test_a_last_without_a_side_is_undecided():
         segments=40,
     )
     found = aligned(scan_of(*last_mesh(spec))).alignment
-    assert abs(found.side.score) < 0.5
+    assert abs(found.side.score) < 0.5  # measured 0.28
     assert found.side.side is None
     assert found.side.confidence == "undecided"
     assert "low_side_confidence" in codes(found)
@@ -315,8 +315,8 @@ def test_holes_in_sole_wall_and_heel_are_bridged_and_said(last, home, box):
     found = aligned(scan_of(vertices, faces[keep]))
     turn = angle_deg(found.alignment.transform[:3, :3], home.transform[:3, :3])
     assert turn < 0.0087  # measured 0.0058
+    # measured 0.25 and 0.00041
     assert np.linalg.norm(found.alignment.transform[:3, 3] - home.transform[:3, 3]) < 0.3
-    # measured 0.00041
     assert found.alignment.extent_mm == pytest.approx(home.extent_mm, abs=6.2e-4)
     assert [code for code in codes(found.alignment) if "hole" in code] == ["holes_filled"]
     flat = profiled_scan(aligned(scan_of(vertices, faces))).flare.angle_deg
@@ -348,7 +348,7 @@ def test_a_foot_without_its_sole_is_posed_by_the_rest(name, height_mm):
         assert alone.side.side == whole.side.side
         assert alone.length_mm == pytest.approx(whole.length_mm, abs=1.4)  # measured 0.9
         turn = alone.transform[:3, :3] @ pose[:3, :3]
-        assert min(turn[0, 0], turn[2, 2]) > np.cos(np.radians(10))
+        assert min(turn[0, 0], turn[2, 2]) > np.cos(np.radians(1.4))  # measured 0.74
 
 
 # ---------------------------------------------------------------- the paper's methods
@@ -440,7 +440,9 @@ def test_sample_feet_stand_upright_in_any_pose(name, worn):
         vertices = distortions.white_noise(vertices, rng, 0.5)
     if worn == "coarse":
         vertices, faces = distortions.decimated(vertices, faces, 3.0)
-    assert_upright(replace(scan, vertices_mm=vertices, faces=faces), name, (1, 0, 0), (0, 0, 1))
+    worn_scan = replace(scan, vertices_mm=vertices, faces=faces)
+    # measured: 0.96 and 1.9 deg
+    assert_upright(worn_scan, name, (1, 0, 0), (0, 0, 1), toes_deg=1.9, up_deg=3.7)
 
 
 @pytest.mark.parametrize(
@@ -455,17 +457,18 @@ def test_sample_feet_stand_upright_in_any_pose(name, worn):
     ],
 )
 def test_real_scans_stand_upright_in_any_pose(scans, name, toes, up):
-    assert_upright(read_scan(scans / f"{name}.stl"), name, toes, up)
+    # of whom nobody has measured how they point; found: 6.9 and 12.6 deg, both FIND_template
+    assert_upright(read_scan(scans / f"{name}.stl"), name, toes, up, toes_deg=12.0, up_deg=14.0)
 
 
-def assert_upright(scan, name, toes, up):
+def assert_upright(scan, name, toes, up, toes_deg, up_deg):
     """In a random pose its toes point along X and its leg along Z, and its side is sure."""
     pose = distortions.random_pose(np.random.default_rng(len(name)))
     posed = replace(scan, vertices_mm=distortions.moved(scan.vertices_mm, pose))
     found = aligned(posed).alignment
     turn = found.transform[:3, :3] / found.info.unit_scale @ pose[:3, :3]
-    assert turn[0] @ np.array(toes) > np.cos(np.radians(12))
-    assert turn[2] @ np.array(up) > np.cos(np.radians(14))
+    assert turn[0] @ np.array(toes) > np.cos(np.radians(toes_deg))
+    assert turn[2] @ np.array(up) > np.cos(np.radians(up_deg))
     if name[-2:] in ("_L", "_R"):
         assert found.side.side == ("left" if name.endswith("L") else "right")
         assert found.side.confidence == "sure"
