@@ -13,6 +13,7 @@ import argparse
 import sys
 from collections.abc import Callable, Iterator
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
@@ -35,14 +36,33 @@ def own(rng: np.random.Generator, band: tuple[float, float], number: int) -> Cas
     return *last_mesh(spec), float(np.radians(standing(spec).pitch_deg))
 
 
+def second_family() -> bool:
+    """Whether the second family stands beside the project; it can be imported then."""
+    if SHARED.exists() and str(SHARED) not in sys.path:
+        sys.path.insert(0, str(SHARED))
+    return SHARED.exists()
+
+
 def other(rng: np.random.Generator, band: tuple[float, float], _: int) -> Case:
     """A last of the second family, laid on its resting line."""
     import lasts2
-    from scipy.spatial import ConvexHull
+
+    return at_rest(lasts2.mesh(other_spec(rng, band), n_long=150, n_round=84))
+
+
+def other_spec(rng: np.random.Generator, band: tuple[float, float]) -> Any:
+    """A random last of the second family with a heel of a band."""
+    import lasts2
 
     spec = lasts2.random_last(rng, length=rng.uniform(225, 280))
     spec.heel_height, spec.toe_spring = min(rng.uniform(*band), HIGHEST_MM), rng.uniform(3, 8)
-    mesh = lasts2.mesh(spec, n_long=150, n_round=84)
+    return spec
+
+
+def at_rest(mesh: Any) -> Case:
+    """A standing mesh on its resting line, and how far that turned it, radians."""
+    from scipy.spatial import ConvexHull
+
     points = np.array(mesh.vertices)
     hull = points[ConvexHull(points[:, [0, 2]]).vertices][:, [0, 2]]
     edges = np.roll(hull, -1, axis=0) - hull
@@ -55,10 +75,7 @@ def other(rng: np.random.Generator, band: tuple[float, float], _: int) -> Case:
 
 def rows(count: int, seed: int) -> Iterator[list[str]]:
     """A row for each family and band of heels."""
-    families = {"own": own}
-    if SHARED.exists():
-        sys.path.insert(0, str(SHARED))
-        families["lasts2"] = other
+    families = {"own": own} | ({"lasts2": other} if second_family() else {})
     for name, draw in families.items():
         rng = np.random.default_rng(seed)
         for band in HEEL_BANDS_MM:

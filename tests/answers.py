@@ -255,7 +255,7 @@ def facts(**more):
         "lasts": 12,
         "reference": "derby-42",
         "schema_revision": "0001",
-        "definitions": (("flare/1", 12),),
+        "definitions": ((FlareDefinition().version, 12),),
         "styles": (("derby", 6), ("oxford", 6)),
         "size_systems": (("eu", 12),),
         "sides": (("right", 12),),

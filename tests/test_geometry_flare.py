@@ -268,14 +268,13 @@ def test_holes_in_the_wall_do_not_upset_the_angle(usual):
     assert flare_profile(*holed).angle_deg == pytest.approx(profile.angle_deg, abs=0.04)  # 0.023
 
 
-def test_the_class_follows_the_kinds_thresholds():
+def test_the_class_of_a_last_follows_the_thresholds_and_a_foot_has_none():
     definition = FlareDefinition()
-    for kind, (least, most) in (
-        ("last", definition.last_straight_deg),
-        ("foot", definition.foot_straight_deg),
-    ):
-        names = [flare_class(a, kind, definition) for a in (least - 0.1, least, most, most + 0.1)]
-        assert names == ["outflare", "straight", "straight", "inflare"]
+    least, most = definition.last_straight_deg
+    angles = (least - 0.1, least, most, most + 0.1)
+    names = [flare_class(angle, "last", definition) for angle in angles]
+    assert names == ["outflare", "straight", "straight", "inflare"]
+    assert {flare_class(angle, "foot", definition) for angle in (-3.0, *angles, 30.0)} == {None}
 
 
 def test_the_definition_travels_as_json():
@@ -286,7 +285,7 @@ def test_the_definition_travels_as_json():
 
 MODULES = ("flare.flare_profile", "flare.definition", "flare.centre_line", "flare.band_edges")
 MODULES += ("flare.bottom_curves", "flare.levelled_bottom", "flare.sole_curvature")
-MODULES += ("numeric.smoothing",)
+MODULES += ("flare.flattened", "flare.unrolling", "numeric.smoothing")
 SPARING = {"_NEIGHBOURHOOD", "_LIFT"}  # the next test: no value depends on them
 
 

@@ -13,13 +13,13 @@ from footfit.geometry.numeric.smoothing import local_quadratic
 
 
 def bottom_curvature(
-    line: CentreLine, down: Bools, place: float, definition: FlareDefinition
+    line: CentreLine, down: Bools, place: float, side: Floats, definition: FlareDefinition
 ) -> Floats | None:
     """Curvature times length of one longitudinal curve of the bottom, (stations,).
 
     The curve is the depth of each section at ``place`` of its width from the medial side; + is
-    convex, as at the ball of a foot. The line from seat to ball is subtracted first, so that the
-    pitch of a heel does not make the bend smaller.
+    convex, as at the ball of a foot. The depths stand on the side line along which the bottom was
+    laid flat: the bend of the shank is part of the curve.
 
     Parameters
     ----------
@@ -27,6 +27,8 @@ def bottom_curvature(
     down : (m,)
         Which segments of the line's bands are of faces that look down.
     place : float
+    side : (k, 2)
+        The side line below each of the line's bands, over the length.
     definition : FlareDefinition
 
     Returns
@@ -41,15 +43,18 @@ def bottom_curvature(
     near = depth <= bands.floor + definition.band_height
     if near.mean() < definition.found_least:
         return None
-    station = line.station_at(bands.x)[near]
+    curve = side + np.column_stack([np.zeros_like(depth), depth])
+    return smooth_curvature(line, curve, near, definition.bottom_bandwidth, definition)
+
+
+def smooth_curvature(
+    line: CentreLine, curve: Floats, known: Bools, bandwidth: float, definition: FlareDefinition
+) -> Floats:
+    """Curvature times length, (stations,), of a curve (k, 2) that has a point for each band."""
     at = extended_stations(definition)
-    value, _ = local_quadratic(at, station, definition.bottom_bandwidth)
-    smooth = value @ depth[near]
-    seat, ball = definition.chord
-    low, high = np.interp([seat, ball], at, smooth)
-    level = smooth - low - (high - low) * (at - seat) / (ball - seat)
-    curve = np.column_stack([at * line.arc_length, level])
-    return np.asarray(curvature_density(curve)[1:-1] * line.arc_length, dtype=np.float64)
+    value, _ = local_quadratic(at, line.station_at(line.bands.x)[known], bandwidth)
+    smooth = value @ curve[known]
+    return np.asarray(curvature_density(smooth)[1:-1] * line.arc_length, dtype=np.float64)
 
 
 def extended_stations(definition: FlareDefinition) -> Floats:

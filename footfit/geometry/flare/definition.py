@@ -24,10 +24,17 @@ class FlareDefinition:
     0.1
     """
 
-    version: str = "flare/1"
+    version: str = "flare/2"
+
+    # A last stands on its heel, and its bottom is laid flat along its own arc (a foot lies flat).
+    line_window: tuple[float, float] = (0.035, 0.965)  # of the standing length
+    line_bandwidth: float = 0.03  # of the local parabolas that smooth the middle line
+    line_beyond: float = 0.2  # how far the line is drawn on straight at each end
+    flat_height: float = 0.135  # faces that lie higher over the line are no bottom
 
     # The band that counts as the bottom, and its edges.
-    length_height: float = 0.30  # L is the extent along x of the part that lies lower
+    length_height: float = 0.30  # L of a foot is the extent along x of the part that lies lower
+    flat_length_height: float = 0.05  # L of a last, in the same way, on the bottom laid flat
     band_height: float = 0.10  # over each section's own lowest point: a raised heel has one too
     edge_depth: float = 0.01  # an edge is the mean of the outermost part, as deep as this
 
@@ -66,7 +73,6 @@ class FlareDefinition:
     # The bottom curves, and the sole's surface.
     bottom_places: tuple[float, float, float] = (0.20, 0.50, 0.80)  # of the width, from medial
     bottom_bandwidth: float = 0.10
-    chord: tuple[float, float] = (0.15, 0.65)  # seat and ball: the line between them is taken out
     surface_bandwidth: float = 0.05  # along the line
     surface_width: float = 0.70  # of the half width, where the weight has fallen to 0
     surface_ends: tuple[float, float] = (0.03, 0.12)  # no weight before, whole weight after
@@ -75,9 +81,8 @@ class FlareDefinition:
     surface_least: float = 0.1  # of the usual area of sole, else a station has none
     surface_width_bandwidth: float = 0.03  # of the widths' curve, whose slope is used
 
-    # What the angle is called: below the first outflare, above the second inflare.
+    # What the angle of a last is called: below the first outflare, above the second inflare.
     last_straight_deg: tuple[float, float] = (4.0, 12.0)
-    foot_straight_deg: tuple[float, float] = (11.5, 18.5)
 
     # The angle's uncertainty: the scatter of the mid-points, and the frame's own.
     scatter_bandwidth: float = 0.02
@@ -85,6 +90,7 @@ class FlareDefinition:
     frame_sd_deg: float = 0.05  # a frame wrong by half a degree of yaw: benchmarks/flare.py
 
     # How finely: a finer choice of any moves the angle by less than 0.001 degrees.
+    line_points: int = 401  # of the side line's table
     table: tuple[float, float, int] = (-0.1, 1.1, 1201)  # x of the tabulated line: from, to, points
     projections: int = 2  # Newton steps onto the line
     turn_least: float = 0.2  # keeps a point beyond the line's centre of curvature on its own side
@@ -99,31 +105,33 @@ class FlareProfile:
 
     ``heading_deg`` is the direction of the centre line, + towards medial; ``curvature`` maps
     each of ``CHANNELS`` to curvature times length (dimensionless), or None where it cannot be
-    measured; ``centre_line`` is (n, 2), x and y over the length.
+    measured; ``centre_line`` is (n, 2), x and y in the plan of the canonical frame over the extent.
+    ``flare_class`` is None for a foot.
     """
 
     definition: FlareDefinition
     angle_deg: float
     angle_sd_deg: float
-    flare_class: str
+    flare_class: str | None
     stations: Floats
     heading_deg: Floats
     curvature: dict[str, Floats | None]
     centre_line: Floats
 
 
-def flare_class(angle_deg: float, kind: str, definition: FlareDefinition) -> str:
-    """What people call a flare angle: outflare, straight or inflare.
+def flare_class(angle_deg: float, kind: str, definition: FlareDefinition) -> str | None:
+    """What the trade calls the flare angle of a last: outflare, straight or inflare.
 
-    Feet bend more than the lasts that fit them, so ``kind`` ("foot" or "last") has thresholds of
-    its own.
+    A foot has no such name: too few real feet are measured to say which angle is usual.
 
     Examples
     --------
     >>> flare_class(13.0, "last", FlareDefinition()), flare_class(13.0, "foot", FlareDefinition())
-    ('inflare', 'straight')
+    ('inflare', None)
     """
-    least, most = definition.last_straight_deg if kind == "last" else definition.foot_straight_deg
+    if kind != "last":
+        return None
+    least, most = definition.last_straight_deg
     if angle_deg < least:
         return "outflare"
     return "inflare" if angle_deg > most else "straight"

@@ -11,18 +11,21 @@ import numpy as np
 from footfit.geometry.flare.bottom_curves import bottom_curvature, extended_stations
 from footfit.geometry.flare.centre_line import CentreLine, centre_line
 from footfit.geometry.flare.definition import CHANNELS, FlareDefinition, FlareProfile, flare_class
-from footfit.geometry.flare.levelled_bottom import BottomShape, bottom_shape
+from footfit.geometry.flare.flattened import Flattened, flattened
+from footfit.geometry.flare.levelled_bottom import low_length
 from footfit.geometry.flare.sole_curvature import surface_curvature_profile
 from footfit.geometry.mesh.surface import area_vectors
 from footfit.geometry.numeric.arrays import Floats, Ints
 from footfit.geometry.numeric.polylines import curvature_density
 from footfit.geometry.numeric.smoothing import cubic_splines, local_quadratic
+from footfit.geometry.stance.stance import Stance
 
 
 def flare_profile(
     vertices_mm: Floats,
     faces: Ints,
     definition: FlareDefinition | None = None,
+    stance: Stance | None = None,
     kind: str = "foot",
 ) -> FlareProfile:
     """The flare profile of a canonical right shape.
@@ -34,8 +37,10 @@ def flare_profile(
     faces : (m, 3)
         Wound outward.
     definition : FlareDefinition, optional
+    stance : Stance, optional
+        How a last stands. Without it the shape lies flat, as a foot does.
     kind : {"foot", "last"}
-        Whose thresholds name the class.
+        A foot's angle has no class.
 
     Returns
     -------
@@ -47,12 +52,13 @@ def flare_profile(
         The scan does not show enough of the bottom's length.
     """
     definition = FlareDefinition() if definition is None else definition
-    shape = bottom_shape(vertices_mm, faces, definition)
-    line = centre_line(shape, definition)
+    bottom = flattened(vertices_mm, faces, stance, definition)
+    line = centre_line(bottom.shape, bottom.reading)
     angle_deg, gradient_deg = _flare_angle(line, definition)
     stations = extended_stations(definition)[1:-1]
     x = line.x_at(stations)
     slope = np.interp(x, line.x, line.slope)
+    _, extent_mm = low_length(vertices_mm, definition.length_height, definition.length_rounds)
     return FlareProfile(
         definition=definition,
         angle_deg=angle_deg,
@@ -60,20 +66,18 @@ def flare_profile(
         flare_class=flare_class(angle_deg, kind, definition),
         stations=stations,
         heading_deg=np.degrees(np.arctan(slope)),
-        curvature=_channels(shape, line, definition),
-        centre_line=np.column_stack(
-            [x + shape.origin_mm / shape.length_mm, np.interp(x, line.x, line.y)]
-        ),
+        curvature=_channels(bottom, line),
+        centre_line=bottom.plan_mm(line, x) / extent_mm,
     )
 
 
-def _channels(
-    shape: BottomShape, line: CentreLine, definition: FlareDefinition
-) -> dict[str, Floats | None]:
-    plan = _plan_curvature(line, definition)
+def _channels(bottom: Flattened, line: CentreLine) -> dict[str, Floats | None]:
+    shape, reading = bottom.shape, bottom.reading
+    plan = _plan_curvature(line, reading)
     down = area_vectors(shape.vertices, shape.faces)[line.bands.segments.face, 2] < 0.0
-    places = (bottom_curvature(line, down, p, definition) for p in definition.bottom_places)
-    surface = surface_curvature_profile(shape, line, definition)
+    side = bottom.side_view(line, line.bands.x)
+    places = (bottom_curvature(line, down, p, side, reading) for p in reading.bottom_places)
+    surface = surface_curvature_profile(shape, line, side, reading)
     return dict(zip(CHANNELS, (plan, *places, surface), strict=True))
 
 

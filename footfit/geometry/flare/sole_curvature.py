@@ -14,7 +14,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from footfit.geometry.flare.bottom_curves import extended_stations
+from footfit.geometry.flare.bottom_curves import extended_stations, smooth_curvature
 from footfit.geometry.flare.centre_line import CentreLine
 from footfit.geometry.flare.definition import FlareDefinition
 from footfit.geometry.flare.levelled_bottom import BottomShape
@@ -25,9 +25,12 @@ from footfit.geometry.numeric.smoothing import local_quadratic
 
 
 def surface_curvature_profile(
-    shape: BottomShape, line: CentreLine, definition: FlareDefinition
+    shape: BottomShape, line: CentreLine, side: Floats, definition: FlareDefinition
 ) -> Floats | None:
     """Area-weighted mean curvature of the sole's surface times length, (stations,); convex is +.
+
+    To lay the bottom flat took the bend of the side line ``side`` (k, 2) away: half of it is added
+    again, since the mean curvature is the mean of the two principal ones.
 
     Returns
     -------
@@ -48,7 +51,12 @@ def surface_curvature_profile(
         ]
     )
     binned = _binned(weight.station, columns, grid)
-    return _station_means(binned, grid, line.arc_length, definition)
+    mean = _station_means(binned, grid, line.arc_length, definition)
+    if mean is None:
+        return None
+    known = np.isfinite(line.bands.x)
+    bend = smooth_curvature(line, side, known, definition.surface_bandwidth, definition)
+    return mean + 0.5 * bend
 
 
 def _station_means(

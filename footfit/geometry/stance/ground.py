@@ -60,8 +60,8 @@ class GroundSettings:
     low_deg: float = 17.0
     low_cost: float = 25.0
     low_spring: float = 0.06
-    starts_deg: tuple[float, ...] = (1.0, 17.0, 25.0, 33.0, 41.0)
-    range_deg: tuple[float, float] = (-1.5, 45.0)
+    starts_deg: tuple[float, ...] = (1.0, 17.0, 25.0, 33.0, 41.0, 49.0)
+    range_deg: tuple[float, float] = (-1.5, 60.0)
     rounds: int = 10
     damping: float = 0.8
     settled_deg: float = 0.03

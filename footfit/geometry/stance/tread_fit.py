@@ -55,7 +55,7 @@ class TreadFitSettings:
     turn: tuple[float, float] = (0.17, 0.25)
     power: tuple[float, float] = (1.2, 0.2)
     fall: tuple[float, float] = (0.4, 1.5)
-    least: tuple[float, ...] = (-0.3, 0.01, 0.03, 0.5, 0.0, 0.5)
+    least: tuple[float, ...] = (-0.03, 0.01, 0.03, 0.5, 0.0, 0.5)
     most: tuple[float, ...] = (1.2, 2.0, 0.5, 0.9, 30.0, 3.0)
     scale: tuple[float, ...] = (0.05, 0.2, 0.1, 0.03, 1.0, 0.3)
     rounds: int = 25
@@ -63,7 +63,8 @@ class TreadFitSettings:
 
 
 TREAD_FIT = TreadFitSettings()
-_START = np.array([0.0, 0.4, 0.17, 0.70, 1.0, 1.2])
+_START = 0.17, 0.70, 1.0, 1.2  # turn, tread, spring, power
+_LEAST_FALL = 0.1
 _CORRELATED = 12.0  # samples this close count as one: the smoothing ties them together
 
 
@@ -143,7 +144,10 @@ def fitted_tread(
     least, most, scale = (
         np.array(value) for value in (settings.least, settings.most, settings.scale)
     )
-    begin = _START + np.array([start, 0, 0, 0, 0, 0]) if np.ndim(start) == 0 else np.array(start)
+    begin = np.array(start)
+    if begin.ndim == 0:
+        fall = max(float(begin) - float(line.slope.min()), _LEAST_FALL)
+        begin = np.array([float(begin), fall, *_START])
     parameters = np.clip(begin, least + 1e-6, most - 1e-6)
     places = line.places(ground)
     residual, jacobian = _residuals(parameters, line, places, settings)

@@ -7,8 +7,8 @@ from pathlib import Path
 
 from footfit.catalogue.store import Catalogue, open_catalogue
 from footfit.geometry.flare.definition import FlareDefinition
-from footfit.geometry.flare.flare_profile import flare_profile
 from footfit.pipeline.library.lasts import has_other_measures
+from footfit.pipeline.scan.flare import shape_flare
 from footfit.pipeline.scan.measure import shape_measures
 from footfit.pipeline.scan.preparation import stored_shape
 from footfit.results import LastRecord, UpgradeOutcome
@@ -35,8 +35,7 @@ def upgrade(path: Path) -> UpgradeOutcome:
             if record.labels.name in stored.outdated or has_other_measures(record)
         ]
         for record in older:
-            outdated = record.labels.name in stored.outdated
-            _renew(catalogue, record, definition if outdated else None)
+            _renew(catalogue, record, profile=record.labels.name in stored.outdated)
         revisions = catalogue.revisions
     return UpgradeOutcome(
         path=str(path),
@@ -48,12 +47,12 @@ def upgrade(path: Path) -> UpgradeOutcome:
     )
 
 
-def _renew(catalogue: Catalogue, record: LastRecord, definition: FlareDefinition | None) -> None:
-    """Measure a last again, and profile it by ``definition``; None keeps the profile."""
+def _renew(catalogue: Catalogue, record: LastRecord, *, profile: bool) -> None:
+    """Measure a last again; with ``profile`` also profile it by this version's definition."""
     copy, kind = catalogue.mesh_copy(record.labels.name), record.pose.kind
     right = stored_shape(copy.data, record.side.side)
     record = replace(record, measures=shape_measures(*right, kind))
-    if definition is not None:
-        flare = flare_profile(*right, definition, kind)
+    if profile:
+        flare = shape_flare(*right, kind)
         record = replace(record, flare=flare, upgraded_from=record.flare.definition.version)
     catalogue.update_profile(record)

@@ -6,7 +6,10 @@ from dataclasses import replace
 
 import numpy as np
 
+from footfit.geometry.flare.definition import FlareProfile
 from footfit.geometry.flare.flare_profile import flare_profile
+from footfit.geometry.numeric.arrays import Floats, Ints
+from footfit.geometry.stance.stance import stance_of
 from footfit.pipeline.scan.measure import check_side, scan_measures
 from footfit.results import AlignedScan, Notice, Profiled
 
@@ -32,10 +35,24 @@ def profiled_scan(aligned: AlignedScan) -> Profiled:
     check_side(aligned.alignment)
     prepared = aligned.prepared
     kind = prepared.pose.kind
-    flare = flare_profile(prepared.vertices_mm, prepared.faces, kind=kind)
+    flare = shape_flare(prepared.vertices_mm, prepared.faces, kind)
     sd_deg = angle_sd_deg(flare.angle_sd_deg, kind, sole=prepared.pose.sole)
     flare = replace(flare, angle_sd_deg=sd_deg)
     return Profiled(aligned, flare, scan_measures(prepared), unusual_flare(flare.angle_deg, kind))
+
+
+def shape_flare(vertices_mm: Floats, faces: Ints, kind: str) -> FlareProfile:
+    """The flare profile of a canonical right shape; a last is read as it stands on its heel.
+
+    A last whose stance cannot be read is profiled as it rests.
+
+    Raises
+    ------
+    HalfScan
+        The shape does not show enough of the bottom's length.
+    """
+    stance = stance_of(vertices_mm, faces, kind) if kind == "last" else None
+    return flare_profile(vertices_mm, faces, stance=stance, kind=kind)
 
 
 def angle_sd_deg(scatter_sd_deg: float, kind: str, *, sole: bool) -> float:

@@ -6,6 +6,7 @@ from collections.abc import Iterable
 from dataclasses import replace
 
 from footfit.errors import SideUndecided
+from footfit.geometry.flare.definition import flare_class
 from footfit.geometry.measures import measure_table
 from footfit.geometry.measures.landmarks import Shape
 from footfit.geometry.numeric.arrays import Floats, Ints
@@ -136,12 +137,15 @@ def last_record(shape: Profiled, labels: LastLabels) -> LastRecord:
     """The record of a profiled shape; the catalogue will keep its file's name, but no folder."""
     alignment = shape.aligned.alignment
     kind = alignment.pose.kind
+    flare = shape.flare
     notices = (*alignment.warnings, *shape.unusual)
     if kind == "last":
         notices = (*notices, *unusual_measures(shape.measures, kind))
     if kind == "foot":
         looks = Notice("looks_like_a_foot", "its shape is nearer to a foot's than to a last's")
         notices = (*notices, looks)
+        name = flare_class(flare.angle_deg, "last", flare.definition)
+        flare = replace(flare, flare_class=name)
     return LastRecord(
         labels=labels,
         info=alignment.info,
@@ -152,7 +156,7 @@ def last_record(shape: Profiled, labels: LastLabels) -> LastRecord:
         canonical_transform=alignment.canonical_transform,
         paper_transform=None,
         extent_mm=alignment.extent_mm,
-        flare=shape.flare,
+        flare=flare,
         measures=shape.measures,
         warnings=notices,
     )

@@ -22,6 +22,7 @@ FILTERS = (
     text.file_name,
     text.measured_text,
     text.plain,
+    text.class_words,
     text.signed,
     text.tie_words,
     comparison_words.lengths_words,

@@ -32,7 +32,7 @@ from footfit.report.pictures.flare_axes import (
     windows,
 )
 from footfit.report.pictures.sides import is_left
-from footfit.report.wording.text import angle_text, length_text, shape_words, signed
+from footfit.report.wording.text import angle_text, class_words, length_text, shape_words, signed
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -71,7 +71,7 @@ def flare_figure(profiled: Profiled) -> Figure:
         _draw_bottom(figure.add_subplot(grid[2, 1], sharex=heading), profiled.flare)
         alignment = profiled.aligned.alignment
         words = f"{shape_words(alignment)}, {length_text(alignment.length)}"
-        flare = f"flare {angle_text(profiled.flare)} ({profiled.flare.flare_class})"
+        flare = f"flare {angle_text(profiled.flare)}{class_words(profiled.flare)}"
         write_title(figure, f"{words}, {flare}")
     return figure
 

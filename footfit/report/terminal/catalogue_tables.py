@@ -16,6 +16,7 @@ from footfit.report.terminal.scan_tables import (
     side_words,
 )
 from footfit.report.wording.text import (
+    class_words,
     length_text,
     measured_text,
     plain,
@@ -53,7 +54,7 @@ def list_lasts_table(library: results.Library) -> RenderableType:
             record.side.side or "undecided",
             "-" if record.length_mm is None else plain(record.length_mm),
             signed(record.flare.angle_deg),
-            record.flare.flare_class,
+            record.flare.flare_class or "-",
             "-" if heel is None else plain(heel, 0),
         )
     noun = "last" if len(ordered) == 1 else "lasts"
@@ -80,7 +81,7 @@ def show_last_table(last: results.StoredLast) -> RenderableType:
     record, reference = last.record, last.reference
     labels, flare, info = record.labels, record.flare, record.info
     upgraded = f", upgraded from {record.upgraded_from}" if record.upgraded_from else ""
-    turned = f"{signed(flare.angle_deg)} ± {plain(flare.angle_sd_deg)} deg ({flare.flare_class})"
+    turned = f"{signed(flare.angle_deg)} ± {plain(flare.angle_sd_deg)} deg{class_words(flare)}"
     rows: list[tuple[str, str | Text]] = [
         ("style", cell(labels.style)),
         ("size", _size_row(record)),

@@ -15,7 +15,14 @@ from rich.console import Console, Group
 from rich.table import Table
 from rich.text import Text
 
-from footfit.report.wording.text import length_text, measured_text, plain, signed, visible
+from footfit.report.wording.text import (
+    class_words,
+    length_text,
+    measured_text,
+    plain,
+    signed,
+    visible,
+)
 from footfit.results.profile import spread_part
 
 if TYPE_CHECKING:
@@ -139,10 +146,10 @@ def flare_table(profiled: results.Profiled) -> RenderableType:
 
 
 def flare_words(profiled: results.Profiled) -> str:
-    """The flare angle with its uncertainty and class."""
+    """The flare angle with its uncertainty, and the class of a last."""
     flare = profiled.flare
     angle, spread = signed(flare.angle_deg), plain(flare.angle_sd_deg)
-    return f"{angle} ± {spread} deg ({flare.flare_class})"
+    return f"{angle} ± {spread} deg{class_words(flare)}"
 
 
 def _range_words(values: Sequence[float] | object) -> str:

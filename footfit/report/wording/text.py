@@ -130,6 +130,11 @@ def angle_text(flare: FlareProfile) -> str:
     return f"{signed(flare.angle_deg)}° ± {plain(flare.angle_sd_deg)}°"
 
 
+def class_words(flare: FlareProfile) -> str:
+    """The name of a last's flare in brackets, after a blank; nothing for a foot."""
+    return "" if flare.flare_class is None else f" ({flare.flare_class})"
+
+
 def shape_words(alignment: Alignment) -> str:
     """The file's name, the side, and whether it is a foot or a last."""
     side = alignment.side.side or "side undecided,"
