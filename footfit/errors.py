@@ -1,43 +1,7 @@
 """Every error that footfit raises on purpose, and its exit code.
 
-The whole tree (a test compares this drawing with the classes)::
-
-    FootfitError
-    ├── UsageError                exit 2
-    │   ├── BadOption             bad_option
-    │   ├── NameTaken             name_taken
-    │   └── OutputExists          output_exists
-    ├── InputError                exit 3
-    │   ├── UnreadableFile        unreadable_file
-    │   ├── UnknownFormat         unknown_format
-    │   ├── DamagedMesh           damaged_mesh
-    │   ├── EmptyMesh             empty_mesh
-    │   ├── TooLarge              too_large
-    │   ├── TooSlow               too_slow
-    │   ├── TooCoarse             too_coarse
-    │   ├── UnknownUnits          unknown_units
-    │   ├── ImplausibleSize       implausible_size
-    │   ├── BadManifest           bad_manifest
-    │   └── BadProfile            bad_profile
-    ├── NotInCatalogue            exit 4
-    │   ├── NoCatalogue           no_catalogue
-    │   ├── EmptyCatalogue        empty_catalogue
-    │   ├── UnknownLast           unknown_last
-    │   ├── NoReference           no_reference
-    │   └── NoCandidate           no_candidate
-    ├── GeometryRefused           exit 5
-    │   ├── NotAFoot              not_a_foot
-    │   ├── SeveralFeet           several_feet
-    │   ├── HalfScan              half_scan
-    │   ├── SideUndecided         side_undecided
-    │   └── NoSole                no_sole
-    ├── CatalogueUnusable         exit 6
-    │   ├── CatalogueLocked       catalogue_locked
-    │   ├── CatalogueNotWritable  catalogue_not_writable
-    │   ├── NotACatalogue         not_a_catalogue
-    │   ├── CatalogueDamaged      catalogue_damaged
-    │   └── NewerCatalogue        newer_catalogue
-    └── CheckFailed               exit 7, check_failed
+Below `FootfitError` stands a class for each exit code from 2 to 7, and below it one for each
+``code``. docs/exit-codes.md lists them all; a test compares the page with the classes.
 """
 
 from __future__ import annotations

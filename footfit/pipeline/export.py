@@ -2,15 +2,17 @@
 
 from __future__ import annotations
 
+import io
 from pathlib import Path
 from typing import TYPE_CHECKING
+
+import numpy as np
 
 from footfit.errors import BadOption
 from footfit.geometry.numeric.arrays import Floats
 from footfit.results import AlignedScan, SurfaceCurvature
 
 if TYPE_CHECKING:
-    import numpy as np
     from numpy.typing import NDArray
 
 MESH_KINDS = ("stl", "ply", "obj", "off")
@@ -54,8 +56,6 @@ def method_vertices(scan: AlignedScan) -> Floats:
 
     `AlignedScan` holds them in the canonical frame, and a paper's method has another transform.
     """
-    import numpy as np
-
     alignment = scan.alignment
     step = alignment.transform @ np.linalg.inv(alignment.canonical_transform)
     return np.asarray(scan.vertices_mm @ step[:3, :3].T + step[:3, 3], dtype=np.float64)
@@ -82,17 +82,6 @@ def curvature_bytes(
         "faces": curvature.faces,
         "source_to_vertex": curvature.source_to_vertex,
     }
-    return _npz_bytes(values | mesh)
-
-
-def _npz_bytes(arrays: dict[str, NDArray[np.generic]]) -> bytes:
-    """An .npz in the order of the arrays. NumPy writes no time into it, so its bytes depend on
-    the arrays alone.
-    """
-    import io
-
-    import numpy as np
-
-    buffer = io.BytesIO()
-    np.savez_compressed(buffer, **arrays)  # type: ignore[arg-type]
+    buffer = io.BytesIO()  # NumPy writes no time into an .npz: its bytes depend on the arrays alone
+    np.savez_compressed(buffer, **values, **mesh)  # type: ignore[arg-type]
     return buffer.getvalue()

@@ -53,12 +53,6 @@ def stored_reference(connection: sqlite3.Connection) -> tuple[int, Reference] | 
     return row["last_id"], reference_from(row, name)
 
 
-def reference_key(connection: sqlite3.Connection) -> int | None:
-    """The key of the reference last, even if its OM_E is damaged."""
-    row = connection.execute("SELECT last_id FROM reference").fetchone()
-    return None if row is None else int(row[0])
-
-
 def reference_of(record: LastRecord) -> Reference:
     """What a last would be as the reference; a left last is mirrored to a right one first."""
     mirrored = record.side.side == "left"

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import sqlite3
 
-from footfit.catalogue.rows.reference_last import reference_key
 from footfit.catalogue.rows.verified_rows import key_where, last_id, last_names, stored_lasts
 from footfit.errors import BadOption, NameTaken
 from footfit.results import LastLabels, LastRecord
@@ -70,7 +69,7 @@ def require_removable(connection: sqlite3.Connection, key: int, name: str) -> No
     BadOption
         It is the reference, or the parent of another last.
     """
-    if key == reference_key(connection):
+    if connection.execute("SELECT 1 FROM reference WHERE last_id = ?", (key,)).fetchone():
         raise BadOption(
             f"{name!r} is the reference; choose another one first: footfit set-reference LAST"
         )
