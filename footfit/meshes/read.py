@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import hashlib
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from footfit.errors import DamagedMesh
 from footfit.meshes.clean.triangles import WeldedMesh, welded_mesh
@@ -15,9 +15,6 @@ from footfit.meshes.formats.raw import RawMesh, checked_mesh
 from footfit.meshes.read_limits import LIMITS, Limits
 from footfit.meshes.resolution import coordinate_step
 from footfit.results.values import Notice
-
-if TYPE_CHECKING:
-    from numpy.typing import ArrayLike
 
 
 @dataclass(frozen=True, slots=True)

@@ -5,12 +5,10 @@ from __future__ import annotations
 import csv
 import io
 import re
-from typing import TYPE_CHECKING, Any, ClassVar, Protocol
+from collections.abc import Iterable, Sequence
+from typing import Any, ClassVar, Protocol
 
 from footfit.report.wording.text import visible
-
-if TYPE_CHECKING:
-    from collections.abc import Iterable, Sequence
 
 # A spreadsheet runs a cell that starts so; a semicolon inside a cell starts another one where a
 # country's settings split there.

@@ -4,10 +4,8 @@ from __future__ import annotations
 
 import json
 import re
-from typing import TYPE_CHECKING, Any
-
-if TYPE_CHECKING:
-    from collections.abc import Mapping
+from collections.abc import Mapping
+from typing import Any
 
 # What json.dumps leaves in place and a reader could take for the end of a line, or cannot
 # encode as UTF-8: file names that were no text arrive as lone surrogates.

@@ -3,12 +3,8 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
 
-from footfit.results.values import Json, Part, exact, fields, part
-
-if TYPE_CHECKING:
-    from footfit.results.values import Measured, SideName, Verdict
+from footfit.results.values import Json, Measured, Part, SideName, Verdict, exact, fields, part
 
 
 @dataclass(frozen=True, slots=True)

@@ -3,15 +3,11 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
 
-from footfit.results.values import LABELS, Document, Json, Part, fields, part
-
-if TYPE_CHECKING:
-    from footfit.errors import FootfitError
-    from footfit.results.alignment import Reference
-    from footfit.results.last_record import LastRecord
-    from footfit.results.values import Notice, SideName
+from footfit.errors import FootfitError
+from footfit.results.alignment import Reference
+from footfit.results.last_record import LastRecord
+from footfit.results.values import LABELS, Document, Json, Notice, Part, SideName, fields, part
 
 NO_FEET = 0
 """How many feet a catalogue keeps: it has no table for any."""

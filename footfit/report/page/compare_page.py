@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 from footfit.geometry.fit.clearance import CLEARANCE
 from footfit.report.page.rendering import html_page, picture_data
 from footfit.report.page.scene import scene_of
@@ -12,9 +10,7 @@ from footfit.report.pictures.overlay_figure import DrawnLast, overlay_figure
 from footfit.report.pictures.section_figure import section_figure
 from footfit.report.pictures.sides import own_side
 from footfit.report.wording.comparison_words import SIZE_HEADS, comparison_names
-
-if TYPE_CHECKING:
-    from footfit.results import Comparison
+from footfit.results import Comparison
 
 
 def compare_page(comparison: Comparison) -> str:

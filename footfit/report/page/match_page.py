@@ -2,23 +2,18 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from collections.abc import Sequence
 
 from footfit.geometry.fit.sizes import Size, foot_sizes, system_named
 from footfit.report.page.rendering import html_page, picture_data
 from footfit.report.page.scene import scene_of
 from footfit.report.pictures.heat_figure import heat_figure
-from footfit.report.pictures.overlay_figure import SHOWN, drawn_lasts, overlay_figure
+from footfit.report.pictures.overlay_figure import SHOWN, Shapes, drawn_lasts, overlay_figure
 from footfit.report.pictures.section_figure import STRIP, section_figure
 from footfit.report.wording.comparison_words import comparison_names
 from footfit.report.wording.text import SHOWN_SYSTEMS, file_name, is_scanned_last, size_text
+from footfit.results import Candidate, Comparison, Match, Measured
 from footfit.results.values import NOT_YET
-
-if TYPE_CHECKING:
-    from collections.abc import Sequence
-
-    from footfit.report.pictures.overlay_figure import Shapes
-    from footfit.results import Candidate, Comparison, Match, Measured
 
 UNIT_SIGNS = {"mm": " mm", "deg": "°", "percent": " %", "ratio": ""}
 PAIR_NOTICES = {"pair_difference", "feet_differ_by_a_size"}

@@ -10,7 +10,7 @@ from __future__ import annotations
 import base64
 import json
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -19,9 +19,7 @@ from footfit.geometry.numeric.arrays import Floats, Ints
 from footfit.report.pictures.heat import BREAKS_MM, COLOURS, NOT_COMPARED, SHADE, step_words
 from footfit.report.pictures.shading import light_direction
 from footfit.report.pictures.sides import Mesh, is_left, own_side
-
-if TYPE_CHECKING:
-    from footfit.results import Comparison
+from footfit.results import Comparison
 
 STEPS = 65_535
 """Steps along an axis: one is 0.005 mm on a last."""

@@ -2,14 +2,10 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 import numpy as np
 
 from footfit.geometry.numeric.arrays import Floats, Ints
-
-if TYPE_CHECKING:
-    from footfit.results import Comparison, Profiled, SideName
+from footfit.results import Comparison, Profiled, SideName
 
 Mesh = tuple[Floats, Ints]
 """Vertices (n, 3) in canonical mm, and faces (m, 3)."""

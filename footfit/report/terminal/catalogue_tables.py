@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from collections.abc import Iterable
 
-from rich.console import Group
+from rich.console import Group, RenderableType
 from rich.text import Text
 
+from footfit import results
 from footfit.geometry.fit.sizes import LabelCheck, label_words
 from footfit.report.terminal.scan_tables import (
     cell,
@@ -24,13 +25,6 @@ from footfit.report.wording.text import (
     size_text,
     visible,
 )
-
-if TYPE_CHECKING:
-    from collections.abc import Iterable
-
-    from rich.console import RenderableType
-
-    from footfit import results
 
 MEGABYTE = 1_000_000
 

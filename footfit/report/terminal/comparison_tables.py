@@ -2,19 +2,13 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
-from rich.console import Group
+from rich.console import Group, RenderableType
 from rich.text import Text
 
 from footfit.report.terminal.scan_tables import lined_table
 from footfit.report.wording.comparison_words import SIZE_HEADS, lengths_words, swing_words
 from footfit.report.wording.text import difference_text, file_name, plain, signed, visible
-
-if TYPE_CHECKING:
-    from rich.console import RenderableType
-
-    from footfit.results import Comparison
+from footfit.results import Comparison
 
 
 def compare_table(comparison: Comparison) -> RenderableType:

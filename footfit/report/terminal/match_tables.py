@@ -5,10 +5,10 @@ It fits 80 columns. A last has a row of numbers, and under it a sentence over th
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from collections.abc import Sequence
 
 from rich.cells import cell_len
-from rich.console import Group
+from rich.console import Group, RenderableType
 from rich.padding import Padding
 from rich.table import Table
 from rich.text import Text
@@ -26,14 +26,8 @@ from footfit.report.wording.text import (
     tie_words,
     visible,
 )
+from footfit.results import Candidate, Match, Profiled, ZoneFit
 from footfit.results.values import NOT_YET
-
-if TYPE_CHECKING:
-    from collections.abc import Sequence
-
-    from rich.console import RenderableType
-
-    from footfit.results import Candidate, Match, Profiled, ZoneFit
 
 LIKENESS = {
     "fit": "order: good toe room first, then what fits better; distance: how far the zones are "

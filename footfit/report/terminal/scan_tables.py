@@ -8,13 +8,14 @@ stderr, so they are not here.
 from __future__ import annotations
 
 import io
-from typing import TYPE_CHECKING
+from collections.abc import Iterable, Sequence
 
 from rich import box
-from rich.console import Console, Group
+from rich.console import Console, Group, RenderableType
 from rich.table import Table
 from rich.text import Text
 
+from footfit import results
 from footfit.report.wording.text import (
     class_words,
     length_text,
@@ -24,13 +25,6 @@ from footfit.report.wording.text import (
     visible,
 )
 from footfit.results.profile import spread_part
-
-if TYPE_CHECKING:
-    from collections.abc import Iterable, Sequence
-
-    from rich.console import RenderableType
-
-    from footfit import results
 
 STATUS_STYLES = {"added": "green", "replaced": "green", "unchanged": "dim", "refused": "bold red"}
 

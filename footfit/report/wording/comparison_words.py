@@ -2,15 +2,11 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from collections.abc import Iterable, Sequence
 
 from footfit.geometry.fit.clearance import CLEARANCE
 from footfit.report.wording.text import file_name, length_text, plain, signed, visible
-
-if TYPE_CHECKING:
-    from collections.abc import Iterable, Sequence
-
-    from footfit.results import Comparison, SurfaceClearance
+from footfit.results import Comparison, SurfaceClearance
 
 SIZE_HEADS = {
     "width": "width",
