@@ -73,19 +73,14 @@ def flare_profile(
 
 def _channels(bottom: Flattened, line: CentreLine) -> dict[str, Floats | None]:
     shape, reading = bottom.shape, bottom.reading
-    plan = _plan_curvature(line, reading)
+    x = line.x_at(extended_stations(reading))
+    points = np.column_stack([x, np.interp(x, line.x, line.y)])
+    plan = curvature_density(points)[1:-1] * line.arc_length  # III.B
     down = area_vectors(shape.vertices, shape.faces)[line.bands.segments.face, 2] < 0.0
     side = bottom.side_view(line, line.bands.x)
     places = (bottom_curvature(line, down, p, side, reading) for p in reading.bottom_places)
     surface = surface_curvature_profile(shape, line, side, reading)
     return dict(zip(CHANNELS, (plan, *places, surface), strict=True))
-
-
-def _plan_curvature(line: CentreLine, definition: FlareDefinition) -> Floats:
-    """Curvature times length of the centre line (III.B), (stations,)."""
-    x = line.x_at(extended_stations(definition))
-    points = np.column_stack([x, np.interp(x, line.x, line.y)])
-    return np.asarray(curvature_density(points)[1:-1] * line.arc_length, dtype=np.float64)
 
 
 def _flare_angle(line: CentreLine, definition: FlareDefinition) -> tuple[float, Floats]:

@@ -86,7 +86,8 @@ def _sole(
     whole = shape.vertices[shape.faces[down]]
     corners, _, _ = short_triangles(whole, definition.surface_piece, definition.surface_halvings)
     points = corners.mean(axis=1)
-    ceiling = np.interp(points[:, 0], line.bands.x, _filled(line.bands.floor))
+    known = np.isfinite(line.bands.floor)
+    ceiling = np.interp(points[:, 0], line.bands.x[known], line.bands.floor[known])
     low = points[:, 2] <= ceiling + definition.band_height
     corners = corners[low]
     flat = np.arange(3 * len(corners)).reshape(-1, 3)
@@ -149,9 +150,3 @@ def _binned(where: Floats, amounts: Floats, grid: Floats) -> Floats:
         for column in amounts.T
     ]
     return np.asarray(np.column_stack(columns), dtype=np.float64)
-
-
-def _filled(values: Floats) -> Floats:
-    known = np.isfinite(values)
-    index = np.arange(len(values))
-    return np.asarray(np.interp(index, index[known], values[known]), dtype=np.float64)

@@ -81,7 +81,7 @@ def quadrature(vertices: Floats, faces: Ints, edge: float, rounds: int = 5) -> S
     vectors = vectors[owners] * shares[:, None]
     areas = row_lengths(vectors)
     return SurfaceSample(
-        points=_middles(pieces),
+        points=(pieces[:, 0] + pieces[:, 1] + pieces[:, 2]) / 3.0,
         normals=vectors / np.maximum(areas, np.finfo(np.float64).tiny)[:, None],
         areas=areas,
     )
@@ -175,8 +175,3 @@ def _longest_sides(corners: Floats) -> Floats:
     a, b, c = (corners[:, i] for i in range(3))  # NumPy is slow along an axis of three
     squares = (np.einsum("ki,ki->k", side, side) for side in (a - b, b - c, c - a))
     return np.asarray(np.sqrt(reduce(np.maximum, squares)))
-
-
-def _middles(corners: Floats) -> Floats:
-    middles: Floats = (corners[:, 0] + corners[:, 1] + corners[:, 2]) / 3.0
-    return middles

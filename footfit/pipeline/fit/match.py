@@ -117,21 +117,15 @@ def customers(
     if pair and len(sources) != 2:
         raise BadOption(f"--pair takes two different scans of one customer, not {len(sources)}")
     feet = outcomes(partial(profiled_source, reading=reading), sources, jobs)
-    if not pair:
-        for foot in feet:
-            yield _answered(foot.item, [foot], library, question)
-        return
-    both = list(feet)
-    yield _answered(sources[0], both, library, question)
+    for group in [list(feet)] if pair else ([foot] for foot in feet):
+        yield _answered(group, library, question)
 
 
 def _answered(
-    source: Source,
-    feet: Sequence[Outcome[Source, Profiled]],
-    library: Library,
-    question: Question,
+    feet: Sequence[Outcome[Source, Profiled]], library: Library, question: Question
 ) -> Outcome[Source, Match]:
     """One customer's outcome; the first foot that failed is the customer's failure."""
+    source = feet[0].item
     errors = [foot.error for foot in feet if foot.error is not None]
     if errors:
         return Outcome(source, None, errors[0])

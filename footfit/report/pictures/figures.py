@@ -16,6 +16,8 @@ if TYPE_CHECKING:
     from footfit.geometry.numeric.arrays import Floats
     from footfit.report.pictures.shading import Frame
 
+Point = tuple[float, float]
+
 INK = "#22303c"
 QUIET = "#8a97a3"
 PAPER = "#ffffff"
@@ -128,14 +130,26 @@ def draw_scale_bar(
     x, y = left + place[0] * (right - left), bottom + place[1] * (top - bottom)
     step = length_mm if right > left else -length_mm
     axes.plot([x, x + step], [y, y], color=INK, linewidth=2.0, solid_capstyle="butt")
-    axes.annotate(
-        f"{length_mm:.0f} mm",
-        (x + step / 2, y),
-        xytext=(0, 3),
-        textcoords="offset points",
-        ha="center",
-        fontsize=8,
-    )
+    write_beside(axes, f"{length_mm:.0f} mm", (x + step / 2, y), (0, 3), fontsize=8)
+
+
+def write_beside(
+    axes: Axes, words: str, place: Point, offset: Point = (0.0, 0.0), **style: Any
+) -> None:
+    """Write words, centred ``offset`` points away from a place in the axes' data."""
+    style = {"textcoords": "offset points", "ha": "center"} | style
+    axes.annotate(words, place, xytext=offset, **style)
+
+
+def arrow_style(colour: str, width: float, head: str = "-|>", shrink: int = 0) -> dict[str, Any]:
+    """How an arrow is drawn; ``shrink`` points are left out at its end."""
+    return {
+        "arrowstyle": head,
+        "color": colour,
+        "linewidth": width,
+        "shrinkA": 0,
+        "shrinkB": shrink,
+    }
 
 
 def hide_axes(axes: Axes) -> None:

@@ -18,9 +18,11 @@ from footfit.report.pictures.figures import (
     PAPER,
     QUIET,
     SERIES,
+    arrow_style,
     draw_scale_bar,
     hide_axes,
     new_figure,
+    write_beside,
     write_title,
 )
 from footfit.report.pictures.flare_axes import (
@@ -64,7 +66,10 @@ def flare_figure(profiled: Profiled) -> Figure:
     with new_figure(11.0, 7.0) as figure:
         grid = figure.add_gridspec(3, 2, width_ratios=(1.1, 1.4))
         colours = _draw_plan(figure.add_subplot(grid[:, 0]), profiled)
-        _draw_colour_bar(figure, figure.axes[0], colours)
+        place = figure.axes[0].inset_axes((0.0, -0.055, 1.0, 0.018))
+        bar = figure.colorbar(colours, cax=place, orientation="horizontal", extend="both")
+        bar.set_label("plan curvature x length: - turns outward, + turns inward", fontsize=8)
+        bar.outline.set_visible(False)
         heading = figure.add_subplot(grid[0, 1])
         _draw_heading(heading, profiled.flare)
         _draw_plan_curvature(figure.add_subplot(grid[1, 1], sharex=heading), profiled.flare)
@@ -74,13 +79,6 @@ def flare_figure(profiled: Profiled) -> Figure:
         flare = f"flare {angle_text(profiled.flare)}{class_words(profiled.flare)}"
         write_title(figure, f"{words}, {flare}")
     return figure
-
-
-def _draw_colour_bar(figure: Figure, axes: Axes, colours: Any) -> None:
-    place = axes.inset_axes((0.0, -0.055, 1.0, 0.018))
-    bar = figure.colorbar(colours, cax=place, orientation="horizontal", extend="both")
-    bar.set_label("plan curvature x length: - turns outward, + turns inward", fontsize=8)
-    bar.outline.set_visible(False)
 
 
 # ---------------------------------------------------------------- the plan
@@ -141,8 +139,7 @@ def _draw_angle_mark(axes: Axes, profiled: Profiled, line_mm: Floats) -> None:
         ends = np.column_stack([reach, y + slope * (reach - x)])
         axes.plot(*toe_up(ends), color=INK, linewidth=0.9, linestyle=(0, (5, 3)), zorder=5)
         tips.append((-ends[1, 1], ends[1, 0]))
-    arrow = {"arrowstyle": "-|>", "color": SERIES[0], "linewidth": 1.4, "shrinkA": 0, "shrinkB": 0}
-    axes.annotate("", tips[1], xytext=tips[0], arrowprops=arrow)
+    axes.annotate("", tips[1], xytext=tips[0], arrowprops=arrow_style(SERIES[0], 1.4))
     axes.text(
         0.5 * (tips[0][0] + tips[1][0]),
         (MARK_REACH + 0.02) * length,
@@ -157,15 +154,9 @@ def _write_sides(axes: Axes, profiled: Profiled, sole: Outline) -> None:
     medial = 1 if is_left(profiled) else -1
     widest = float(np.nanmax(np.abs(np.concatenate([sole.first_mm, sole.second_mm]))))
     height = 0.42 * profiled.aligned.alignment.extent_mm
-    style: dict[str, Any] = {
-        "rotation": 90,
-        "ha": "center",
-        "va": "center",
-        "color": QUIET,
-        "fontsize": 8,
-    }
     for word, side in (("medial", medial), ("lateral", -medial)):
-        axes.text(side * 1.12 * widest, height, word, **style)
+        text = axes.text(side * 1.12 * widest, height, word, ha="center", va="center")
+        text.set(rotation=90, color=QUIET, fontsize=8)
 
 
 # ---------------------------------------------------------------- the curves
@@ -178,15 +169,9 @@ def _draw_heading(axes: Axes, flare: FlareProfile) -> None:
     for window, word in zip(windows(flare.definition).values(), ("rear", "fore"), strict=True):
         mean = mean_heading_deg(flare, window)
         axes.plot(window, (mean, mean), color=SERIES[0], linewidth=2.0)
-        axes.annotate(
-            f"{word} {signed(mean)}°",
-            (0.5 * sum(window), mean),
-            xytext=(0, 4),
-            textcoords="offset points",
-            ha="center",
-            fontsize=8,
-            bbox={"facecolor": PAPER, "edgecolor": "none", "alpha": 0.8, "pad": 1.0},
-        )
+        box = {"facecolor": PAPER, "edgecolor": "none", "alpha": 0.8, "pad": 1.0}
+        place = (0.5 * sum(window), mean)
+        write_beside(axes, f"{word} {signed(mean)}°", place, (0, 4), fontsize=8, bbox=box)
     axes.margins(y=0.25)
 
 

@@ -12,9 +12,11 @@ from footfit.report.pictures.figures import (
     INK,
     SERIES,
     SKIN,
+    arrow_style,
     draw_scale_bar,
     new_figure,
     show_image,
+    write_beside,
     write_title,
 )
 from footfit.report.pictures.shading import VIEWS, axonometric_view, frame_around, shaded_image
@@ -83,22 +85,12 @@ def _draw_panel(axes: Axes, mesh: tuple[Floats, Ints], origin: Floats, ends: Flo
 
 
 def _draw_arrow(axes: Axes, origin: Floats, way: Floats, name: str, colour: str) -> None:
-    style = {"arrowstyle": "-|>", "color": colour, "linewidth": 2.0, "shrinkA": 0, "shrinkB": 0}
-    start, tip = _pair(origin), _pair(origin + way)
-    axes.annotate("", tip, xytext=start, arrowprops=style, zorder=4)
+    tip = _pair(origin + way)
+    axes.annotate("", tip, _pair(origin), arrowprops=arrow_style(colour, 2.0), zorder=4)
     long = float(np.linalg.norm(way))
     if long > 0:
-        axes.annotate(
-            name,
-            tip,
-            xytext=_pair(9.0 * way / long),
-            textcoords="offset points",
-            color=colour,
-            fontweight="bold",
-            ha="center",
-            va="center",
-            zorder=5,
-        )
+        style = {"color": colour, "fontweight": "bold", "va": "center", "zorder": 5}
+        write_beside(axes, name, tip, _pair(9.0 * way / long), **style)
 
 
 def _pair(point: Floats) -> tuple[float, float]:
@@ -109,17 +101,7 @@ def _draw_triad(axes: Axes, view: Floats) -> None:
     """The directions of X, Y and Z in the upper right corner; an axis towards the eye is a dot."""
     corner, size = (0.9, 0.88), 22.0
     for name, way in zip("XYZ", view[:2].T, strict=True):
-        style = {"arrowstyle": "->", "color": INK, "linewidth": 0.9, "shrinkA": 0, "shrinkB": 4}
-        if float(np.linalg.norm(way)) < 0.2:
-            continue
-        axes.annotate(
-            name,
-            corner,
-            xytext=_pair(size * way),
-            xycoords="axes fraction",
-            textcoords="offset points",
-            ha="center",
-            va="center",
-            fontsize=8,
-            arrowprops=style | {"arrowstyle": "<-"},
-        )
+        if float(np.linalg.norm(way)) >= 0.2:
+            style = {"xycoords": "axes fraction", "va": "center", "fontsize": 8}
+            arrow = arrow_style(INK, 0.9, "<-", 4)
+            write_beside(axes, name, corner, _pair(size * way), arrowprops=arrow, **style)

@@ -163,7 +163,7 @@ def _zones(match: Match) -> list[RenderableType]:
         table.add_row(
             zones[0].zone.replace("_", " "),
             *(_clearance(zone) for zone in zones),
-            _target_text(zones[0]),
+            f"{signed(zones[0].target)} {UNITS[zones[0].unit]}".rstrip(),
             _zone_verdict(zones),
         )
     return [title, table]
@@ -174,10 +174,6 @@ def _clearance(zone: ZoneFit) -> Text:
         return Text("-", "dim")
     digits = 2 if zone.unit == "ratio" else 1
     return Text(f"{signed(zone.clearance.value, digits)} {UNITS[zone.unit]}".rstrip())
-
-
-def _target_text(zone: ZoneFit) -> str:
-    return f"{signed(zone.target)} {UNITS[zone.unit]}".rstrip()
 
 
 def _zone_verdict(zones: Sequence[ZoneFit]) -> Text:

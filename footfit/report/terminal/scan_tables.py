@@ -92,6 +92,7 @@ def align_table(alignment: results.Alignment) -> RenderableType:
     """One mesh, aligned."""
     frame, pose, info = alignment.eigenframe, alignment.pose, alignment.info
     centroid = ", ".join(plain(float(value)) for value in frame.centroid_mm)
+    sole = "rests on its sole" if pose.sole else "no sole: referred to its rim"
     rows: list[tuple[str, str | Text]] = [
         ("mesh", f"{info.faces:,} faces, {'closed' if info.watertight else 'open'}"),
         ("units", f"{info.units} ({info.units_source})"),
@@ -100,7 +101,7 @@ def align_table(alignment: results.Alignment) -> RenderableType:
         ("length", length_text(alignment.length)),
         ("eigenvalues", eigenvalue_words(frame)),
         ("centroid", f"{centroid} mm (the file's axes)"),
-        ("pose", f"cost {plain(pose.cost, 2)}, margin {plain(pose.margin, 2)}, {_sole(pose.sole)}"),
+        ("pose", f"cost {plain(pose.cost, 2)}, margin {plain(pose.margin, 2)}, {sole}"),
     ]
     if alignment.reference is not None:
         rows.append(("reference", cell(alignment.reference.last)))
@@ -119,10 +120,6 @@ def eigenvalue_words(frame: results.Eigenframe) -> str:
     """
     values = (plain(float(value)) for value in frame.eigenvalues_mm2)
     return ", ".join(f"e{row} {value}" for row, value in enumerate(values, 1)) + " mm2"
-
-
-def _sole(sole: bool) -> str:
-    return "rests on its sole" if sole else "no sole: referred to its rim"
 
 
 def flare_table(profiled: results.Profiled) -> RenderableType:
