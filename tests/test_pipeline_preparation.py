@@ -14,8 +14,7 @@ from footfit.pipeline.batch.sources import ReadingOptions, Source
 from footfit.pipeline.scan import preparation
 from footfit.pipeline.scan.flare import profiled_scan
 from footfit.pipeline.scan.measure import shape_measures
-from footfit.pipeline.scan.reading import profiled_source
-from footfit.pipeline.scan.split import split_sources
+from footfit.pipeline.scan.reading import profiled_source, split_sources
 from tests.bounds import ROUNDING
 from tests.conftest import SAMPLES, Footfit
 from tests.distortions import mirrored, moved, random_pose, with_holes

@@ -145,7 +145,7 @@ def sources(meshes: Meshes, *, split: bool = False, **reading: Any) -> list[Sour
         single = [source_of(mesh, reading) for mesh in given]
     if not split:
         return single
-    from footfit.pipeline.scan.split import split_sources
+    from footfit.pipeline.scan.reading import split_sources
 
     return split_sources(single, reading_options(reading))
 

@@ -171,6 +171,11 @@ class Alignment(Document):
         """The measured length; None if an end was not scanned."""
         return self.length.value
 
+    def scan_keys(self) -> Json:
+        """What the document of every scan says: its mesh, its kind, its side, its warnings."""
+        about = {"mesh": self.info, "kind": self.pose.kind, "warnings": self.warnings}
+        return about | self.side.to_dict()
+
     schema = "align/2"
 
     def _keys(self) -> Json:

@@ -151,13 +151,10 @@ def foot_part(foot: Profiled) -> Json:
     alignment = foot.aligned.alignment
     return part(
         {
-            "mesh": alignment.info,
-            "kind": alignment.pose.kind,
-            **alignment.side.to_dict(),
+            **alignment.scan_keys(),
             "measures": measures_part(foot.measures),
             "sizes": _sizes_part(foot.length_mm),
             "flare": flare_part(foot.flare),
-            "warnings": alignment.warnings,
         }
     )
 

@@ -57,9 +57,7 @@ class Profiled(Document):
     def _keys(self) -> Json:
         alignment = self.aligned.alignment
         return {
-            "mesh": alignment.info,
-            "kind": alignment.pose.kind,
-            **alignment.side.to_dict(),
+            **alignment.scan_keys(),
             **flare_part(self.flare),
             "length_mm": alignment.length_mm,
             "extent_mm": alignment.extent_mm,
@@ -112,9 +110,7 @@ class MeasuredScan(Document):
     def _keys(self) -> Json:
         alignment = self.alignment
         return {
-            "mesh": alignment.info,
-            **alignment.side.to_dict(),
-            "kind": alignment.pose.kind,
+            **alignment.scan_keys(),
             "measures": measures_part(self.measures),
             "definitions": {row.name: row.definition for row in self.measures},
             "warnings": (*alignment.warnings, *self.unusual),

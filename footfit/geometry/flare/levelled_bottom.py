@@ -71,7 +71,8 @@ def bottom_shape(vertices_mm: Floats, faces: Ints, definition: FlareDefinition) 
     x = section_places(definition)
     across = sections_across(vertices, faces, x)
     windows = [(x >= low) & (x <= high) for low, high in (definition.seat, definition.tread)]
-    stands = _some(across, windows[0] | windows[1])
+    cut = (windows[0] | windows[1])[across.plane]
+    stands = Segments(across.planes, across.plane[cut], across.face[cut], across.points[cut])
     down = area_vectors(vertices, faces[stands.face])
     level = _levelling(down, stands, windows, definition)
     vertices, across = vertices @ level, _rolled(across, level)
@@ -136,14 +137,6 @@ def _stance(
             return None
         medians.append(float(np.median(known)))
     return float(np.mean(medians))
-
-
-def _some(segments: Segments, wanted: Bools) -> Segments:
-    """The segments of the ``wanted`` (planes,) only; the others cut nothing."""
-    kept = wanted[segments.plane]
-    return Segments(
-        segments.planes, segments.plane[kept], segments.face[kept], segments.points[kept]
-    )
 
 
 def _cross_slopes(down: Bools, across: Segments, definition: FlareDefinition) -> Floats:

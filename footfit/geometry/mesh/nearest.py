@@ -215,7 +215,9 @@ def outward_at(nearest: Nearest, vertices: Floats, faces: Ints) -> Floats:
     outward = normals[nearest.face].copy()
     at_vertex = np.flatnonzero(on == 1)
     if len(at_vertex):
-        sums = _vertex_pseudonormals(vertices, faces, normals)
+        felt = corner_angles(vertices, faces)[None] * normals.T[:, :, None]
+        corners = faces.ravel()
+        sums = np.stack([np.bincount(corners, axis.ravel(), len(vertices)) for axis in felt], 1)
         corner = np.argmax(lying[at_vertex], axis=1)
         outward[at_vertex] = sums[faces[nearest.face[at_vertex], corner]]
     at_edge = np.flatnonzero(on == 2)
@@ -223,16 +225,6 @@ def outward_at(nearest: Nearest, vertices: Floats, faces: Ints) -> Floats:
         missing = np.argmin(lying[at_edge], axis=1)
         outward[at_edge] += normals[faces_across(faces, nearest.face[at_edge], missing)]
     return outward
-
-
-def _vertex_pseudonormals(vertices: Floats, faces: Ints, normals: Floats) -> Floats:
-    """The sum of the faces' normals at each vertex (n, 3), weighted by their angle there."""
-    angles = corner_angles(vertices, faces)
-    sums = np.empty_like(vertices)
-    for axis in range(3):
-        felt = (angles * normals[:, [axis]]).ravel()
-        sums[:, axis] = np.bincount(faces.ravel(), weights=felt, minlength=len(vertices))
-    return sums
 
 
 def faces_across(faces: Ints, face: Ints, corner: Ints) -> Ints:

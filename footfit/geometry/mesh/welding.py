@@ -8,7 +8,6 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
 from footfit.geometry.mesh.topology import lowest_connected
 from footfit.geometry.numeric.arrays import Bools, Floats, Ints
@@ -94,7 +93,8 @@ def _runs_of_equals(points: Floats) -> tuple[Ints, Bools]:
     word.sort()
     order = (word & ((np.uint64(1) << index_bits) - np.uint64(1))).astype(np.int64)
     starts = _starts(points[order])
-    if int(np.count_nonzero(starts)) != _distinct(word >> index_bits):
+    hashes = word >> index_bits
+    if np.count_nonzero(starts) != 1 + np.count_nonzero(hashes[1:] != hashes[:-1]):
         order = np.lexsort(points.T).astype(np.int64)
         starts = _starts(points[order])
     return order, starts
@@ -104,10 +104,6 @@ def _starts(ordered: Floats) -> Bools:
     starts = np.ones(len(ordered), dtype=bool)
     starts[1:] = np.any(ordered[1:] != ordered[:-1], axis=1)
     return starts
-
-
-def _distinct(ordered: NDArray[np.uint64]) -> int:
-    return 1 + int(np.count_nonzero(ordered[1:] != ordered[:-1]))
 
 
 def rounding_distance(points: Floats) -> float:

@@ -79,28 +79,24 @@ def profile_of(text: str, path: str | None = None) -> FitProfile:
         raise BadProfile(f"is not valid TOML: {words}", path) from error
     try:
         return _profile(table)
-    except _Wrong as error:
-        raise BadProfile(str(error), path) from error
-
-
-class _Wrong(Exception):
-    """What is wrong with a profile, without the file's name."""
+    except BadProfile as error:
+        raise error.at(path) from error
 
 
 def _profile(table: Mapping[str, Any]) -> FitProfile:
-    """The profile of a TOML table; raises `_Wrong`."""
+    """The profile of a TOML table; raises BadProfile without a path."""
     _check_keys(table, TOP_KEYS, "the profile")
     if table.get("schema") != SCHEMA:
-        raise _Wrong(f"schema must be {SCHEMA!r}; another version may read it")
+        raise BadProfile(f"schema must be {SCHEMA!r}; another version may read it")
     zones = table.get("zones")
     if not isinstance(zones, dict) or not zones:
-        raise _Wrong("has no [zones.NAME] table; copy a shipped profile and change it")
+        raise BadProfile("has no [zones.NAME] table; copy a shipped profile and change it")
     if "length" not in zones:
-        raise _Wrong("has no [zones.length]: the length is always judged")
+        raise BadProfile("has no [zones.length]: the length is always judged")
     rules = {name: _rule(name, asked) for name, asked in zones.items()}
     version = table.get("version", 1)
     if not isinstance(version, int) or isinstance(version, bool):
-        raise _Wrong("version must be a whole number")
+        raise BadProfile("version must be a whole number")
     return _hashed(
         FitProfile(
             name=_words(table.get("name"), "name"),
@@ -117,14 +113,14 @@ def _rule(name: str, asked: object) -> ZoneRule:
     """The rule of one zone's table."""
     where = f"[zones.{name}]"
     if name not in ZONES:
-        raise _Wrong(f"{where} is no zone; the zones are {', '.join(ZONES)}")
+        raise BadProfile(f"{where} is no zone; the zones are {', '.join(ZONES)}")
     if not isinstance(asked, dict):
-        raise _Wrong(f"{where} must be a table")
+        raise BadProfile(f"{where} must be a table")
     keys = {key: f"{key}{UNIT_KEYS[ZONES[name].unit]}" for key in ("target", "cavity", *RANGES)}
     _check_keys(asked, {*keys.values(), "weight", "required"}, where)
     for key in ("target", "good", "acceptable"):
         if keys[key] not in asked:
-            raise _Wrong(f"{where} lacks {keys[key]}")
+            raise BadProfile(f"{where} lacks {keys[key]}")
     target = _number(asked[keys["target"]], f"{where} {keys['target']}")
     ranges = {
         key: _range(asked[keys[key]], f"{where} {keys[key]}")
@@ -134,11 +130,11 @@ def _rule(name: str, asked: object) -> ZoneRule:
     _check_nested(where, target, ranges)
     weight = _number(asked.get("weight", 1.0), f"{where} weight", 0.0, 100.0)
     if not isinstance(required := asked.get("required", False), bool):
-        raise _Wrong(f"{where} required must be true or false")
+        raise BadProfile(f"{where} required must be true or false")
     if name == "length":  # the gate: a profile cannot switch it off
         ranges = {"poor": ranges["acceptable"]} | ranges
         if weight == 0.0:
-            raise _Wrong(f"{where} weight must be over 0: the length is always judged")
+            raise BadProfile(f"{where} weight must be over 0: the length is always judged")
     return ZoneRule(
         zone=name,
         target=target,
@@ -156,7 +152,7 @@ def _check_nested(where: str, target: float, ranges: Mapping[str, tuple[float, f
     inner, name = (target, target), "target"
     for key, (low, high) in ranges.items():
         if not (low <= inner[0] and inner[1] <= high):
-            raise _Wrong(f"{where}: {key} [{low:g}, {high:g}] does not hold its {name}")
+            raise BadProfile(f"{where}: {key} [{low:g}, {high:g}] does not hold its {name}")
         inner, name = (low, high), f"{key} range"
 
 
@@ -169,29 +165,29 @@ def _check_keys(table: Mapping[str, Any], keys: set[str], where: str) -> None:
 
     close = get_close_matches(unknown[0], sorted(keys), n=1)
     hint = f"did you mean {close[0]}" if close else f"it takes {', '.join(sorted(keys))}"
-    raise _Wrong(f"{where} has an unknown key {unknown[0]!r}; {hint}")
+    raise BadProfile(f"{where} has an unknown key {unknown[0]!r}; {hint}")
 
 
 def _number(value: object, where: str, least: float = -math.inf, most: float = math.inf) -> float:
     if isinstance(value, bool) or not isinstance(value, int | float) or not math.isfinite(value):
-        raise _Wrong(f"{where} must be a number")
+        raise BadProfile(f"{where} must be a number")
     if not least <= value <= most:
-        raise _Wrong(f"{where} must be between {least:g} and {most:g}")
+        raise BadProfile(f"{where} must be between {least:g} and {most:g}")
     return float(value)
 
 
 def _range(value: object, where: str) -> tuple[float, float]:
     if not isinstance(value, list) or len(value) != 2:
-        raise _Wrong(f"{where} must be two numbers, such as [-5, 0]")
+        raise BadProfile(f"{where} must be two numbers, such as [-5, 0]")
     low, high = (_number(end, where) for end in value)
     if low >= high:
-        raise _Wrong(f"{where} must rise: [{low:g}, {high:g}] does not")
+        raise BadProfile(f"{where} must rise: [{low:g}, {high:g}] does not")
     return low, high
 
 
 def _words(value: object, where: str) -> str:
     if not isinstance(value, str) or not value.strip() or len(value) > 300:
-        raise _Wrong(f"{where} must be a short text")
+        raise BadProfile(f"{where} must be a short text")
     return value
 
 

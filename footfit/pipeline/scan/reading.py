@@ -1,12 +1,13 @@
-"""From a source to a scan, a prepared scan, an aligned scan, a profiled scan."""
+"""From a source to a scan, a prepared scan, an aligned scan, a profiled scan; or to its parts."""
 
 from __future__ import annotations
 
 import hashlib
+from collections.abc import Sequence
 from dataclasses import replace
 from typing import Literal, cast
 
-from footfit.errors import UnknownUnits
+from footfit.errors import FootfitError, UnknownUnits
 from footfit.meshes.file_bytes import file_bytes
 from footfit.meshes.read import file_mesh
 from footfit.meshes.read_limits import LIMITS
@@ -15,7 +16,9 @@ from footfit.pipeline.batch.sources import ReadingOptions, Source
 from footfit.pipeline.scan.align import aligned_scan
 from footfit.pipeline.scan.cleaning import scan_of
 from footfit.pipeline.scan.flare import profiled_scan
+from footfit.pipeline.scan.one_shape import scans_in
 from footfit.pipeline.scan.preparation import prepared_scan
+from footfit.pipeline.scan.settled_unit import length_windows
 from footfit.results import (
     AlignedScan,
     Method,
@@ -87,3 +90,21 @@ def aligned_source(
 def profiled_source(source: Source, reading: ReadingOptions) -> Profiled:
     """Read, align, measure and profile one mesh."""
     return profiled_scan(aligned_source(source, reading))
+
+
+def split_sources(sources: Sequence[Source], reading: ReadingOptions) -> list[Source]:
+    """Each foot of each source, named ``both.stl#1``, ``both.stl#2``, largest first.
+
+    A source with one foot stays as it is, and so does one that cannot be read: its own line says
+    why.
+    """
+    return [part for source in sources for part in _parts(source, reading)]
+
+
+def _parts(source: Source, reading: ReadingOptions) -> list[Source]:
+    try:
+        scan = read(source, reading)
+        scans = scans_in(scan, length_windows(scan.info, reading.known_length_mm))
+    except FootfitError:
+        return [source]
+    return [Source(each.info.path, scan=each) for each in scans] or [source]

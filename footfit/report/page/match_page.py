@@ -74,7 +74,7 @@ def match_page(
 
 def labels(candidate: Candidate) -> str:
     """What the maker says of a last, in one line; and that it is mirrored."""
-    size = size_text(candidate.size, candidate.size_system, candidate.width_label)
+    size = size_text(candidate)
     side = f"{candidate.side} last, mirrored" if candidate.mirrored else ""
     return ", ".join(part for part in (candidate.style, size, side) if part)
 

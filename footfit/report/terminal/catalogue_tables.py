@@ -40,7 +40,7 @@ def list_lasts_table(library: results.Library) -> RenderableType:
         star = " *" if labels.name == reference else ""
         off = off_label(record)
         notes += [Text(f"! {visible(labels.name)}: {label_words(off)}", "yellow")] if off else []
-        size = size_text(labels.size, labels.size_system, labels.width_label)
+        size = size_text(labels)
         table.add_row(
             cell(labels.name, "bold").append(star),
             cell(labels.style),
@@ -66,7 +66,7 @@ def off_label(record: results.LastRecord) -> LabelCheck | None:
 def _size_row(record: results.LastRecord) -> Text:
     """The size on the label, and what is wrong with it."""
     labels, off = record.labels, off_label(record)
-    size = cell(size_text(labels.size, labels.size_system, labels.width_label))
+    size = cell(size_text(labels))
     return size.append(f" ! {label_words(off)}", "yellow") if off else size
 
 

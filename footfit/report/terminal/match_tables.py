@@ -7,7 +7,6 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from rich.cells import cell_len
 from rich.console import Group, RenderableType
 from rich.padding import Padding
 from rich.table import Table
@@ -38,9 +37,10 @@ LIKENESS = {
 }
 VERDICT_STYLES = {"good": "green", "acceptable": "yellow", "poor": "red", "reject": "bold red"}
 UNITS = {"mm": "mm", "deg": "deg", "percent": "%", "ratio": ""}
-LARGEST_NAME, LARGEST_LABEL = 20, 16
-NUMBERS = (("toe room\nmm", 8), ("flare\ndeg", 6), ("dist.\n", 5))
-COLUMN_GAP = 2
+COLUMNS = {"": 2, "last": 20, "style, size": 16, "verdict": 10}
+COLUMNS |= {"toe room\nmm": 8, "flare\ndeg": 6, "dist.\n": 5}
+"""The columns of the lasts, with their largest widths; the last three hold numbers."""
+VERDICT, NUMBERS, COLUMN_GAP = 3, 3, 2
 
 
 def match_table(match: Match) -> RenderableType:
@@ -86,31 +86,24 @@ def _size_line(length_mm: float, asked: str | None) -> RenderableType:
 def _candidates(candidates: Sequence[Candidate]) -> list[RenderableType]:
     """The lasts, each a row of numbers and a sentence."""
     judged = any(candidate.verdict for candidate in candidates)
-    names = ["last", *(visible(candidate.last) for candidate in candidates)]
-    labels = ["style, size", *(_labels(candidate) for candidate in candidates)]
-    widths = [
-        2,
-        _width(names, LARGEST_NAME),
-        _width(labels, LARGEST_LABEL),
-        *([10] if judged else []),
-        *(width for _, width in NUMBERS),
-    ]
-    heads = ["", "last", "style, size", *(["verdict"] if judged else []), *(n for n, _ in NUMBERS)]
-    rows: list[RenderableType] = [_row(widths, [Text(head, "bold") for head in heads])]
-    rows.append(Text("─" * (sum(widths) + COLUMN_GAP * (len(widths) - 1)), "dim"))
-    for candidate in candidates:
-        rows += [_row(widths, _cells(candidate, judged=judged)), _sentence(candidate)]
-    return rows
-
-
-def _width(texts: Sequence[str], largest: int) -> int:
-    return min(largest, max(cell_len(text) for text in texts))
+    shown = [place for place in range(len(COLUMNS)) if place != VERDICT or judged]
+    table = [[Text(head, "bold") for head in COLUMNS], *(_cells(last) for last in candidates)]
+    widths = list(COLUMNS.values())
+    for place in (1, 2):  # names and labels are short, most often
+        widths[place] = min(widths[place], max(row[place].cell_len for row in table))
+    widths = [widths[place] for place in shown]
+    head, *rows = (_row(widths, [row[place] for place in shown]) for row in table)
+    line = Text("─" * (sum(widths) + COLUMN_GAP * (len(widths) - 1)), "dim")
+    parts: list[RenderableType] = [head, line]
+    for candidate, row in zip(candidates, rows, strict=True):
+        parts += [row, _sentence(candidate)]
+    return parts
 
 
 def _row(widths: Sequence[int], cells: Sequence[Text]) -> Table:
     """One row of a table whose columns have these widths; the last three hold numbers."""
     grid = Table.grid(padding=(0, COLUMN_GAP, 0, 0))
-    first_number = len(widths) - len(NUMBERS)
+    first_number = len(widths) - NUMBERS
     for place, width in enumerate(widths):
         right = place >= first_number or place == 0
         grid.add_column(width=width, justify="right" if right else "left", overflow="fold")
@@ -119,18 +112,18 @@ def _row(widths: Sequence[int], cells: Sequence[Text]) -> Table:
 
 
 def _labels(candidate: Candidate) -> str:
-    size = size_text(candidate.size, candidate.size_system, candidate.width_label)
+    size = size_text(candidate)
     return ", ".join(visible(part) for part in (candidate.style, size) if part)
 
 
-def _cells(candidate: Candidate, *, judged: bool) -> list[Text]:
+def _cells(candidate: Candidate) -> list[Text]:
     clearance = dict(candidate.clearance_mm).get("length", NOT_YET).value
     verdict = cell(candidate.verdict, VERDICT_STYLES.get(candidate.verdict or "", ""))
     return [
         Text(str(candidate.rank)),
         cell(candidate.last, "bold"),
         cell(_labels(candidate)),
-        *([verdict] if judged else []),
+        verdict,
         Text("-" if clearance is None else signed(clearance)),
         Text(signed(candidate.flare.delta_deg)),
         Text(plain(candidate.distance, 2)),

@@ -10,7 +10,7 @@ if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from footfit.geometry.flare.definition import FlareProfile
-    from footfit.results import Alignment, Match, Measured, Profiled
+    from footfit.results import Alignment, Candidate, LastLabels, Match, Measured, Profiled
 
 SHOWN_SYSTEMS = ("eu", "uk", "us-men", "us-women", "mondopoint")
 """The size systems that a foot's size is shown in, in this order."""
@@ -141,15 +141,16 @@ def shape_words(alignment: Alignment) -> str:
     return f"{file_name(alignment.info.path)}   {side} {alignment.pose.kind}"
 
 
-def size_text(size: str | None, system: str | None, width: str | None = None) -> str:
+def size_text(labels: LastLabels | Candidate) -> str:
     """A size label with its system and width, as given; empty where there is none.
 
     Examples
     --------
-    >>> size_text("42", "eu", "G"), size_text(None, None)
+    >>> from footfit.results import LastLabels
+    >>> size_text(LastLabels("derby", None, "42", "eu", "G")), size_text(LastLabels("derby"))
     ('EU 42 G', '')
     """
-    parts = (system.upper() if system else None, size, width)
+    parts = ((labels.size_system or "").upper(), labels.size, labels.width_label)
     return visible(" ".join(part for part in parts if part))
 
 
