@@ -6,6 +6,7 @@ import math
 from dataclasses import dataclass, replace
 from pathlib import Path
 
+from footfit import results
 from footfit.catalogue.store import open_catalogue
 from footfit.errors import CatalogueDamaged, NoSole, UnknownLast
 from footfit.geometry.fit.clearance import ZoneClearance, foot_clearance, zone_clearances
@@ -19,19 +20,6 @@ from footfit.pipeline.batch.sources import ReadingOptions, Source
 from footfit.pipeline.scan.measure import last_record
 from footfit.pipeline.scan.preparation import stored_shape
 from footfit.pipeline.scan.reading import profiled_source
-from footfit.results import (
-    Candidate,
-    Comparison,
-    LastLabels,
-    LastRecord,
-    Match,
-    Measured,
-    Notice,
-    Profiled,
-    SectionComparison,
-    SizeDifference,
-    SurfaceClearance,
-)
 
 SD_FROM = {
     "width": "heel_width",
@@ -49,7 +37,7 @@ FAR_MM = 40.0
 class LastShape:
     """A last to compare with: its record, and its right shape, canonical mm, holes closed."""
 
-    record: LastRecord
+    record: results.LastRecord
     shape: Shape
 
 
@@ -76,7 +64,7 @@ def scanned_last(source: Source, reading: ReadingOptions) -> LastShape:
         As in reading, aligning and profiling any last.
     """
     shape = profiled_source(source, reading)
-    record = last_record(shape, LastLabels(Path(source.path or "last").stem))
+    record = last_record(shape, results.LastLabels(Path(source.path or "last").stem))
     prepared = shape.aligned.prepared
     return LastShape(record, Shape(prepared.vertices_mm, prepared.faces, "last"))
 
@@ -93,7 +81,7 @@ class PlacedFoot:
     zones: tuple[ZoneClearance, ...]
 
 
-def placed_foot(foot: Profiled, last: LastShape) -> PlacedFoot:
+def placed_foot(foot: results.Profiled, last: LastShape) -> PlacedFoot:
     """A foot, placed in a last.
 
     Raises
@@ -108,7 +96,7 @@ def placed_foot(foot: Profiled, last: LastShape) -> PlacedFoot:
     return PlacedFoot(inside, place, clearance_mm, zone_clearances(inside, clearance_mm))
 
 
-def compared(foot: Profiled, last: LastShape) -> Comparison:
+def compared(foot: results.Profiled, last: LastShape) -> results.Comparison:
     """Place a foot in a last and measure the clearance around it, by surface and by section.
 
     Raises
@@ -117,7 +105,7 @@ def compared(foot: Profiled, last: LastShape) -> Comparison:
         One of the two has no bottom to rest on.
     """
     inside = placed_foot(foot, last)
-    return Comparison(
+    return results.Comparison(
         foot=foot,
         last=last.record,
         mirrored=last.record.side.side != foot.aligned.alignment.side.side,
@@ -133,7 +121,7 @@ def compared(foot: Profiled, last: LastShape) -> Comparison:
     )
 
 
-def best_comparison(path: Path, match: Match, foot: int = 0) -> Comparison | None:
+def best_comparison(path: Path, match: results.Match, foot: int = 0) -> results.Comparison | None:
     """One foot of a match in its best last, or in the nearest if none fits.
 
     None if the catalogue has no sound copy of that last, or the two share no bottom to rest on.
@@ -147,24 +135,24 @@ def best_comparison(path: Path, match: Match, foot: int = 0) -> Comparison | Non
         return None
 
 
-def _warnings(foot: Profiled, last: LastRecord) -> tuple[Notice, ...]:
+def _warnings(foot: results.Profiled, last: results.LastRecord) -> tuple[results.Notice, ...]:
     notices = list(foot.aligned.alignment.warnings)
     if not foot.aligned.alignment.pose.sole:
         words = "the foot's scan has no sole: do not trust the clearance under it, nor its height"
-        notices.append(Notice("no_sole", words))
+        notices.append(results.Notice("no_sole", words))
     longer = last.extent_mm - foot.aligned.alignment.extent_mm
     if foot.length_mm is not None and last.length_mm is not None:
         longer = last.length_mm - foot.length_mm
     if abs(longer) > FAR_MM:
         words = f"the last is {abs(longer):.0f} mm {'longer' if longer > 0 else 'shorter'}"
-        notices.append(Notice("far_size", f"{words} than the foot: it fits in no zone"))
+        notices.append(results.Notice("far_size", f"{words} than the foot: it fits in no zone"))
     return tuple(notices)
 
 
 # ---------------------------------------------------------------- the lasts of an answer
 
 
-def with_surface_clearance(match: Match, path: Path) -> Match:
+def with_surface_clearance(match: results.Match, path: Path) -> results.Match:
     """The same answer with the clearance in each last that it shows.
 
     It needs the lasts' meshes, which ranking does not read. So it is taken only if it is asked
@@ -177,7 +165,9 @@ def with_surface_clearance(match: Match, path: Path) -> Match:
     )
 
 
-def _with_clearance(candidate: Candidate, feet: tuple[Profiled, ...], path: Path) -> Candidate:
+def _with_clearance(
+    candidate: results.Candidate, feet: tuple[results.Profiled, ...], path: Path
+) -> results.Candidate:
     try:
         last = stored_last(path, candidate.last)
     except (CatalogueDamaged, UnknownLast) as error:
@@ -187,25 +177,25 @@ def _with_clearance(candidate: Candidate, feet: tuple[Profiled, ...], path: Path
     return replace(candidate, surfaces=surfaces)
 
 
-def surface_clearance(foot: Profiled, last: LastShape) -> SurfaceClearance:
+def surface_clearance(foot: results.Profiled, last: LastShape) -> results.SurfaceClearance:
     """The clearance by zone of one foot in one last, as ``compare`` says it."""
     try:
         inside = placed_foot(foot, last)
     except NoSole as error:
         return _unknown(foot, str(error))
     side = foot.aligned.alignment.side.side
-    return SurfaceClearance(side, inside.placement.swing_mm, inside.zones)
+    return results.SurfaceClearance(side, inside.placement.swing_mm, inside.zones)
 
 
-def _unknown(foot: Profiled, reason: str) -> SurfaceClearance:
-    return SurfaceClearance(foot.aligned.alignment.side.side, None, (), reason)
+def _unknown(foot: results.Profiled, reason: str) -> results.SurfaceClearance:
+    return results.SurfaceClearance(foot.aligned.alignment.side.side, None, (), reason)
 
 
 # ---------------------------------------------------------------- sections
 
 
-def _section(pair: SectionPair) -> SectionComparison:
-    return SectionComparison(
+def _section(pair: SectionPair) -> results.SectionComparison:
+    return results.SectionComparison(
         station=pair.station.name,
         x_mm=pair.x_mm,
         foot_outline=pair.foot.loops,
@@ -214,20 +204,20 @@ def _section(pair: SectionPair) -> SectionComparison:
     )
 
 
-def _size(name: str, foot: MeasureValue, last: MeasureValue) -> SizeDifference:
+def _size(name: str, foot: MeasureValue, last: MeasureValue) -> results.SizeDifference:
     """One size of a section; + is space, so a lateral edge's difference is towards -Y."""
     sd = repeatability_mm(name)
     here, there = (_measured(value, sd) for value in (foot, last))
     if here.value is None or there.value is None:
         reason = here.reason if here.value is None else there.reason
-        return SizeDifference(name, here, there, Measured(None, reason=reason))
+        return results.SizeDifference(name, here, there, results.Measured(None, reason=reason))
     more = there.value - here.value
     outward = -more if name == "lateral" else more
-    return SizeDifference(name, here, there, Measured(outward, math.hypot(sd, sd)))
+    return results.SizeDifference(name, here, there, results.Measured(outward, math.hypot(sd, sd)))
 
 
-def _measured(value: MeasureValue, sd: float) -> Measured:
-    return Measured(value.value, None if value.value is None else sd, value.reason)
+def _measured(value: MeasureValue, sd: float) -> results.Measured:
+    return results.Measured(value.value, None if value.value is None else sd, value.reason)
 
 
 def repeatability_mm(size: str) -> float:

@@ -9,37 +9,16 @@ from pathlib import Path
 
 import numpy as np
 
+from footfit import results
 from footfit.errors import BadOption, HalfScan, NoCandidate
 from footfit.geometry.numeric.arrays import Bools
 from footfit.pipeline.batch.runs import Outcome, outcomes
 from footfit.pipeline.batch.sources import ReadingOptions, Source
-from footfit.pipeline.fit import reasons
+from footfit.pipeline.fit import ranking, reasons
 from footfit.pipeline.fit.fit_profile import fit_profile
-from footfit.pipeline.fit.ranking import (
-    JudgedLasts,
-    Ranking,
-    foot_fits,
-    judged_lasts,
-    nearest,
-    ranking,
-    refusals,
-    with_toe_room,
-)
 from footfit.pipeline.fit.scoring import UNKNOWN_SCORE, VERDICTS
 from footfit.pipeline.scan.measure import unusual_measures
 from footfit.pipeline.scan.reading import profiled_source
-from footfit.results import (
-    Candidate,
-    FitProfile,
-    FootFit,
-    Library,
-    Match,
-    Notice,
-    Profiled,
-    SearchBy,
-    Verdict,
-    ZoneFit,
-)
 
 NEAREST_NAMED = 3
 """How many lasts are shown if none fits."""
@@ -53,14 +32,16 @@ class Question:
     walking. ``surfaces_in`` is the catalogue whose meshes the feet are placed in, if that is asked.
     """
 
-    by: SearchBy = "fit"
+    by: results.SearchBy = "fit"
     top: int = 5
-    profile: FitProfile | None = None
+    profile: results.FitProfile | None = None
     size_system: str | None = None
     surfaces_in: Path | None = None
 
 
-def matched(feet: Sequence[Profiled], library: Library, question: Question = Question()) -> Match:
+def matched(
+    feet: Sequence[results.Profiled], library: results.Library, question: Question = Question()
+) -> results.Match:
     """Rank the library for one customer: one foot, or two whose larger governs the length.
 
     Raises
@@ -76,13 +57,13 @@ def matched(feet: Sequence[Profiled], library: Library, question: Question = Que
     if question.by == "fit":
         _refuse_unknown_length(feet)
     profile = question.profile or fit_profile()
-    judged = judged_lasts(feet, library.lasts, profile, question.by)
-    ranked = ranking(judged, profile.tie_sds)
+    judged = ranking.judged_lasts(feet, library.lasts, profile, question.by)
+    ranked = ranking.ranking(judged, profile.tie_sds)
     shown = range(len(ranked.rows))[: question.top or None]
-    near = [] if ranked.rows else nearest(judged, NEAREST_NAMED)
+    near = [] if ranked.rows else ranking.nearest(judged, NEAREST_NAMED)
     missed = tuple(_missed(judged, rank, row) for rank, row in enumerate(near, start=1))
-    rejected = refusals(judged) if question.by == "fit" else {}
-    return Match(
+    rejected = ranking.refusals(judged) if question.by == "fit" else {}
+    return results.Match(
         feet=tuple(feet),
         by=question.by,
         profile=profile.name,
@@ -101,12 +82,12 @@ def matched(feet: Sequence[Profiled], library: Library, question: Question = Que
 def customers(
     sources: Sequence[Source],
     reading: ReadingOptions,
-    library: Library,
+    library: results.Library,
     question: Question,
     *,
     pair: bool = False,
     jobs: int = 1,
-) -> Iterator[Outcome[Source, Match]]:
+) -> Iterator[Outcome[Source, results.Match]]:
     """Each customer's answer, in order: one per scan, or one for a ``pair`` of scans.
 
     Raises
@@ -122,8 +103,8 @@ def customers(
 
 
 def _answered(
-    feet: Sequence[Outcome[Source, Profiled]], library: Library, question: Question
-) -> Outcome[Source, Match]:
+    feet: Sequence[Outcome[Source, results.Profiled]], library: results.Library, question: Question
+) -> Outcome[Source, results.Match]:
     """One customer's outcome; the first foot that failed is the customer's failure."""
     source = feet[0].item
     errors = [foot.error for foot in feet if foot.error is not None]
@@ -141,7 +122,7 @@ def _answered(
     return Outcome(source, answer, None)
 
 
-def _refuse_unknown_length(feet: Sequence[Profiled]) -> None:
+def _refuse_unknown_length(feet: Sequence[results.Profiled]) -> None:
     """Raise HalfScan for a foot without a known length: the length is the gate, and lasts that are
     too small would pass.
     """
@@ -152,7 +133,7 @@ def _refuse_unknown_length(feet: Sequence[Profiled]) -> None:
             raise HalfScan(words, alignment.info.path)
 
 
-def _best_verdict(judged: JudgedLasts, ranked: Ranking) -> Verdict | None:
+def _best_verdict(judged: ranking.JudgedLasts, ranked: ranking.Ranking) -> results.Verdict | None:
     """The best verdict of the ranked lasts, which need not be the first's: length comes first.
 
     A last without a verdict in a required zone is left out: what is not known is not a pass.
@@ -167,7 +148,7 @@ def _best_verdict(judged: JudgedLasts, ranked: Ranking) -> Verdict | None:
     return VERDICTS[min(levels)] if levels else None
 
 
-def meets(match: Match, least: Verdict) -> bool:
+def meets(match: results.Match, least: results.Verdict) -> bool:
     """Is there a last at least as good as ``least``?"""
     best = match.best_verdict
     return best is not None and VERDICTS.index(best) <= VERDICTS.index(least)
@@ -176,32 +157,32 @@ def meets(match: Match, least: Verdict) -> bool:
 # ---------------------------------------------------------------- candidates
 
 
-def _ranked(judged: JudgedLasts, ranked: Ranking, place: int) -> Candidate:
+def _ranked(judged: ranking.JudgedLasts, ranked: ranking.Ranking, place: int) -> results.Candidate:
     """The last at a place of the ranking."""
     row = ranked.rows[place]
-    fits = foot_fits(judged, row)
+    fits = ranking.foot_fits(judged, row)
     tied = tuple(judged.lasts[i].labels.name for i in ranked.tied(place))
     return _candidate(judged, row, place + 1, fits, _why(judged, ranked, place, _flat(fits)), tied)
 
 
-def _missed(judged: JudgedLasts, rank: int, row: int) -> Candidate:
+def _missed(judged: ranking.JudgedLasts, rank: int, row: int) -> results.Candidate:
     """One of the lasts that come nearest if none fits."""
-    fits = foot_fits(judged, row)
+    fits = ranking.foot_fits(judged, row)
     rules = [column.rule for column in judged.columns]
     return _candidate(judged, row, rank, fits, reasons.missed_sentence(_flat(fits), rules))
 
 
 def _candidate(
-    judged: JudgedLasts,
+    judged: ranking.JudgedLasts,
     row: int,
     rank: int,
-    fits: tuple[FootFit, ...],
+    fits: tuple[results.FootFit, ...],
     why: str,
     tied: tuple[str, ...] = (),
-) -> Candidate:
+) -> results.Candidate:
     last, by_shape = judged.lasts[row], judged.by == "shape"
     labels, governed = last.labels, fits[judged.longer]
-    return Candidate(
+    return results.Candidate(
         rank=rank,
         last=labels.name,
         style=labels.style,
@@ -223,12 +204,17 @@ def _candidate(
     )
 
 
-def _flat(fits: Sequence[FootFit]) -> list[ZoneFit]:
+def _flat(fits: Sequence[results.FootFit]) -> list[results.ZoneFit]:
     """The zones of all feet, in the columns' order."""
     return [zone for fit in fits for zone in fit.zones]
 
 
-def _why(judged: JudgedLasts, ranked: Ranking, place: int, zones: Sequence[ZoneFit]) -> str:
+def _why(
+    judged: ranking.JudgedLasts,
+    ranked: ranking.Ranking,
+    place: int,
+    zones: Sequence[results.ZoneFit],
+) -> str:
     """Why a last stands at its place."""
     row, first = ranked.rows[place], ranked.rows[0]
     delta_deg = judged.flare[row].delta_deg
@@ -248,7 +234,7 @@ def _why(judged: JudgedLasts, ranked: Ranking, place: int, zones: Sequence[ZoneF
     return reasons.behind_sentence(zones, _costs(judged, row, first), name) + unknown
 
 
-def _costs(judged: JudgedLasts, row: int, first: int) -> list[float]:
+def _costs(judged: ranking.JudgedLasts, row: int, first: int) -> list[float]:
     """How much more each column adds to a last's distance than to the first's; 0 if it does not
     count. If the last's verdict is worse, the zones of a worse verdict come before all others.
     """
@@ -264,8 +250,8 @@ def _costs(judged: JudgedLasts, row: int, first: int) -> list[float]:
 
 
 def _notices(
-    judged: JudgedLasts, missed: Sequence[Candidate], size_system: str | None
-) -> tuple[Notice, ...]:
+    judged: ranking.JudgedLasts, missed: Sequence[results.Candidate], size_system: str | None
+) -> tuple[results.Notice, ...]:
     """What the reader must know beside the table."""
     feet = judged.feet
     kinds = [foot.aligned.alignment.pose.kind for foot in feet]
@@ -277,20 +263,22 @@ def _notices(
     ]
     if judged.by == "flare":
         words = "a search by flare knows no size: look at the length too"
-        notices.append(Notice("scale_free", words))
+        notices.append(results.Notice("scale_free", words))
     if judged.by != "shape" and "last" in kinds:
         words = "its shape is like a last's; use --by shape for a last"
-        notices.append(Notice("looks_like_a_last", words))
+        notices.append(results.Notice("looks_like_a_last", words))
     if len(feet) == 2 and len(sides) == 1:
-        notices.append(Notice("same_side", f"both feet of the pair are {sides.pop()} feet"))
+        notices.append(results.Notice("same_side", f"both feet of the pair are {sides.pop()} feet"))
     differ = reasons.pair_notice(feet, size_system)
     if differ is not None:
         notices.append(differ)
     if missed:
         names = ", ".join(candidate.last for candidate in missed)
-        notices.append(Notice("nothing_fits", f"no last fits: the nearest are {names}"))
-    elif judged.by == "fit" and not with_toe_room(judged):
-        notices.append(Notice("nothing_fits", "no last fits: the length of no last is known"))
+        notices.append(results.Notice("nothing_fits", f"no last fits: the nearest are {names}"))
+    elif judged.by == "fit" and not ranking.with_toe_room(judged):
+        notices.append(
+            results.Notice("nothing_fits", "no last fits: the length of no last is known")
+        )
     known: Bools = np.any(judged.known, axis=0)
     unknown = [
         c.rule.zone
@@ -299,5 +287,5 @@ def _notices(
     ]
     if unknown and judged.by == "fit":
         zones = reasons.zone_list(tuple(dict.fromkeys(unknown)))
-        notices.append(Notice("not_judged", f"not judged, for lack of a measure: {zones}"))
+        notices.append(results.Notice("not_judged", f"not judged, for lack of a measure: {zones}"))
     return tuple(notices)

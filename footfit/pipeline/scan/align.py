@@ -3,12 +3,7 @@
 from __future__ import annotations
 
 from footfit.errors import NoReference
-from footfit.geometry.mesh.moments import (
-    moments_along,
-    principal_axes,
-    surface_centroid,
-    surface_second_moment,
-)
+from footfit.geometry.mesh import moments
 from footfit.geometry.numeric.arrays import Floats
 from footfit.geometry.pose import paper_frame
 from footfit.results import AlignedScan, Alignment, Eigenframe, Method, PreparedScan, Reference
@@ -64,13 +59,13 @@ def _eigenframes(prepared: PreparedScan, method: Method) -> tuple[Eigenframe, Ei
         return printed, printed
     if method == "paper-literal":
         return _paired(P_c, paper_frame.largest_positive(R), C_M), printed
-    moment = surface_second_moment(vertices_mm, faces)
-    rows = paper_frame.settled_axes(principal_axes(moment)[1], rotation)
-    return _paired(surface_centroid(vertices_mm, faces), rows, moment), printed
+    moment = moments.surface_second_moment(vertices_mm, faces)
+    rows = paper_frame.settled_axes(moments.principal_axes(moment)[1], rotation)
+    return _paired(moments.surface_centroid(vertices_mm, faces), rows, moment), printed
 
 
 def _paired(centroid_mm: Floats, rows: Floats, moment_mm2: Floats) -> Eigenframe:
-    return Eigenframe(centroid_mm, rows, moments_along(moment_mm2, rows))
+    return Eigenframe(centroid_mm, rows, moments.moments_along(moment_mm2, rows))
 
 
 def _transform(

@@ -21,13 +21,8 @@ from footfit.geometry.pose.missing_parts import doubtful_end, missing_part
 from footfit.geometry.pose.side import confidence, side_score
 from footfit.meshes.copies.compact_copy import expanded_mesh
 from footfit.meshes.resolution import check_resolution, resolution_notices
+from footfit.pipeline.scan import settled_unit
 from footfit.pipeline.scan.one_shape import PosedShape, shape_in
-from footfit.pipeline.scan.settled_unit import (
-    info_with_unit,
-    length_notices,
-    length_windows,
-    read_notices,
-)
 from footfit.results import (
     Confidence,
     Measured,
@@ -89,12 +84,12 @@ def prepared_scan(
         If its file keeps coordinates in steps that are too coarse.
     """
     check_resolution(scan.info.resolution_mm)
-    shape = shape_in(scan, length_windows(scan.info, known_length_mm))
+    shape = shape_in(scan, settled_unit.length_windows(scan.info, known_length_mm))
     closed = closed_mesh(shape.vertices, shape.faces, shape.pose.length)
     frame = _Frame.of(shape, closed)
     rims = [frame.points[rim] for rim in closed.rims]
     _refuse_half(frame, rims)
-    info = info_with_unit(scan.info, frame.extent, frame.length, known_length_mm)
+    info = settled_unit.info_with_unit(scan.info, frame.extent, frame.length, known_length_mm)
     info = replace(info, vertices=len(shape.vertices), faces=len(shape.faces))
     factor = info.unit_scale / scan.info.unit_scale
     verdict = _verdict(frame, side)
@@ -104,14 +99,14 @@ def prepared_scan(
     if open_end:  # what was not scanned is not known
         length = Measured(None, reason=open_end[0].message)
     notices = (
-        *read_notices(scan, info, length.value),
+        *settled_unit.read_notices(scan, info, length.value),
         *resolution_notices(info.resolution_mm),
         *shape.notices,
         *_hole_notices(closed, factor),
         *open_end,
         *_frame_notices(frame, factor),
         *_side_notices(verdict),
-        *length_notices(info, factor * frame.length),
+        *settled_unit.length_notices(info, factor * frame.length),
     )
     return PreparedScan(
         info=info,

@@ -7,6 +7,7 @@ from collections.abc import Sequence
 from dataclasses import replace
 from typing import Literal, cast
 
+from footfit import results
 from footfit.errors import FootfitError, UnknownUnits
 from footfit.meshes.file_bytes import file_bytes
 from footfit.meshes.read import file_mesh
@@ -19,14 +20,6 @@ from footfit.pipeline.scan.flare import profiled_scan
 from footfit.pipeline.scan.one_shape import scans_in
 from footfit.pipeline.scan.preparation import prepared_scan
 from footfit.pipeline.scan.settled_unit import length_windows
-from footfit.results import (
-    AlignedScan,
-    Method,
-    PreparedScan,
-    Profiled,
-    Reference,
-    Scan,
-)
 
 AS_FOUND = ReadingOptions()
 ANY_LENGTH_MM = 250.0
@@ -45,7 +38,7 @@ def content_hash(source: Source) -> str:
     return hashlib.sha256(source_bytes(source)).hexdigest()
 
 
-def read(source: Source, reading: ReadingOptions = AS_FOUND) -> Scan:
+def read(source: Source, reading: ReadingOptions = AS_FOUND) -> results.Scan:
     """Read one mesh, whichever way it came: in mm, welded, cleaned, its faces outward.
 
     Raises
@@ -62,7 +55,7 @@ def read(source: Source, reading: ReadingOptions = AS_FOUND) -> Scan:
     return scan_of(file, source.path, reading.units, reading.known_length_mm)
 
 
-def prepared_source(source: Source, reading: ReadingOptions) -> PreparedScan:
+def prepared_source(source: Source, reading: ReadingOptions) -> results.PreparedScan:
     """Read and prepare one mesh.
 
     If no unit makes it as long as a foot, its shape is looked at first. Half a foot, a cube or two
@@ -80,14 +73,14 @@ def prepared_source(source: Source, reading: ReadingOptions) -> PreparedScan:
 def aligned_source(
     source: Source,
     reading: ReadingOptions,
-    method: Method = "footfit",
-    reference: Reference | None = None,
-) -> AlignedScan:
+    method: results.Method = "footfit",
+    reference: results.Reference | None = None,
+) -> results.AlignedScan:
     """Read, prepare and align one mesh."""
     return aligned_scan(prepared_source(source, reading), method, reference)
 
 
-def profiled_source(source: Source, reading: ReadingOptions) -> Profiled:
+def profiled_source(source: Source, reading: ReadingOptions) -> results.Profiled:
     """Read, align, measure and profile one mesh."""
     return profiled_scan(aligned_source(source, reading))
 

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from footfit.geometry.numeric.arrays import Floats, Ints
+from footfit.report.pictures import shading
 from footfit.report.pictures.drawn_outlines import SHADOW, ring, side_outline, sole_outline
 from footfit.report.pictures.figures import (
     INK,
@@ -17,14 +18,6 @@ from footfit.report.pictures.figures import (
     write_title,
 )
 from footfit.report.pictures.heat import BREAKS_MM, COLOURS, NOT_COMPARED, SHADE, heat_colours
-from footfit.report.pictures.shading import (
-    VIEWS,
-    Frame,
-    frame_around,
-    light_direction,
-    rows_for,
-    seen_surface,
-)
 from footfit.report.pictures.sides import Mesh, is_left, own_side
 from footfit.report.wording.comparison_words import comparison_names
 
@@ -51,7 +44,7 @@ def heat_figure(comparison: Comparison, *, titled: bool = True) -> Figure:
         grid = figure.add_gridspec(2, 3, width_ratios=(1.0, 1.0, 0.16))
         for index, (title, view) in enumerate(_views(comparison).items()):
             axes = figure.add_subplot(grid[index // 2, index % 2])
-            _draw_panel(axes, meshes, VIEWS[view], comparison.clearance_mm)
+            _draw_panel(axes, meshes, shading.VIEWS[view], comparison.clearance_mm)
             axes.set_title(title)
         _draw_legend(figure.add_subplot(grid[:, 2]))
         if titled:
@@ -88,14 +81,14 @@ def _draw_panel(axes: Axes, meshes: tuple[Mesh, Mesh], view: Floats, clearance_m
     (vertices, faces), last = meshes
     outline = _outline(last, view)
     low = vertices[vertices[:, 2] <= last[0][:, 2].max()]  # the leg needs no space in the picture
-    frame = frame_around(np.concatenate([outline, (low @ view.T)[:, :2]]))
+    frame = shading.frame_around(np.concatenate([outline, (low @ view.T)[:, :2]]))
     show_image(axes, heat_image(vertices @ view.T, faces, clearance_mm, frame, COLUMNS), frame)
     axes.plot(*ring(outline).T, color=INK, linewidth=1.0, linestyle=(0, (5, 2)))
     draw_scale_bar(axes, place=(0.02, 0.0))
 
 
 def heat_image(
-    projected: Floats, faces: Ints, clearance_mm: Floats, frame: Frame, columns: int
+    projected: Floats, faces: Ints, clearance_mm: Floats, frame: shading.Frame, columns: int
 ) -> Floats:
     """An RGBA picture (rows, columns, 4), first row on top; each pixel has one of the colours.
 
@@ -108,10 +101,10 @@ def heat_image(
     frame : Frame
     columns : int
     """
-    shape = (rows_for(frame, columns), columns)
-    seen = seen_surface(projected, faces, frame, shape, culled=True)
+    shape = (shading.rows_for(frame, columns), columns)
+    seen = shading.seen_surface(projected, faces, frame, shape, culled=True)
     clearance = np.einsum("pj,pj->p", seen.weights, clearance_mm[seen.corners])
-    light = 1.0 - SHADE * (1.0 - np.clip(seen.normals @ light_direction(), 0.0, 1.0))
+    light = 1.0 - SHADE * (1.0 - np.clip(seen.normals @ shading.light_direction(), 0.0, 1.0))
     picture = np.zeros((*shape, 4))
     picture[seen.covered, :3] = heat_colours(clearance) * light[:, None]
     picture[seen.covered, 3] = 1.0
