@@ -14,7 +14,6 @@ from footfit.geometry.measures.landmarks import AXES, Shape
 from footfit.geometry.measures.measure_value import MeasureValue
 from footfit.geometry.measures.tape import hull_girth
 from footfit.geometry.mesh.outlines import Outline
-from footfit.geometry.numeric.arrays import Floats
 
 
 @dataclass(frozen=True, slots=True)
@@ -72,7 +71,9 @@ def section_pairs(foot: Shape, last: Shape) -> tuple[SectionPair, ...]:
 
 
 def _pair(foot: Shape, last: Shape, station: Station) -> SectionPair:
-    origin, axes = _plane(foot, station)
+    origin, axes = np.array([foot.x_mm(station.share), 0.0, 0.0]), AXES[1:]
+    if station.oblique and foot.ball_plane is not None:
+        origin, axes = foot.ball_plane
     band_mm = SECTIONS.band * foot.length_mm
     ours, theirs = foot.cut(origin, axes), last.cut(origin, axes)
     return SectionPair(
@@ -83,13 +84,6 @@ def _pair(foot: Shape, last: Shape, station: Station) -> SectionPair:
         foot_sizes=_sizes(foot, ours, station, band_mm),
         last_sizes=_sizes(last, theirs, station, band_mm),
     )
-
-
-def _plane(foot: Shape, station: Station) -> tuple[Floats, Floats]:
-    """A point (3,) of a station's plane, in the middle of the foot, and its two axes (2, 3)."""
-    if station.oblique and foot.ball_plane is not None:
-        return foot.ball_plane
-    return np.array([foot.x_mm(station.share), 0.0, 0.0]), AXES[1:]
 
 
 def _sizes(

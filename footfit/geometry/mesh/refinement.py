@@ -111,7 +111,8 @@ def _split(vertices: Floats, faces: Ints, middle: Ints) -> Ints:
     places = (turn[:, None] + np.arange(3)) % 3
     a, b, c = np.take_along_axis(faces, places, axis=1).T
     p, q, r = np.take_along_axis(middle, places, axis=1).T  # on ab, bc, ca
-    shorter = _distance(vertices, a, q) <= _distance(vertices, p, c)
+    cuts = vertices[a] - vertices[q], vertices[p] - vertices[c]
+    shorter = np.less_equal(*(np.linalg.norm(cut, axis=1) for cut in cuts))
     parts = (
         (count == 0, ((a, b, c),)),
         (count == 1, ((a, p, c), (p, b, c))),
@@ -123,8 +124,3 @@ def _split(vertices: Floats, faces: Ints, middle: Ints) -> Ints:
         np.stack(corners, axis=1)[chosen] for chosen, triangles in parts for corners in triangles
     ]
     return np.concatenate(pieces)
-
-
-def _distance(vertices: Floats, start: Ints, end: Ints) -> Floats:
-    distance: Floats = np.linalg.norm(vertices[start] - vertices[end], axis=1)
-    return distance

@@ -64,7 +64,8 @@ def pressed_spikes(vertices: Floats, faces: Ints) -> tuple[Floats, int]:
     tips = _with_long_edges_only(columns, faces, len(vertices), least)
     if not tips.any():
         return vertices, 0
-    tip, neighbour = _spokes(faces, tips)
+    pairs = np.concatenate([faces[:, [i, j]] for i in range(3) for j in range(3) if i != j])
+    tip, neighbour = np.unique(pairs[tips[pairs[:, 0]]], axis=0).T  # every edge at a tip, once
     count = np.bincount(tip, minlength=len(vertices))
     inner = (count >= 3) & (count == np.bincount(faces.ravel(), minlength=len(vertices)))
     sums = [np.bincount(tip, vertices[neighbour, i], len(vertices)) for i in range(3)]
@@ -94,10 +95,3 @@ def _with_long_edges_only(
     tips[faces.T[short]] = False
     tips[faces.T[ahead][short]] = False
     return tips
-
-
-def _spokes(faces: Ints, tips: Bools) -> tuple[Ints, Ints]:
-    """Every edge that begins at a tip, once: the tip and its neighbour, (k,) each."""
-    pairs = np.concatenate([faces[:, [i, j]] for i in range(3) for j in range(3) if i != j])
-    pairs = np.unique(pairs[tips[pairs[:, 0]]], axis=0)
-    return pairs[:, 0], pairs[:, 1]

@@ -54,12 +54,7 @@ class CopySettings:
 COPY_SETTINGS = CopySettings()
 
 
-def compact_copy(
-    vertices_mm: Floats,
-    faces: Ints,
-    target_faces: int = 10_000,
-    settings: CopySettings = COPY_SETTINGS,
-) -> MeshCopy:
+def compact_copy(vertices_mm: Floats, faces: Ints, target_faces: int = 10_000) -> MeshCopy:
     """A simplified, quantised and compressed copy, with its measured error.
 
     Parameters
@@ -68,9 +63,8 @@ def compact_copy(
     faces : (m, 3) int64
         At least one face.
     target_faces : int
-        Where a copy of so many faces deviates by more than ``settings.error_mm``, the target is
-        doubled, until nothing is simplified.
-    settings : CopySettings
+        Where a copy of so many faces deviates by more than ``COPY_SETTINGS.error_mm``, the target
+        is doubled, until nothing is simplified.
 
     Returns
     -------
@@ -81,10 +75,10 @@ def compact_copy(
     vertices_mm, faces, _ = welded_vertices(vertices_mm, faces)
     while True:
         lighter, fewer = lighter_mesh(vertices_mm, faces, target_faces)
-        data = _encoded(lighter, fewer, settings)
+        data = _encoded(lighter, fewer)
         copy_vertices, copy_faces = expanded_mesh(data)
         error = largest_deviation_mm(vertices_mm, faces, copy_vertices, copy_faces)
-        if error <= settings.error_mm or target_faces >= len(faces):
+        if error <= COPY_SETTINGS.error_mm or target_faces >= len(faces):
             return MeshCopy(data, len(copy_faces), error)
         target_faces *= 2
 
@@ -131,10 +125,10 @@ def _damaged(reason: str) -> CatalogueDamaged:
     )
 
 
-def _encoded(vertices: Floats, faces: Ints, settings: CopySettings) -> bytes:
+def _encoded(vertices: Floats, faces: Ints) -> bytes:
     """The bytes: quantised, sorted so that neighbours follow each other, compressed."""
     origin = vertices.min(axis=0)
-    steps = np.rint((vertices - origin) / settings.step_mm)
+    steps = np.rint((vertices - origin) / COPY_SETTINGS.step_mm)
     steps, faces, _ = welded_vertices(steps, faces)
     faces = faces[has_distinct_corners(faces)]
     steps, faces, _ = without_unused_vertices(steps, faces)
@@ -142,9 +136,9 @@ def _encoded(vertices: Floats, faces: Ints, settings: CopySettings) -> bytes:
     rank = np.empty(len(order), dtype=np.int64)
     rank[order] = np.arange(len(order))
     steps, faces = steps[order].astype(np.int64), _sorted_faces(rank[faces])
-    header = _HEADER.pack(_MAGIC, _VERSION, len(steps), len(faces), settings.step_mm, *origin)
+    header = _HEADER.pack(_MAGIC, _VERSION, len(steps), len(faces), COPY_SETTINGS.step_mm, *origin)
     rows = [np.diff(table, axis=0, prepend=0).ravel() for table in (steps, faces)]
-    return header + _packed(np.concatenate(rows), settings.zlib_level)
+    return header + _packed(np.concatenate(rows))
 
 
 def _interleaved(steps: Ints) -> Ints:
@@ -163,10 +157,11 @@ def _sorted_faces(faces: Ints) -> Ints:
     return turned[np.lexsort(turned.T[::-1])]
 
 
-def _packed(values: Ints, level: int) -> bytes:
+def _packed(values: Ints) -> bytes:
     """Signed values as even and odd ones, so that small ones have zero high bytes; shuffled."""
     folded = ((values << 1) ^ (values >> 63)).astype("<u4")
-    return zlib.compress(folded.view(np.uint8).reshape(-1, _COLUMN_BYTES).T.tobytes(), level)
+    shuffled = folded.view(np.uint8).reshape(-1, _COLUMN_BYTES).T.tobytes()
+    return zlib.compress(shuffled, COPY_SETTINGS.zlib_level)
 
 
 def _unpacked(data: bytes, count: int) -> NDArray[np.int64]:

@@ -81,7 +81,8 @@ def raw_mesh(
     BadOption
         footfit does not read the format ``declared``.
     """
-    wanted = _extension(path) if declared is None else declared.lower().removeprefix(".")
+    suffix = PurePath(path or "").suffix if declared is None else declared
+    wanted = suffix.lower().removeprefix(".")
     if declared is not None and wanted not in EXTENSIONS:
         raise BadOption(f"there is no format {declared!a}: use {', '.join(EXTENSIONS)}")
     actual = _format_of(data, wanted)
@@ -99,11 +100,7 @@ def raw_mesh(
     return actual.name, raw
 
 
-def _extension(path: str | None) -> str | None:
-    return PurePath(path).suffix.lower().removeprefix(".") if path is not None else None
-
-
-def _format_of(data: bytes, wanted: str | None) -> MeshFormat:
+def _format_of(data: bytes, wanted: str) -> MeshFormat:
     """The format by its content. A binary STL of a wrong size is known by its name only."""
     for known in FORMATS:
         if known.recognised(data):

@@ -88,7 +88,9 @@ def prepared_scan(
     closed = closed_mesh(shape.vertices, shape.faces, shape.pose.length)
     frame = _Frame.of(shape, closed)
     rims = [frame.points[rim] for rim in closed.rims]
-    _refuse_half(frame, rims)
+    missing = missing_part(frame.surface, rims, frame.extent)
+    if missing is not None:  # length and flare would be another's
+        raise HalfScan(_MISSING[missing])
     info = settled_unit.info_with_unit(scan.info, frame.extent, frame.length, known_length_mm)
     info = replace(info, vertices=len(shape.vertices), faces=len(shape.faces))
     factor = info.unit_scale / scan.info.unit_scale
@@ -207,13 +209,6 @@ class _Frame:
             top=float(points[: len(shape.vertices), 2].max()),
             quality=PoseQuality(rough.cost, rough.margin, fine.support, fine.sole, rough.kind),
         )
-
-
-def _refuse_half(frame: _Frame, rims: list[Floats]) -> None:
-    """Raise HalfScan if a part was cut off, since length and flare would be another's."""
-    missing = missing_part(frame.surface, rims, frame.extent)
-    if missing is not None:
-        raise HalfScan(_MISSING[missing])
 
 
 def _verdict(frame: _Frame, side: str) -> SideVerdict:

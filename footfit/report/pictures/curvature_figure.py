@@ -30,6 +30,7 @@ SHOWN_QUANTILE = 0.95
 UNDEFINED = (0.62, 0.62, 0.62)
 """Grey: no curvature is defined there, at a rim."""
 COLUMNS = 700
+BARS_MM = (1.0, 2.0, 5.0, 10.0, 20.0, 50.0, 100.0, 200.0)
 
 PANELS = {
     "Sole, from below": VIEWS["from_below"],
@@ -106,10 +107,6 @@ def _colours(values: Floats) -> tuple[Floats, Any]:
 def _draw_panel(axes: Axes, projected: Floats, faces: Ints, colours: Floats) -> None:
     frame = frame_around(projected, margin=0.06)
     show_image(axes, shaded_image(projected, faces, frame, COLUMNS, colours), frame)
-    draw_scale_bar(axes, length_mm=_bar_length(frame.right - frame.left), place=(0.03, 0.0))
-
-
-def _bar_length(width_mm: float) -> float:
-    """A round length of about a fifth of the picture."""
-    choices = (1.0, 2.0, 5.0, 10.0, 20.0, 50.0, 100.0, 200.0)
-    return min(choices, key=lambda length: abs(length - width_mm / 5.0))
+    fifth = (frame.right - frame.left) / 5.0
+    length_mm = min(BARS_MM, key=lambda length: abs(length - fifth))
+    draw_scale_bar(axes, length_mm=length_mm, place=(0.03, 0.0))
