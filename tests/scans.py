@@ -44,7 +44,7 @@ def aligned_of(alignment: Alignment, vertices_mm: Floats, faces: Ints) -> Aligne
         file_vertices_mm=vertices_mm,
         vertices_mm=right_mm,
         faces=right_faces,
-        notices=alignment.warnings,
+        warnings=alignment.warnings,
     )
     return AlignedScan(alignment, prepared)
 

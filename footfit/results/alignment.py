@@ -88,11 +88,8 @@ class Reference(Part):
 
 
 @dataclass(frozen=True, slots=True)
-class PreparedScan:
-    """One foot or last, as every method takes it: made once per file.
-
-    Cleaned, freed of loose pieces and of the floor plate, its faces outward, its small holes
-    closed, its unit settled.
+class SettledShape:
+    """One foot or last whose unit, side and pose are settled; its mesh is not in it.
 
     Attributes
     ----------
@@ -103,15 +100,12 @@ class PreparedScan:
     canonical_transform : (4, 4) float64
         From the file's coordinates to the canonical frame in mm; never a mirror.
     length : Measured
-        The measured length.
+        The measure of that name: the length that people read. It has no value if an end was not
+        scanned.
     extent_mm : float
-        How far the mesh reaches along X.
-    file_vertices_mm : (k, 3) float64
-        The scanned vertices in the file's own axes.
-    vertices_mm, faces : (n, 3) float64, (m, 3) int64
-        The right-side copy in the canonical frame: a left shape is mirrored. What was scanned
-        comes first, the caps that close its holes come last.
-    notices : tuple of Notice
+        How far the mesh reaches along X below the leg, vertex to vertex: definitions are scaled
+        by it.
+    warnings : tuple of Notice
         What was done, and what should be known.
     """
 
@@ -121,10 +115,33 @@ class PreparedScan:
     canonical_transform: Floats
     length: Measured
     extent_mm: float
+    warnings: tuple[Notice, ...]
+
+    @property
+    def length_mm(self) -> float | None:
+        """The measured length; None if an end was not scanned."""
+        return self.length.value
+
+
+@dataclass(frozen=True, slots=True)
+class PreparedScan(SettledShape):
+    """One foot or last, as every method takes it: made once per file.
+
+    Cleaned, freed of loose pieces and of the floor plate, its faces outward, its small holes
+    closed, its unit settled.
+
+    Attributes
+    ----------
+    file_vertices_mm : (k, 3) float64
+        The scanned vertices in the file's own axes.
+    vertices_mm, faces : (n, 3) float64, (m, 3) int64
+        The right-side copy in the canonical frame: a left shape is mirrored. What was scanned
+        comes first, the caps that close its holes come last.
+    """
+
     file_vertices_mm: Floats
     vertices_mm: Floats
     faces: Ints
-    notices: tuple[Notice, ...]
 
     @property
     def scanned(self) -> tuple[Floats, Ints]:
@@ -137,39 +154,22 @@ class PreparedScan:
 
 
 @dataclass(frozen=True, slots=True)
-class Alignment(Document):
+class Alignment(SettledShape, Document):
     """One mesh, aligned.
 
     ``transform`` (4, 4) takes the file's coordinates to aligned mm (rotation, translation and
-    the unit's scale, never a mirror). ``canonical_transform`` (4, 4) is the same for method
-    "footfit"; for the paper's methods it is still footfit's. ``eigenframe`` is the method's own:
-    of the exact moments for "footfit", by Eq. 1-4 as printed for the paper's; "paper-literal"
-    orders its rows by eigenvalue and makes the largest entry of each positive.
-    ``printed_frame`` is by Eq. 1-4 as printed and settled, whatever the method. ``reference`` is
-    the last whose OM_E was used, None for method "footfit" without one.
-
-    ``length`` is the measure of that name: the length that people read; it has no value if an
-    end was not scanned. ``extent_mm`` is how far the mesh reaches along X below the leg, vertex to
-    vertex: definitions are scaled by it.
+    the unit's scale, never a mirror). For method "footfit" it is the ``canonical_transform``.
+    ``eigenframe`` is the method's own: of the exact moments for "footfit", by Eq. 1-4 as printed
+    for the paper's; "paper-literal" orders its rows by eigenvalue and makes the largest entry of
+    each positive. ``printed_frame`` is by Eq. 1-4 as printed and settled, whatever the method.
+    ``reference`` is the last whose OM_E was used, None for method "footfit" without one.
     """
 
-    info: MeshInfo
     method: Method
-    side: SideVerdict
     transform: Floats
-    canonical_transform: Floats
     eigenframe: Eigenframe
     printed_frame: Eigenframe
-    pose: PoseQuality
     reference: Reference | None
-    length: Measured
-    extent_mm: float
-    warnings: tuple[Notice, ...]
-
-    @property
-    def length_mm(self) -> float | None:
-        """The measured length; None if an end was not scanned."""
-        return self.length.value
 
     def scan_keys(self) -> Json:
         """What the document of every scan says: its mesh, its kind, its side, its warnings."""

@@ -7,6 +7,7 @@ from footfit.geometry.mesh import moments
 from footfit.geometry.numeric.arrays import Floats
 from footfit.geometry.pose import paper_frame
 from footfit.results import AlignedScan, Alignment, Eigenframe, Method, PreparedScan, Reference
+from footfit.results.values import fields
 
 
 def aligned_scan(
@@ -33,18 +34,12 @@ def aligned_scan(
         )
     own, printed = _eigenframes(prepared, method)
     alignment = Alignment(
-        info=prepared.info,
+        **fields(prepared, "file_vertices_mm", "vertices_mm", "faces"),
         method=method,
-        side=prepared.side,
         transform=_transform(prepared, method, own, reference),
-        canonical_transform=prepared.canonical_transform,
         eigenframe=own,
         printed_frame=printed,
-        pose=prepared.pose,
         reference=reference,
-        length=prepared.length,
-        extent_mm=prepared.extent_mm,
-        warnings=prepared.notices,
     )
     return AlignedScan(alignment, prepared)
 

@@ -120,7 +120,7 @@ def prepared_scan(
         file_vertices_mm=factor * shape.vertices,
         vertices_mm=vertices_mm,
         faces=faces,
-        notices=tuple(dict.fromkeys(notices)),
+        warnings=tuple(dict.fromkeys(notices)),
     )
 
 
