@@ -76,7 +76,7 @@ def show_last_table(last: results.StoredLast) -> RenderableType:
     labels, flare, info = record.labels, record.flare, record.info
     upgraded = f", upgraded from {record.upgraded_from}" if record.upgraded_from else ""
     turned = f"{signed(flare.angle_deg)} ± {plain(flare.angle_sd_deg)} deg{class_words(flare)}"
-    rows: list[tuple[str, str | Text]] = [
+    return facts(
         ("style", cell(labels.style)),
         ("size", _size_row(record)),
         ("family, parent", cell(", ".join(p for p in (labels.family, labels.parent) if p))),
@@ -90,9 +90,9 @@ def show_last_table(last: results.StoredLast) -> RenderableType:
         ("eigenvalues", eigenvalue_words(record.eigenframe)),
         ("mesh", f"{info.vertices:,} vertices, {info.faces:,} faces, {info.units} in the file"),
         ("content", f"sha256 {info.sha256}"),
-    ]
-    warnings = [("warning", cell(notice.message, "yellow")) for notice in record.warnings]
-    return facts([*rows, *warnings], title=labels.name)
+        *(("warning", cell(notice.message, "yellow")) for notice in record.warnings),
+        title=labels.name,
+    )
 
 
 def _measures(record: results.LastRecord) -> list[tuple[str, str | Text]]:
@@ -117,18 +117,16 @@ def catalogue_info_table(info: results.CatalogueFacts) -> RenderableType:
     worst = "" if error is None else f", at most {plain(error, 2)} mm from the file's mesh"
     size = plain(info.mesh_copy_bytes / MEGABYTE)
     return facts(
-        [
-            ("catalogue", cell(info.path)),
-            ("size", f"{plain(info.bytes / MEGABYTE)} MB, schema {visible(info.schema_revision)}"),
-            ("lasts", _total_words(info.lasts, info.sides)),
-            ("reference", cell(info.reference)),
-            ("styles", _count_words(info.styles)),
-            ("size systems", _count_words(info.size_systems)),
-            ("definitions", _count_words(info.definitions)),
-            ("mesh copies", f"{info.mesh_copies}, {size} MB{worst}"),
-            ("rows kept", _count_words(info.kept)),
-            ("feet", "none: a foot is read, matched and forgotten"),
-        ]
+        ("catalogue", cell(info.path)),
+        ("size", f"{plain(info.bytes / MEGABYTE)} MB, schema {visible(info.schema_revision)}"),
+        ("lasts", _total_words(info.lasts, info.sides)),
+        ("reference", cell(info.reference)),
+        ("styles", _count_words(info.styles)),
+        ("size systems", _count_words(info.size_systems)),
+        ("definitions", _count_words(info.definitions)),
+        ("mesh copies", f"{info.mesh_copies}, {size} MB{worst}"),
+        ("rows kept", _count_words(info.kept)),
+        ("feet", "none: a foot is read, matched and forgotten"),
     )
 
 
@@ -175,25 +173,21 @@ def upgrade_catalogue_line(outcome: results.UpgradeOutcome) -> RenderableType:
     schema = f"{after}, as before" if before == after else f"{before} to {after}"
     count = len(outcome.recomputed)
     return facts(
-        [
-            ("catalogue", cell(outcome.path)),
-            ("schema", schema),
-            ("profiles", f"{count} re-computed to {visible(outcome.definition)}"),
-            ("backup", cell(outcome.backup)),
-        ]
+        ("catalogue", cell(outcome.path)),
+        ("schema", schema),
+        ("profiles", f"{count} re-computed to {visible(outcome.definition)}"),
+        ("backup", cell(outcome.backup)),
     )
 
 
 def demo_table(demo: results.DemoOutcome) -> RenderableType:
     """The files of the demo; the page is in the last line."""
-    files = [("file", cell(output)) for output in demo.outputs]
-    rows: list[tuple[str, str | Text]] = [
+    return facts(
         ("folder", cell(demo.folder)),
         ("lasts", str(demo.lasts)),
         ("best last", cell(demo.best, "bold")),
-        *files,
-    ]
-    return facts(rows)
+        *(("file", cell(output)) for output in demo.outputs),
+    )
 
 
 def check_catalogue_table(outcome: results.CheckOutcome) -> RenderableType:
@@ -220,10 +214,8 @@ def backup_catalogue_line(outcome: results.BackupOutcome) -> Text:
 def restore_catalogue_table(outcome: results.RestoreOutcome) -> RenderableType:
     """What was restored, and where the old file is."""
     return facts(
-        [
-            ("catalogue", cell(outcome.path)),
-            ("from", cell(outcome.backup)),
-            ("lasts", str(outcome.lasts)),
-            ("the one before", cell(outcome.kept)),
-        ]
+        ("catalogue", cell(outcome.path)),
+        ("from", cell(outcome.backup)),
+        ("lasts", str(outcome.lasts)),
+        ("the one before", cell(outcome.kept)),
     )

@@ -8,7 +8,7 @@ stderr, so they are not here.
 from __future__ import annotations
 
 import io
-from collections.abc import Iterable, Sequence
+from collections.abc import Sequence
 
 from rich import box
 from rich.console import Console, Group, RenderableType
@@ -51,7 +51,7 @@ def cell(text: str | None, style: str = "") -> Text:
     return Text(visible(text), style) if text else Text("-", "dim")
 
 
-def facts(rows: Iterable[tuple[str, str | Text]], title: str | None = None) -> RenderableType:
+def facts(*rows: tuple[str, str | Text], title: str | None = None) -> RenderableType:
     """Names and values in two columns, under a bold title."""
     grid = Table.grid(padding=(0, 2))
     grid.add_column(style="dim", no_wrap=True)
@@ -105,7 +105,7 @@ def align_table(alignment: results.Alignment) -> RenderableType:
     ]
     if alignment.reference is not None:
         rows.append(("reference", cell(alignment.reference.last)))
-    return facts(rows, title=info.path or "standard input")
+    return facts(*rows, title=info.path or "standard input")
 
 
 def eigenvalue_words(frame: results.Eigenframe) -> str:
@@ -133,7 +133,7 @@ def flare_table(profiled: results.Profiled) -> RenderableType:
     ]
     for channel, values in flare.curvature.items():
         rows.append((channel, "not measurable" if values is None else _range_words(values)))
-    return facts(rows, title=alignment.info.path or "standard input")
+    return facts(*rows, title=alignment.info.path or "standard input")
 
 
 def flare_words(profiled: results.Profiled) -> str:
@@ -177,7 +177,7 @@ def curvature_table(curvature: results.SurfaceCurvature) -> RenderableType:
             "-" if value is None else f"{value:+.5f}" for value in spread_part(values).values()
         )
         rows.append((name, f"{quantiles} {unit} (5 % / median / 95 %)"))
-    return facts(rows, title=curvature.info.path or "standard input")
+    return facts(*rows, title=curvature.info.path or "standard input")
 
 
 def measure_table(scan: results.MeasuredScan) -> RenderableType:
@@ -189,4 +189,4 @@ def measure_table(scan: results.MeasuredScan) -> RenderableType:
     for measure in scan.measures:
         words = cell(measured_text(measure.measured, "mm"))
         rows.append((measure.name.replace("_", " "), words))
-    return facts(rows, title=alignment.info.path or "standard input")
+    return facts(*rows, title=alignment.info.path or "standard input")
