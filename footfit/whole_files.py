@@ -43,7 +43,6 @@ def partial_beside(final: Path) -> Iterator[Path]:
     os.close(descriptor)
     partial = Path(name)
     try:
-        partial.chmod(0o666 & ~_umask())
         yield partial
     finally:
         for left in (partial, partial.with_name(f"{partial.name}-journal")):  # SQLite's journal
@@ -60,6 +59,7 @@ def give_name(partial: Path, final: Path, *, replace: bool) -> None:
     OSError
         The system refuses.
     """
+    partial.chmod(0o666 & ~_umask())
     try:
         if replace:
             partial.replace(final)
@@ -78,7 +78,10 @@ def sync(path: Path) -> None:
     OSError
         The disk does not take it.
     """
-    descriptor = os.open(path, os.O_RDONLY)
+    is_folder = path.is_dir()
+    if is_folder and os.name == "nt":  # Windows opens no folder
+        return
+    descriptor = os.open(path, os.O_RDONLY if is_folder else os.O_RDWR)
     try:
         os.fsync(descriptor)
     finally:

@@ -17,7 +17,7 @@ from footfit.report.terminal import (
     match_tables,
     scan_tables,
 )
-from footfit.results import Alignment, Comparison, Match, Notice
+from footfit.results import Alignment, Match, Notice
 
 if TYPE_CHECKING:
     from rich.console import RenderableType
@@ -26,20 +26,14 @@ Notices = tuple[str | None, Iterable[Notice]]
 """The file that notices are about, and the notices."""
 
 
-def _none(_result: object) -> Notices:
-    return None, ()
-
-
 def _of_scan(alignment: Alignment, more: Iterable[Notice] = ()) -> Notices:
     """The notes on the unit, which are no warnings, and the warnings."""
-    notes = unit_notes(alignment.info, alignment.length_mm)
-    return alignment.info.path, (*notes, *alignment.warnings, *more)
+    return _with_notes(alignment, (*alignment.warnings, *more))
 
 
-def _of_comparison(comparison: Comparison) -> Notices:
-    alignment = comparison.foot.aligned.alignment
+def _with_notes(alignment: Alignment, warnings: Iterable[Notice]) -> Notices:
     notes = unit_notes(alignment.info, alignment.length_mm)
-    return alignment.info.path, (*notes, *comparison.warnings)
+    return alignment.info.path, (*notes, *warnings)
 
 
 def _of_match(match: Match) -> Notices:
@@ -56,7 +50,7 @@ class Form(NamedTuple):
     """The table and the notices of one type of result."""
 
     table: Callable[[Any], RenderableType]
-    notices: Callable[[Any], Notices] = _none
+    notices: Callable[[Any], Notices] = lambda _: (None, ())
 
 
 FORMS: dict[type, Form] = {
@@ -74,7 +68,10 @@ FORMS: dict[type, Form] = {
         lambda values: (values.info.path, (*unit_notes(values.info), *values.warnings)),
     ),
     results.Match: Form(match_tables.match_table, _of_match),
-    results.Comparison: Form(comparison_tables.compare_table, _of_comparison),
+    results.Comparison: Form(
+        comparison_tables.compare_table,
+        lambda comparison: _with_notes(comparison.foot.aligned.alignment, comparison.warnings),
+    ),
     results.IngestOutcome: Form(
         scan_tables.ingest_line, lambda outcome: (outcome.path, (*outcome.notes, *outcome.warnings))
     ),
