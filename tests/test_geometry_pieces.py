@@ -124,8 +124,8 @@ def test_an_end_that_is_open_but_no_more_is_doubtful(last):
     cut = along(last, 0.97, 1.0, 0)
     sample, rims = quadrature(*cut, 8.0), rims_of(*cut)
     assert missing_part(sample, rims, 270.0) is None
-    assert doubtful_end(sample, rims, 270.0) == "toes"
-    assert doubtful_end(quadrature(*last, 8.0), [], 270.0) is None
+    assert doubtful_end(sample, cut[0], rims, 270.0) == "toes"
+    assert doubtful_end(quadrature(*last, 8.0), last[0], [], 270.0) is None
     shorter = along(last, 0.90, 1.0, 0)
     assert missing_part(quadrature(*shorter, 8.0), rims_of(*shorter), 270.0) == "toes"
 
@@ -138,6 +138,6 @@ def test_a_slanting_cut_through_the_toes_is_doubtful_and_a_slanting_leg_is_not(l
         vertices, faces, np.array([60.0, 0.0, 62.0]), np.array([-0.3, 0.0, 0.95])
     )
     assert missing_part(quadrature(*toes, 8.0), rims_of(*toes), 270.0) is None
-    assert doubtful_end(quadrature(*toes, 8.0), rims_of(*toes), 270.0) == "toes"
+    assert doubtful_end(quadrature(*toes, 8.0), toes[0], rims_of(*toes), 270.0) == "toes"
     assert missing_part(quadrature(*leg, 8.0), rims_of(*leg), 270.0) is None
-    assert doubtful_end(quadrature(*leg, 8.0), rims_of(*leg), 270.0) is None
+    assert doubtful_end(quadrature(*leg, 8.0), leg[0], rims_of(*leg), 270.0) is None

@@ -26,6 +26,9 @@ class EndSettings:
     open_area: float = 0.015  # seen along X: toes cut off at .92 L have .016-.025
     doubtful_area: float = 0.004  # toes cut off at .98 L have .004-.009, a hole of 24 mm .005
     slant_area: float = 0.010  # the same of one loop that only reaches the end
+    long_rim: float = 0.26  # a longer loop is the rim of a missing sole or leg, and no hole
+    low_end: float = 0.20  # higher a rim is that of a leg
+    on_rim: float = 0.001  # such a rim this near to the end has cut the end off
     side_low: float = 0.06  # half a foot's rim reaches lower than this
     side_high: float = 0.18  # and higher than this
     side_area: float = 0.06  # seen along Y: half a foot has .15 or more
@@ -60,13 +63,27 @@ def missing_part(sample: SurfaceSample, rims: list[Floats], length: float) -> Mi
 
 
 def doubtful_end(
-    sample: SurfaceSample, rims: list[Floats], length: float
+    sample: SurfaceSample, points: Floats, rims: list[Floats], length: float
 ) -> Literal["heel", "toes"] | None:
-    """The end of a canonical shape that is open over so much that its length may be short."""
+    """The end of a canonical shape that is open over so much that its length may be short.
+
+    Parameters
+    ----------
+    sample : SurfaceSample
+        The whole surface, canonical.
+    points : (n, 3) float64
+        The mesh's vertices, canonical.
+    rims : list of (k, 3) float64
+        The mesh's boundary loops.
+    length : float
+    """
     for name, end in _ends(sample, length):
         if _open_area(rims, end, length) > ENDS.doubtful_area * length**2:
             return name
+        outward = -1.0 if name == "heel" else 1.0
         if any(_is_oblique(rim, end, length) for rim in rims):
+            return name
+        if any(_is_reached(rim, points, outward, length) for rim in rims):
             return name
     return None
 
@@ -76,6 +93,17 @@ def _is_oblique(rim: Floats, end: float, length: float) -> bool:
     there = np.abs(rim[:, 0] - end) < ENDS.reach * length
     there &= rim[:, 2] < ENDS.side_low * length
     return bool(there.any() and abs(_vector_area(rim)[0]) > ENDS.slant_area * length**2)
+
+
+def _is_reached(rim: Floats, points: Floats, outward: float, length: float) -> bool:
+    """Whether an end lies on the rim of a missing sole: the shape goes on where it was cut."""
+    if float(np.ptp(rim[:, 0])) < ENDS.long_rim * length:
+        return False
+    farthest, reached = (
+        (outward * place[place[:, 2] < ENDS.low_end * length, 0]).max(initial=-np.inf)
+        for place in (points, rim)
+    )
+    return bool(reached > farthest - ENDS.on_rim * length)
 
 
 def _ends(

@@ -38,6 +38,7 @@ class PieceSettings:
     sheet: float = 0.40  # |sum of area vectors| over the area; a foot cut at the leg has 0.1
     shell: float = 0.20  # from here on, by the same ratio, a foot may lack its sole
     flat_shell: float = 0.60  # the most that a foot without sole has; a sheet has more
+    soleless_last: float = 0.34  # the most that a last without sole costs; feet cost .36-.46
     upward: float = 0.80  # cosine with Z of where the faces of such a foot look on the whole
 
 

@@ -40,7 +40,8 @@ def measured_scan(aligned: AlignedScan) -> MeasuredScan:
     alignment = aligned.alignment
     check_side(alignment)
     measures = scan_measures(aligned.prepared)
-    return MeasuredScan(alignment, measures, unusual_measures(measures, alignment.pose.kind))
+    kind = alignment.pose.kind if alignment.pose.sole else "foot"  # without a sole nothing is sure
+    return MeasuredScan(alignment, measures, unusual_measures(measures, kind))
 
 
 def check_side(alignment: Alignment) -> None:

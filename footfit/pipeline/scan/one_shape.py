@@ -205,12 +205,17 @@ def _posed(
 def _wound(
     vertices: Floats, faces: Ints, windows: Windows, looks: Facing, notices: tuple[Notice, ...]
 ) -> PosedShape:
-    """One mesh, wound as it is; if it fits badly, tried again as one without its sole."""
+    """One mesh, wound as it is; tried as one without its sole, if it fits badly or as a last.
+
+    Without its sole a foot is as near to a last as to a foot. It is a last only if it fits well.
+    """
     templates = shipped_templates()
     pose = rough_pose(vertices, faces, templates, windows)
-    if not pose.accepted and looks.one_way > PIECES.shell:
+    if looks.one_way > PIECES.shell and not (pose.accepted and pose.kind == "foot"):
         soleless = rough_pose(vertices, faces, templates, windows, SOLELESS)
         if soleless.accepted and lacks_its_sole(looks, soleless.rotation[2]):
             pose = soleless
+            if pose.cost > PIECES.soleless_last:
+                pose = replace(pose, kind="foot")
     sheet = looks.one_way > PIECES.sheet and not lacks_its_sole(looks, pose.rotation[2])
     return PosedShape(vertices, faces, pose, sheet, notices)

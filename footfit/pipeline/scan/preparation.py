@@ -228,7 +228,7 @@ def _verdict(frame: _Frame, side: str) -> SideVerdict:
 
 def _open_end(frame: _Frame, rims: list[Floats]) -> tuple[Notice, ...]:
     """The end, if any, that may be longer than it was scanned."""
-    end = doubtful_end(frame.surface, rims, frame.extent)
+    end = doubtful_end(frame.surface, frame.points, rims, frame.extent)
     if end is None:
         return ()
     return (Notice("open_end", f"the surface is open at the {end}, so its length is not known"),)
