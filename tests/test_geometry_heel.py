@@ -1,0 +1,80 @@
+"""The length starts at the heel's rearmost point, however the shank leans over it."""
+
+from __future__ import annotations
+
+from functools import cache
+
+import numpy as np
+import pytest
+
+import footfit
+from footfit.geometry.measures.landmarks import Shape
+from footfit.geometry.mesh.outermost_point import tip
+from tests.conftest import SAMPLES, SCANS
+from tests.distortions import leg_cut, subdivided, white_noise
+from tools.lasts import LastSpec, last_mesh
+
+FEET = {name: SAMPLES / "feet" / f"{name}_R.stl" for name in ("mh007", "mh008")}
+MORE = {"mh009": SCANS / "makehuman" / "mh009_R.stl", "dupontgu": SCANS / "dupontgu_R.stl"}
+FEET |= MORE if SCANS.exists() else {}
+SD_MM = 0.25  # of the length
+
+
+@cache
+def foot(name):
+    aligned = footfit.align(FEET[name], side="right")
+    return aligned.vertices_mm, aligned.faces, aligned.alignment.length_mm
+
+
+def leaning(name, start, slope):
+    """The foot with all that is over ``start`` times its length sheared backward, smoothly."""
+    vertices, faces, length_mm = foot(name)
+    over = np.maximum(vertices[:, 2] / length_mm - start, 0.0)
+    back = np.where(over < 0.04, np.square(over) / 0.08, over - 0.02)
+    return vertices - np.outer(slope * length_mm * back, [1.0, 0.0, 0.0]), faces
+
+
+@pytest.mark.parametrize("name", FEET)
+@pytest.mark.parametrize("start", [0.17, 0.20, 0.24])
+@pytest.mark.parametrize("slope", [0.3, 0.6, 1.0])
+def test_a_leaning_shank_does_not_move_the_length_by_more_than_its_sd(name, start, slope):
+    """As it was, the length grew by up to 31 mm."""
+    length_mm = Shape(*leaning(name, start, slope)).length_mm
+    assert length_mm == pytest.approx(Shape(*foot(name)[:2]).length_mm, abs=SD_MM)
+
+
+@pytest.mark.parametrize("change", ["noise", "finer", "cut low", "cut high"])
+def test_a_leaning_shank_that_is_scanned_otherwise_has_the_length_too(change):
+    vertices, faces = leaning("mh008", 0.20, 0.8)
+    changed = {
+        "noise": lambda: (white_noise(vertices, np.random.default_rng(2), 0.3), faces),
+        "finer": lambda: subdivided(vertices, faces),
+        "cut low": lambda: leg_cut(vertices, faces, 0.26 * 271.6),
+        "cut high": lambda: leg_cut(vertices, faces, 0.34 * 271.6),
+    }[change]()
+    most_mm = 2 * SD_MM if change == "noise" else SD_MM
+    assert Shape(*changed).length_mm == pytest.approx(foot("mh008")[2], abs=most_mm)
+
+
+@pytest.mark.parametrize("name", FEET)
+def test_a_foot_whose_shank_does_not_lean_is_measured_as_before(name):
+    vertices, faces, _ = foot(name)
+    shape = Shape(vertices, faces)
+    before = tip(vertices, shape.low, np.array([-1.0, 0.0, 0.0]), shape._rough_length_mm)
+    assert shape.ends[0].reach == pytest.approx(before.reach, abs=0.1)
+
+
+@pytest.mark.parametrize("heel_mm", [0.0, 60.0])
+def test_a_lasts_rear_may_be_anywhere_on_its_back(heel_mm):
+    vertices, faces = last_mesh(LastSpec(heel_height_mm=heel_mm))
+    shape = Shape(vertices, faces, "last")
+    before = tip(vertices, shape.low, np.array([-1.0, 0.0, 0.0]), shape._rough_length_mm)
+    assert shape.ends[0].reach == before.reach
+
+
+def test_the_whole_way_from_a_scan_gives_the_heels_length():
+    true_mm = foot("mh007")[2]
+    scan = footfit.read(leaning("mh007", 0.20, 0.8), units="mm")
+    answer = footfit.measure(scan, side="right")
+    assert answer.alignment.length_mm == pytest.approx(true_mm, abs=SD_MM)
+    assert answer.alignment.extent_mm > true_mm + 5.0
