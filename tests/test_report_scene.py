@@ -15,6 +15,7 @@ from footfit.pipeline.drawables import drawable
 from footfit.report.page.rendering import content_hash, html_page, page_file, templates
 from footfit.report.page.scene import (
     MOST_VERTICES,
+    STEPS,
     UNKNOWN,
     packed_clearance,
     packed_mesh,
@@ -56,7 +57,8 @@ def test_a_packed_mesh_reads_back_within_its_step():
     vertices, faces = shapes.ellipsoid(subdivisions=3)
     mesh = packed_mesh(vertices, faces)
     back = array(mesh["vertices"], "<u2").reshape(-1, 3) * mesh["step"] + mesh["origin"]
-    assert np.abs(back - vertices).max() <= mesh["step"] / 2 + printed(4)  # of the origin
+    step_mm = np.ptp(vertices, axis=0).max() / STEPS
+    assert np.abs(back - vertices).max() <= step_mm / 2 + printed(4)  # of the origin
     assert np.array_equal(array(mesh["faces"], "<u2").reshape(-1, 3), faces)
 
 
