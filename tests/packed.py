@@ -129,9 +129,9 @@ def outside_entity(target: str) -> str:
 
 
 def strip_glb() -> bytes:
-    """A square as a triangle strip, 200 mm a side, lying in the node's plane."""
-    points = np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0], [1, 1, 0]], dtype=float)
-    description = tree(points, np.zeros((1, 4), dtype=int))
+    """Three squares in a row as a triangle strip, 200 mm a side, lying in the node's plane."""
+    points = np.array([[k // 2, 1 - k % 2, 0] for k in range(8)], dtype=float)
+    description = tree(points, np.zeros((1, 8), dtype=int))
     description["meshes"][0]["primitives"][0] |= {"mode": 5}
-    content = body(points, np.arange(4).reshape(1, 4), 0.2)
+    content = body(points, np.arange(8).reshape(1, 8), 0.2)
     return glb_of(json.dumps(description).encode(), content)

@@ -11,6 +11,8 @@ from footfit.errors import DamagedMesh, EmptyMesh
 from footfit.geometry.mesh.surface import unit
 from footfit.geometry.mesh.topology import is_closed
 from footfit.geometry.pose.pieces import PIECES
+from footfit.meshes.clean.spikes import pressed_spikes
+from footfit.meshes.clean.triangles import welded_mesh
 from tests import distortions, shapes
 from tests.bounds import EXACT, ROUNDING
 from tests.scans import cleaned
@@ -67,6 +69,18 @@ def test_corners_rounded_apart_are_joined_and_it_is_said():
     assert mesh.info.watertight
     joined_mm = np.abs(mesh.vertices_mm[mesh.source_to_vertex] - vertices).max()
     assert joined_mm <= 2.0 * off_mm + ROUNDING  # it is one of the corners
+
+
+@pytest.mark.parametrize(("apart", "joined"), [(0.2, False), (0.5, True)])
+def test_corners_rounded_apart_are_joined_where_they_are_many(apart, joined):
+    """A fifth of the faces apart are 1.0 vertices for each face, half of them are 1.75."""
+    vertices, faces = FOOT
+    loose = rng().random(len(faces)) < apart
+    corners, own = distortions.soup(vertices, faces[loose])
+    corners = corners + rng(1).uniform(-2e-5, 2e-5, corners.shape)
+    mesh = welded_mesh(*distortions.joined((vertices, faces[~loose]), (corners, own)))
+    assert [notice.code for notice in mesh.notices] == ["near_vertices_welded"] * joined
+    assert is_closed(mesh.faces) is joined
 
 
 def test_faces_without_area_and_faces_twice_go():
@@ -147,6 +161,25 @@ def test_needles_that_are_no_spikes_stay():
         assert "spikes_pressed" not in codes(cleaned(*mesh))
     needle = np.array([[0.0, 0, 0], [1, 0, 0], [0.5, 30, 0]])
     assert "spikes_pressed" not in codes(cleaned(needle, np.array([[0, 1, 2]])))
+
+
+@pytest.mark.parametrize("place", range(3))
+def test_a_tip_with_one_near_neighbour_is_no_spike_at_whichever_corner_its_face_begins(place):
+    """The tip is high and slender enough: only its short edge says that it is no single vertex."""
+    across = 200
+    x, y = np.meshgrid(np.arange(across), np.arange(across))
+    sheet = np.stack([x.ravel(), y.ravel(), 0 * x.ravel()], axis=1).astype(float)
+    corner = (np.arange(across - 1)[:, None] * across + np.arange(across - 1)).ravel()
+    faces = np.r_[corner[:, None] + [0, 1, across + 1], corner[:, None] + [0, across + 1, across]]
+    tip, near = 20_100, 20_101
+    sheet[tip, 2] = 7.0
+    assert pressed_spikes(sheet, faces)[1] == 1
+    sheet[near, 2] = 2.0
+    both = np.isin(faces, (tip, near))
+    begin = np.where(both[:, [0, 1]].all(axis=1), 0, np.where(both[:, [1, 2]].all(axis=1), 1, 2))
+    turned = np.take_along_axis(faces, (np.arange(3) + begin[:, None] - place) % 3, axis=1)
+    assert np.isin(turned[both.sum(axis=1) == 2][:, [place, (place + 1) % 3]], (tip, near)).all()
+    assert pressed_spikes(sheet, turned)[1] == 0
 
 
 def test_a_surface_in_a_few_pieces_is_kept_whole():

@@ -15,6 +15,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from footfit.errors import InputError
+from footfit.geometry.mesh.surface import area_vectors
 from footfit.meshes.formats.known_formats import raw_mesh
 from footfit.meshes.read_limits import LIMITS
 from tests import corpus, packed
@@ -57,8 +58,10 @@ def test_glb_nodes_are_applied_from_the_mesh_outwards():
 
 def test_glb_strips_and_interleaved_points():
     strip = read(packed.strip_glb())
-    assert strip.faces.shape == (2, 3)
-    assert np.ptp(strip.vertices, axis=0).tolist() == pytest.approx([0.2, 0.2, 0.0])
+    assert strip.faces.shape == (6, 3)
+    assert np.ptp(strip.vertices, axis=0).tolist() == pytest.approx([0.6, 0.2, 0.0])
+    # every other triangle is turned over, so that all look up
+    assert area_vectors(strip.vertices, strip.faces)[:, 2] == pytest.approx([0.02] * 6)
     points = np.zeros((len(packed.VERTICES), 6), dtype="<f4")
     points[:, :3], points[:, 3:] = packed.VERTICES, 7.0
     tree = packed.tree()
