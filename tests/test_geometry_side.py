@@ -7,7 +7,7 @@ import pytest
 
 from footfit.geometry.mesh.samples import quadrature
 from footfit.geometry.pose.frame import canonical_frame
-from footfit.geometry.pose.side import confidence, side_score
+from footfit.geometry.pose.side import SIDE, confidence, side_score
 from tests.bounds import ROUNDING
 from tools.lasts import LastSpec, last_mesh
 
@@ -42,6 +42,15 @@ def test_a_symmetric_shape_is_undecided():
 def test_the_words_follow_the_score():
     words = [confidence(score) for score in (-4.0, -1.0, 0.2, 1.0, 2.5)]
     assert words == ["sure", "low", "undecided", "low", "sure"]
+
+
+@pytest.mark.parametrize(("each", "counts"), [(7, False), (8, True)])
+def test_a_station_counts_from_eight_points_on(each, counts):
+    station = np.repeat(np.arange(SIDE.stations) + 0.5, each) / SIDE.stations
+    across = np.tile(np.linspace(-0.15, 0.15, each), SIDE.stations)
+    points = np.stack([station, across + 0.3 * station**2, 0.0 * station], axis=1) * 260.0
+    points[0, 0] = 0.0
+    assert (side_score(points, 260.0) > 0.0) is counts
 
 
 def test_too_few_stations_say_nothing():

@@ -66,6 +66,15 @@ def test_children_are_said_in_their_own_numbers() -> None:
     )
     assert size_words(0.5, SYSTEMS["uk"]) == "UK child's 13.5"
     assert size_words(1.0, SYSTEMS["uk"]) == "UK 1"
+
+
+@pytest.mark.parametrize("system", SYSTEMS.values(), ids=SYSTEMS)
+def test_the_least_and_the_largest_size_are_made(system):
+    least, largest = size_words(system.least, system), size_words(system.largest, system)
+    assert not least.startswith("under ")
+    assert not largest.startswith("over ")
+    assert size_words(system.least - system.grid, system).startswith("under ")
+    assert size_words(system.largest + system.grid, system).startswith("over ")
     assert not foot_size(260.0, SYSTEMS["eu"]).child
 
 

@@ -137,6 +137,18 @@ def test_many_strays_about_a_shape_go_and_its_own_patches_stay():
     assert strays_share > PIECES.specks  # else they are dust by their area alone
 
 
+@pytest.mark.parametrize("axis", range(3))
+def test_strays_in_a_row_along_any_axis_go(axis):
+    """Each axis has its own cells of space: what is far along one is near along no other."""
+    middle, reach = FOOT[0].mean(axis=0), np.ptp(FOOT[0][:, axis]) / 2
+    along = np.eye(3)[axis] * (reach + 40.0 + 12.0 * np.arange(60)[:, None])
+    strays = [small(4.0, middle + one) for one in along]
+    mesh = cleaned(*distortions.joined(FOOT, *strays))
+    assert codes(mesh) == ["specks_removed"]  # one piece is left
+    assert message(mesh, "specks_removed").startswith("60 ")
+    assert len(mesh.faces) == len(FOOT[1])
+
+
 @pytest.mark.parametrize("scale", [1.0, 0.001])
 def test_spikes_are_pressed_back_and_the_surface_stays_closed(scale):
     vertices, faces = FOOT
@@ -214,6 +226,13 @@ def test_a_flat_noisy_sole_does_not_hide_the_floor():
     mesh = cleaned(*posed(*distortions.joined((noisy, faces), _floor(z=0.0))))
     assert "plate_removed" in codes(mesh)
     assert len(mesh.faces) == len(faces)
+
+
+def test_the_largest_thick_piece_says_what_is_a_floor():
+    """A small thing beside the plate, which hangs through its plane, does not make it a part."""
+    foot = FOOT[0] + [0.0, 0.0, 40.5], FOOT[1]
+    mesh = cleaned(*distortions.joined(foot, small(36.0, [350.0, 0.0, 0.0]), _floor(z=0.0)))
+    assert "plate_removed" in codes(mesh)
 
 
 def _floor(z, size=(400.0, 300.0), cells=20):

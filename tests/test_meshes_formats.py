@@ -18,6 +18,7 @@ from footfit.meshes.formats import stl
 from footfit.meshes.formats.foreign import is_text, known_foreign, likeness
 from footfit.meshes.formats.known_formats import EXTENSIONS, FORMATS, raw_mesh
 from footfit.meshes.formats.ply import read_ply
+from footfit.meshes.formats.threemf import is_3mf
 from footfit.meshes.formats.tokens import floats, text_lines
 from footfit.meshes.read_limits import LIMITS
 from footfit.meshes.write import COLOUR, WRITERS, encoded_mesh
@@ -232,6 +233,17 @@ def test_foreign_content_is_named():
     assert "ZIP" in likeness(corpus.zipped())
     assert "Git LFS" in likeness(b"version https://git-lfs.github.com/spec/v1\noid sha256:0")
     assert "HTML" in likeness(b"\n <HTML>")
+    assert "HTML" in likeness(b"\xef\xbb\xbf<html>")  # behind a byte order mark
     assert known_foreign(corpus.stl()) is None
     assert is_text(corpus.obj())
     assert not is_text(corpus.stl())
+
+
+def test_only_the_beginning_says_what_a_file_is():
+    """4 KiB of it for text; of a 3MF 64 KiB at both ends, where a ZIP names its parts."""
+    assert not is_text(b"a" * 4_095 + b"\0")
+    assert is_text(b"a" * 4_096 + b"\0")
+    name = b"3D/3dmodel.model"
+    for before, behind in ((65_520, 99_999), (99_999, 65_530)):
+        assert is_3mf(b"PK\3\4" + bytes(before - 4) + name + bytes(behind))
+    assert not is_3mf(b"PK\3\4" + bytes(65_536) + name + bytes(65_536))
