@@ -55,7 +55,8 @@ def ingest_last(
     """
     from dataclasses import replace as changed
 
-    from footfit.cli.answers import failures_last, sources_of, tell, watched_items
+    from footfit.cli.answer_forms import tell
+    from footfit.cli.answers import failures_last, sources_of, watched_items
     from footfit.cli.console import error_line, say, say_notices
     from footfit.cli.signals import LISTENER
     from footfit.pipeline.batch.runs import common_code
