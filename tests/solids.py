@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from footfit.geometry.mesh.surface import area_vectors, face_areas
-from footfit.geometry.mesh.topology import edges, half_edges
+from footfit.geometry.mesh.topology import boundary_loops, edges, half_edges
 from footfit.geometry.numeric.arrays import Floats, Ints
 
 
@@ -57,3 +57,17 @@ def is_consistently_wound(faces: Ints) -> bool:
     )
     ways = np.bincount(edge.ravel(), weights=np.where(ends[:, 0] < ends[:, 1], 1.0, -1.0))
     return not (ways[count == 2] != 0.0).any()
+
+
+def capped(vertices: Floats, faces: Ints) -> tuple[Floats, Ints]:
+    """The mesh with each boundary loop closed by a fan around its middle."""
+    vertices, faces = np.array(vertices), np.array(faces)
+    for loop in boundary_loops(faces):
+        middle = len(vertices)
+        vertices = np.concatenate([vertices, vertices[loop].mean(axis=0)[None]])
+        after = np.roll(loop, -1)
+        fan = np.stack([after, loop, np.full(len(loop), middle)], axis=1)
+        faces = np.concatenate([faces, fan])
+    if is_consistently_wound(faces):
+        return vertices, faces
+    raise AssertionError("the fan is wound the other way")

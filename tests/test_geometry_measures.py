@@ -13,14 +13,13 @@ from hypothesis import strategies as st
 
 from footfit.geometry.measures.landmarks import Shape
 from footfit.geometry.measures.measure_table import BOTH, MEASURES, of_kind, unusual
-from footfit.geometry.mesh import topology
 from footfit.geometry.stance.stance import STANCE
 from tests.bounds import ROUNDING
 from tests.conftest import ROOT, SAMPLES
 from tests.distortions import axis_rotation, half_subdivided, leg_cut, moved, plane_cut, white_noise
 from tests.reading import read_scan
 from tests.scans import aligned, right_shape
-from tests.solids import is_consistently_wound
+from tests.solids import capped
 from tests.strategies import seeds
 from tools.last_specs import ToeShape
 from tools.lasts import LastSpec, half_width_mm, last_mesh, standing, true_heading_deg, varied
@@ -280,20 +279,6 @@ def test_a_piece_of_a_shape_measures_without_a_bug(kind: str) -> None:
         for normal in normals:
             origin = np.array([x_mm, 0.0, z_mm])
             taken(*plane_cut(vertices, faces, origin, np.array(normal)), kind)
-
-
-def capped(vertices, faces):
-    """The mesh with each boundary loop closed by a fan around its middle."""
-    vertices, faces = np.array(vertices), np.array(faces)
-    for loop in topology.boundary_loops(faces):
-        middle = len(vertices)
-        vertices = np.concatenate([vertices, vertices[loop].mean(axis=0)[None]])
-        after = np.roll(loop, -1)
-        fan = np.stack([after, loop, np.full(len(loop), middle)], axis=1)
-        faces = np.concatenate([faces, fan])
-    if is_consistently_wound(faces):
-        return vertices, faces
-    raise AssertionError("the fan is wound the other way")
 
 
 # ------------------------------------------------------------------ the table

@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 from footfit.geometry.measures.heel_girths import angle_to_deg, around_heel, shortest_around_heel
-from footfit.geometry.measures.landmarks import AXES, LANDMARKS, Shape
-from footfit.geometry.measures.least_tape import tape_about
+from footfit.geometry.measures.landmarks import AXES, LANDMARKS, Crown, Shape
+from footfit.geometry.measures.least_tape import tape_about, tape_over
 from footfit.geometry.measures.measure_value import (
+    BLOCKED,
     CUT,
     NO_BALL,
     OPEN,
@@ -64,10 +65,49 @@ def short_heel_girth(shape: Shape) -> MeasureValue:
 
 
 def ball_girth_least(shape: Shape) -> MeasureValue:
-    """Around the ball by the least tape: the plane turns about the line from MT5 to MT1 until the
-    girth is least.
+    """Around the ball by the least tape: the plane turns about the line from the outer to the inner
+    joint until the girth is least.
     """
-    if shape.mt1 is None or shape.mt5 is None:
+    if shape.joints is None:
         return MeasureValue(None, NO_BALL)
-    tape = tape_about(shape, shape.mt5, shape.mt1, AXES[2])
-    return section_value(shape, tape.section(shape), "ball", hull_girth)
+    section = tape_about(shape, *shape.joints, AXES[2]).section(shape)
+    return section_value(shape, section, "ball", hull_girth)
+
+
+def waist_girth_least(shape: Shape) -> MeasureValue:
+    """Around the waist by the least tape: over the crown half-way between ball and instep, in the
+    plane in which the girth is least.
+    """
+    if shape.waist_crown is None:
+        return MeasureValue(None, NO_BALL)
+    return _least_over(shape, shape.waist_crown, "waist")
+
+
+def instep_girth_least(shape: Shape) -> MeasureValue:
+    """Around the instep by the least tape: over its crown, in the plane in which the girth is
+    least.
+    """
+    return _least_over(shape, shape.instep_crown, "instep")
+
+
+def heel_girth_instep(shape: Shape) -> MeasureValue:
+    """Around heel and instep by the least tape: the plane turns about the line from the heel's base
+    to the instep's crown until the girth is least.
+    """
+    missing = lacking(shape, shape.instep_crown.section, "instep")
+    if missing is not None:
+        return MeasureValue(None, missing)
+    tape = tape_about(shape, shape.heel_base, shape.instep_crown.place, AXES[1])
+    section = tape.section(shape)
+    if tape.goes_on(section, shape.length_mm):
+        return MeasureValue(None, BLOCKED)
+    return section_value(shape, section, "instep", hull_girth)
+
+
+def _least_over(shape: Shape, crown: Crown, place: str) -> MeasureValue:
+    """The girth of the shortest tape over a crown, or what is missing there."""
+    missing = lacking(shape, crown.section, place)
+    if missing is not None:
+        return MeasureValue(None, missing)
+    section = tape_over(shape, crown.place).section(shape)
+    return section_value(shape, section, place, hull_girth)

@@ -7,10 +7,12 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cached_property
+from typing import NamedTuple
 
 import numpy as np
 
 from footfit.geometry.flare.levelled_bottom import low_length
+from footfit.geometry.measures.bottom_arc import BottomArc, bottom_arc
 from footfit.geometry.measures.top_cut import top_cut_faces
 from footfit.geometry.mesh.outermost_point import TIPS, Tip, tip
 from footfit.geometry.mesh.outlines import Outline, outline
@@ -44,6 +46,19 @@ class LandmarkSettings:
 
 
 LANDMARKS = LandmarkSettings()
+
+
+class Crown(NamedTuple):
+    """The section (y, z) across the shape at ``x_mm``; its highest place is where a tape lies."""
+
+    section: Outline
+    x_mm: float
+
+    @property
+    def place(self) -> Floats:
+        """The highest place, (3,)."""
+        points = self.section.points
+        return np.array([self.x_mm, *points[np.argmax(points[:, 1])]])
 
 
 @dataclass(frozen=True)
@@ -157,9 +172,13 @@ class Shape:
         place = self.outermost(side, window)
         if place is None:
             return None
-        share = (float(place[0]) - self.x_mm(0.0)) / self.length_mm
-        inside = window[0] + LANDMARKS.joint_edge < share < window[1] - LANDMARKS.joint_edge
-        return place if inside else None
+        share = float(place[0] - self.x_mm(0.0)) / self.length_mm
+        return place if self._is_joint(share, window) else None
+
+    @staticmethod
+    def _is_joint(share: float, window: tuple[float, float]) -> bool:
+        """Whether an outermost place does not lie at the edge of its search window."""
+        return window[0] + LANDMARKS.joint_edge < share < window[1] - LANDMARKS.joint_edge
 
     def outermost(self, side: float, window: tuple[float, float]) -> Floats | None:
         """The outermost point (3,) of one side (+1 medial, -1 lateral) between two shares of the
@@ -168,11 +187,15 @@ class Shape:
         x, _, z = self.vertices_mm.T
         start, end = (self.x_mm(share) for share in window)
         height_mm = LANDMARKS.width_height * self.length_mm
-        a, b, c = ((x > start) & (x < end) & (z < height_mm))[self.faces.T]
-        near = self.faces[a | b | c]  # coarse triangles at the window's ends count too
-        if not len(near):
+        return self._outermost_of(side, (x > start) & (x < end) & (z < height_mm))
+
+    def _outermost_of(self, side: float, near: Bools) -> Floats | None:
+        """The outermost point (3,) of the faces that have one of some vertices (n,)."""
+        a, b, c = near[self.faces.T]
+        faces = self.faces[a | b | c]  # coarse triangles at the window's ends count too
+        if not len(faces):
             return None
-        outermost = tip(self.vertices_mm, near, side * AXES[1], self.length_mm)
+        outermost = tip(self.vertices_mm, faces, side * AXES[1], self.length_mm)
         return np.array([outermost.place[0], side * outermost.reach, outermost.place[2]])
 
     # ------------------------------------------------------------ the top
@@ -205,6 +228,57 @@ class Shape:
         over = np.array([fall, 0.0, run]) / np.hypot(run, fall)
         faces = self._faces_of((x > start_mm) & (x < end_mm))
         return tip(self.vertices_mm, faces, over, self.length_mm).place
+
+    # ------------------------------------------------------------ where a tape lies
+
+    @cached_property
+    def bottom_arc(self) -> BottomArc | None:
+        """The arc along which a tape's places are counted; None of a foot or an open bottom."""
+        return None if self.kind == "foot" or self.stance is None else bottom_arc(self.stance)
+
+    @cached_property
+    def joints(self) -> tuple[Floats, Floats] | None:
+        """Where a tape lies at the ball: the outer and the inner joint, (3,) each.
+
+        A foot's are MT5 and MT1. On a last they are looked for between the same shares of the
+        bottom's arc. None if one is not found.
+        """
+        if self.bottom_arc is None:
+            return None if self.mt1 is None or self.mt5 is None else (self.mt5, self.mt1)
+        along, over = self.bottom_arc.shares(self.vertices_mm)
+        low = over < LANDMARKS.width_height
+        places = []
+        for side, window in ((-1.0, LANDMARKS.outer_joint), (1.0, LANDMARKS.inner_joint)):
+            place = self._outermost_of(side, low & (along > window[0]) & (along < window[1]))
+            if place is None or not self._is_joint(self._share(place), window):
+                return None
+            places.append(place)
+        return places[0], places[1]
+
+    @cached_property
+    def instep_crown(self) -> Crown:
+        """Across the foot at half the length; of a last, at half its bottom's arc."""
+        return self._crown(LANDMARKS.instep)
+
+    @cached_property
+    def waist_crown(self) -> Crown | None:
+        """Half-way between the middle of the joints and the instep; None without joints."""
+        if self.joints is None:
+            return None
+        ball = self._share(0.5 * (self.joints[0] + self.joints[1]))
+        return self._crown(0.5 * (ball + LANDMARKS.instep))
+
+    def _share(self, place: Floats) -> float:
+        """How far forward a place (3,) is, over the length, or over the arc of a last's bottom."""
+        if self.bottom_arc is None:
+            return float(place[0] - self.x_mm(0.0)) / self.length_mm
+        return float(self.bottom_arc.shares(place[None])[0][0])
+
+    def _crown(self, share: float) -> Crown:
+        """The section across X at a share of the length, or of the arc of a last's bottom."""
+        if self.bottom_arc is not None:
+            share = (self.bottom_arc.x_mm(share) - self.x_mm(0.0)) / self.length_mm
+        return Crown(self.across(share), self.x_mm(share))
 
     # ------------------------------------------------------------ places and sections
 

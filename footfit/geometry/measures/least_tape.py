@@ -8,13 +8,12 @@ convex hull.
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
-from footfit.geometry.measures.landmarks import Shape
+from footfit.geometry.measures.landmarks import AXES, Shape
 from footfit.geometry.mesh.outlines import TAPE_OUTLINES, Outline, outline
-from footfit.geometry.mesh.sections import Planes, plane_sections
 from footfit.geometry.numeric.arrays import Floats
 
 
@@ -25,16 +24,19 @@ class TapeSettings:
     Attributes
     ----------
     most_deg : float
-        The plane tilts no farther than this from upright.
+        The plane tilts no farther than this from upright, and turns no farther in plan.
     step_deg : float
         From plane to plane, until the girth grows on both sides; then a parabola gives the least.
     directions : int
         In how many directions a section's width is taken for its rough girth.
+    beyond : float
+        How far beyond its second place a tape reaches at most, over the length.
     """
 
     most_deg: float = 45.0
     step_deg: float = 10.0
     directions: int = 90
+    beyond: float = 0.1
 
 
 TAPE = TapeSettings()
@@ -52,66 +54,106 @@ class Tape:
         How far the plane's upper part leans towards the toe.
     turn_deg : float
         How far its medial part is turned towards the toe, in plan.
+    reach_mm : float
+        What lies farther across is not within the tape: a toe that rises in front of the instep.
     """
 
     origin: Floats
     axes: Floats
     tilt_deg: float
     turn_deg: float = 0.0
+    reach_mm: float = np.inf
 
     def section(self, shape: Shape) -> Outline:
         """The section in which the tape lies, with its corners."""
         mesh = shape.vertices_mm, shape.faces
-        return outline(*mesh, self.origin, self.axes, shape.length_mm, TAPE_OUTLINES)
+        whole = outline(*mesh, self.origin, self.axes, shape.length_mm, TAPE_OUTLINES)
+        near = tuple(loop for loop in whole.loops if loop[:, 0].mean() < self.reach_mm)
+        return replace(whole, loops=near)
+
+    def goes_on(self, section: Outline, length_mm: float) -> bool:
+        """Whether the tape's section goes on far beyond its second place: no tape lies like that.
+
+        So it is if a toe is so high that the plane runs through the whole forepart.
+        """
+        farthest_mm = float(section.points[:, 0].max(initial=-np.inf))
+        return farthest_mm > self.reach_mm + TAPE.beyond * length_mm
 
 
 def tape_about(
-    shape: Shape, start: Floats, end: Floats, up: Floats, settings: TapeSettings = TAPE
+    shape: Shape, start: Floats, end: Floats, upright: Floats, settings: TapeSettings = TAPE
 ) -> Tape:
     """The shortest tape through two places; its plane turns about the line between them.
 
     Parameters
     ----------
     start, end : (3,)
-        The places; the line runs to the medial side.
-    up : (3,)
-        Without a tilt the plane contains this direction.
+        The places.
+    upright : (3,)
+        The plane without a tilt contains this direction; the tilt is from it towards ``end - start
+        x upright``.
     """
-    across = (end - start) / np.linalg.norm(end - start)
-    girths = RoughGirths(shape, 0.5 * (start + end), settings.directions)
-    tilt_deg = least_near(lambda deg: girths.at(tilted(across, up, deg)), 0.0, settings)
-    return Tape(girths.origin, tilted(across, up, tilt_deg), tilt_deg)
+    half_mm = 0.5 * float(np.linalg.norm(end - start))
+    across = 0.5 * (end - start) / half_mm
+    reach_mm = half_mm + settings.beyond * shape.length_mm
+    girths = RoughGirths(shape, 0.5 * (start + end), settings.directions, reach_mm)
+    tilt_deg = least_near(
+        lambda deg: girths.at(tilted(across, upright, deg)),
+        0.0,
+        (-settings.most_deg, settings.most_deg),
+        settings.step_deg,
+    )
+    axes = tilted(across, upright, tilt_deg)
+    return Tape(girths.origin, axes, tilt_deg, reach_mm=half_mm)
 
 
-def tilted(across: Floats, up: Floats, tilt_deg: float) -> Floats:
-    """The axes (2, 3) of the plane that contains ``across``, tilted forward from ``up``.
+def tape_over(shape: Shape, place: Floats, settings: TapeSettings = TAPE) -> Tape:
+    """The shortest tape over a place (3,) of the ridge; its plane tilts, and turns in plan.
+
+    Its upper part leans forward, because the ridge falls towards the toe.
+    """
+    girths = RoughGirths(shape, place, settings.directions)
+
+    def axes(tilt_deg: float, turn_deg: float) -> Floats:
+        turn = np.radians(turn_deg)
+        return tilted(np.array([np.sin(turn), np.cos(turn), 0.0]), AXES[2], tilt_deg)
+
+    step, most = settings.step_deg, settings.most_deg
+    tilt_deg = least_near(lambda deg: girths.at(axes(deg, 0.0)), 2.0 * step, (0.0, most), step)
+    turn_deg = least_near(lambda deg: girths.at(axes(tilt_deg, deg)), 0.0, (-most, most), step)
+    return Tape(place, axes(tilt_deg, turn_deg), tilt_deg, turn_deg)
+
+
+def tilted(across: Floats, upright: Floats, tilt_deg: float) -> Floats:
+    """The axes (2, 3) of the plane that contains ``across``, tilted from ``upright``.
 
     Examples
     --------
     >>> tilted(np.array([0.0, 1.0, 0.0]), np.array([0.0, 0.0, 1.0]), 90.0).round(9).tolist()
     [[0.0, 1.0, 0.0], [1.0, 0.0, 0.0]]
     """
-    ahead = np.cross(across, up)
+    ahead = np.cross(across, upright)
     ahead /= np.linalg.norm(ahead)
     tilt = np.radians(tilt_deg)
     return np.stack([across, np.cos(tilt) * np.cross(ahead, across) + np.sin(tilt) * ahead])
 
 
-def least_near(girth_at: Callable[[float], float], deg: float, settings: TapeSettings) -> float:
+def least_near(
+    girth_at: Callable[[float], float], deg: float, bounds: tuple[float, float], step: float
+) -> float:
     """The angle of the least girth near an angle, by a parabola.
 
-    It goes downhill step by step until the girth grows on both sides, or the plane leans too far.
+    It goes downhill step by step until the girth grows on both sides, or a bound is passed.
 
     Examples
     --------
-    >>> least_near(lambda deg: (deg - 7.0) ** 2, 0.0, TAPE)
+    >>> least_near(lambda deg: (deg - 7.0) ** 2, 0.0, (-45.0, 45.0), 10.0)
     7.0
-    >>> least_near(lambda deg: -deg, 0.0, TAPE)
+    >>> least_near(lambda deg: -deg, 0.0, (-45.0, 45.0), 10.0)
     45.0
     """
-    step = settings.step_deg
     before, here, after = (girth_at(deg + side * step) for side in (-1.0, 0.0, 1.0))
-    while min(before, after) < here and abs(deg) < settings.most_deg:
+    while min(before, after) < here and bounds[0] < deg < bounds[1]:
         if before < after:
             deg -= step
             before, here, after = girth_at(deg - step), before, here
@@ -121,7 +163,7 @@ def least_near(girth_at: Callable[[float], float], deg: float, settings: TapeSet
     bend = before - 2.0 * here + after
     if bend > 0.0:
         deg += 0.5 * step * (before - after) / bend
-    return float(np.clip(deg, -settings.most_deg, settings.most_deg))
+    return float(np.clip(deg, *bounds))
 
 
 class RoughGirths:
@@ -131,22 +173,29 @@ class RoughGirths:
     no outline: only the points where the plane cuts the edges.
     """
 
-    def __init__(self, shape: Shape, origin: Floats, directions: int) -> None:
+    def __init__(
+        self, shape: Shape, origin: Floats, directions: int, reach_mm: float = np.inf
+    ) -> None:
         self.origin = origin
-        self._shape = shape
+        self._reach_mm = reach_mm
+        self._vertices, self._faces = shape.vertices_mm, shape.faces
         angle = np.arange(directions) * (2.0 * np.pi / directions)
         self._directions = np.stack([np.cos(angle), np.sin(angle)])
 
     def at(self, axes: Floats) -> float:
-        """The girth in the plane along ``axes`` (2, 3); 0 if the plane cuts nothing."""
+        """The girth in the plane along ``axes`` (2, 3); infinite if the plane cuts nothing."""
         normal = np.cross(axes[0], axes[1])
-        level = np.array([self.origin @ normal])
-        values = self._shape.vertices_mm @ normal
-        a, b, c = (values > level)[self._shape.faces.T]
-        cut = self._shape.faces[(a != b) | (a != c)]
-        planes = Planes(level, self.origin[None, :], normal[None, :])
-        points = plane_sections(self._shape.vertices_mm, cut, values, planes).points
+        height = self._vertices @ normal - self.origin @ normal
+        above = height > 0.0
+        a, b, c = above[self._faces.T]
+        cut = self._faces[(a != b) | (a != c)]
+        start, end = cut.ravel(), np.roll(cut, -1, axis=1).ravel()
+        crossed = above[start] != above[end]
+        start, end = start[crossed], end[crossed]
+        share = height[start] / (height[start] - height[end])
+        below, over = self._vertices[start], self._vertices[end]
+        points = (below + share[:, None] * (over - below) - self.origin) @ axes.T
+        points = points[points[:, 0] < self._reach_mm]
         if not len(points):
-            return 0.0
-        reach = (points.reshape(-1, 3) @ axes.T @ self._directions).max(axis=0)
-        return float(reach.mean() * 2.0 * np.pi)
+            return np.inf
+        return float((points @ self._directions).max(axis=0).mean() * 2.0 * np.pi)

@@ -12,6 +12,7 @@ from footfit.geometry.numeric.arrays import Floats
 NO_BALL = "the scan shows no joint at the ball"
 OPEN = "the scan is open at the {place}"
 CUT = "the leg is cut below the {place}"
+BLOCKED = "the forepart is in the tape's way"
 SAWN = "the last is sawn off below the {place}"
 
 
