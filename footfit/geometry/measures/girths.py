@@ -8,10 +8,10 @@ from footfit.geometry.measures.least_tape import tape_about, tape_over
 from footfit.geometry.measures.measure_value import (
     BLOCKED,
     CUT,
-    NO_BALL,
     OPEN,
     MeasureValue,
     lacking,
+    no_ball,
     section_value,
 )
 from footfit.geometry.measures.tape import hull_girth
@@ -21,7 +21,7 @@ def ball_girth(shape: Shape) -> MeasureValue:
     """Around the ball, in the upright plane through MT1 and MT5."""
     plane = shape.ball_plane
     if plane is None:
-        return MeasureValue(None, NO_BALL)
+        return no_ball(shape)
     return section_value(shape, shape.cut(*plane), "ball", hull_girth)
 
 
@@ -29,7 +29,7 @@ def waist_girth(shape: Shape) -> MeasureValue:
     """Around the section across X half-way between the ball (MT1 to MT5) and the instep."""
     plane = shape.ball_plane
     if plane is None:
-        return MeasureValue(None, NO_BALL)
+        return no_ball(shape)
     ball = (plane[0][0] - shape.x_mm(0.0)) / shape.length_mm
     section = shape.across(0.5 * (ball + LANDMARKS.instep))
     return section_value(shape, section, "waist", hull_girth)
@@ -69,7 +69,7 @@ def ball_girth_least(shape: Shape) -> MeasureValue:
     joint until the girth is least.
     """
     if shape.joints is None:
-        return MeasureValue(None, NO_BALL)
+        return no_ball(shape)
     section = tape_about(shape, *shape.joints, AXES[2]).section(shape)
     return section_value(shape, section, "ball", hull_girth)
 
@@ -79,7 +79,7 @@ def waist_girth_least(shape: Shape) -> MeasureValue:
     plane in which the girth is least.
     """
     if shape.waist_crown is None:
-        return MeasureValue(None, NO_BALL)
+        return no_ball(shape)
     return _least_over(shape, shape.waist_crown, "waist")
 
 

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from footfit.geometry.measures.landmarks import Shape
-from footfit.geometry.measures.measure_value import OPEN, MeasureValue, section_value
+from footfit.geometry.measures.measure_value import OPEN, UNSCANNED, MeasureValue, section_value
 from footfit.geometry.measures.underside import BOTTOM, underside
 
 
@@ -30,7 +30,8 @@ def arch_height(shape: Shape) -> MeasureValue:
     """
     arch = underside(shape, BOTTOM.arch, BOTTOM.arch_places)
     if arch is None:
-        return MeasureValue(None, NO_SOLE.format(place="arch"))
+        reason = UNSCANNED if shape.filled.any() else NO_SOLE.format(place="arch")
+        return MeasureValue(None, reason)
     return MeasureValue(float(arch.smooth(BOTTOM.bandwidth * shape.length_mm).z_mm.max()))
 
 
@@ -44,6 +45,8 @@ def toe_height(shape: Shape) -> MeasureValue:
     section = shape.across(HEIGHTS.toe)
     if shape.opened(section):
         return MeasureValue(None, OPEN.format(place="toes"))
+    if shape.unscanned(section):
+        return MeasureValue(None, UNSCANNED)
     return MeasureValue(float(np.ptp(section.points[:, 1])))
 
 
@@ -55,6 +58,9 @@ def toe_spring(shape: Shape) -> MeasureValue:
     section = shape.across(HEIGHTS.toe_spring)
     if shape.stance is None or shape.opened(section):
         return MeasureValue(None, NO_SOLE.format(place="toes or the ball"))
+    middle_mm = float(section.points[:, 1].min() + 0.5 * np.ptp(section.points[:, 1]))
+    if shape.unscanned(section, below_mm=middle_mm):
+        return MeasureValue(None, UNSCANNED)
     x_mm, z_mm = shape.x_mm(HEIGHTS.toe_spring), float(section.points[:, 1].min())
     return MeasureValue(shape.stance.over_ground_mm(x_mm, z_mm))
 

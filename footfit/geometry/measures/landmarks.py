@@ -13,7 +13,9 @@ import numpy as np
 
 from footfit.geometry.flare.levelled_bottom import low_length
 from footfit.geometry.measures.bottom_arc import BottomArc, bottom_arc
+from footfit.geometry.measures.tape import convex_hull, depth_under_hull
 from footfit.geometry.measures.top_cut import top_cut_faces
+from footfit.geometry.mesh.filled_holes import filled_faces
 from footfit.geometry.mesh.outermost_point import TIPS, Tip, tip
 from footfit.geometry.mesh.outlines import Outline, outline
 from footfit.geometry.mesh.sections import lowest, sections_across
@@ -43,6 +45,10 @@ class LandmarkSettings:
     cone: float = 0.15  # a place on a last's cone
     top_crossed: float = 0.05  # a section that runs farther over the top cut is not measured
     gap: float = 0.03  # a section with a wider gap is not measured
+    ground: float = 0.006  # a flat sole lies so near to the ground
+    filled_crossed: float = 0.05  # a tape that runs farther over a filled hole is not read
+    touched: float = 0.008  # what lies so deep under a tape is touched by it
+    filled_beside: float = 0.004  # a joint this near to a filled hole may have lain in it
 
 
 LANDMARKS = LandmarkSettings()
@@ -82,8 +88,9 @@ class Shape:
         return low if len(low) else self.faces
 
     def under(self, height: float) -> Ints:
-        """The faces (k, 3) lower than a height over the length."""
-        return self._faces_of(self.vertices_mm[:, 2] < height * self.length_mm)
+        """The faces (k, 3) lower than a height over the length, without those that fill a hole."""
+        a, b, c = (self.vertices_mm[:, 2] < height * self.length_mm)[self.faces.T]
+        return np.asarray(self.faces[a & b & c & ~self.filled])
 
     @cached_property
     def ends(self) -> tuple[Tip, Tip]:
@@ -196,7 +203,53 @@ class Shape:
         if not len(faces):
             return None
         outermost = tip(self.vertices_mm, faces, side * AXES[1], self.length_mm)
+        filled = faces[self.filled[a | b | c]]
+        beside_mm = (side * self.vertices_mm[filled, 1]).max(initial=-np.inf)
+        if beside_mm > outermost.reach - LANDMARKS.filled_beside * self.length_mm:
+            return None
         return np.array([outermost.place[0], side * outermost.reach, outermost.place[2]])
+
+    # ------------------------------------------------------------ what was not scanned
+
+    @cached_property
+    def filled(self) -> Bools:
+        """Which faces (m,) a program closed a hole with: nothing was scanned there.
+
+        A leg's lid and a flat sole on the ground are no such faces. Of a last no plane is, and no
+        facet as high as the top of its cone.
+        """
+        z_mm = self.vertices_mm[:, 2]
+        flat = np.abs(z_mm) < LANDMARKS.ground * self.length_mm
+        if self.kind == "last":
+            flat |= z_mm > LANDMARKS.length_height * self.length_mm
+        a, b, c = flat[self.faces.T]
+        return filled_faces(
+            self.vertices_mm,
+            self.faces,
+            self.length_mm,
+            self.top_cut | (a & b & c),
+            plane_is_shape=self.kind == "last",
+        )
+
+    def unscanned(
+        self, section: Outline, *, upright: bool = False, below_mm: float = np.inf
+    ) -> bool:
+        """Whether a tape around a section runs over a filled hole.
+
+        Only over upright parts, or below a height (mm), if one of these is asked for.
+        """
+        filled = self.filled[section.face]
+        filled &= section.segments[:, :, 1].min(axis=1) < below_mm
+        if upright:
+            across, up = np.abs(section.segments[:, 1] - section.segments[:, 0]).T
+            filled &= up > across
+        if not filled.any():
+            return False
+        middles = section.segments[filled].mean(axis=1)
+        depth_mm = depth_under_hull(middles, convex_hull(section.points))
+        touched = depth_mm < LANDMARKS.touched * self.length_mm
+        crossed_mm = float(section.length_mm[filled][touched].sum())
+        return crossed_mm > LANDMARKS.filled_crossed * self.length_mm
 
     # ------------------------------------------------------------ the top
 

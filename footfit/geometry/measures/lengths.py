@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from footfit.geometry.measures.landmarks import Shape
-from footfit.geometry.measures.measure_value import NO_BALL, MeasureValue
+from footfit.geometry.measures.measure_value import MeasureValue, no_ball
 from footfit.geometry.measures.underside import BOTTOM, underside
 from footfit.geometry.mesh.outermost_point import tip
 
@@ -42,7 +42,7 @@ def functional_length(shape: Shape) -> MeasureValue:
 def ball_length(shape: Shape) -> MeasureValue:
     """From the pternion to the inner joint (MT1) along X."""
     if shape.mt1 is None:
-        return MeasureValue(None, NO_BALL)
+        return no_ball(shape)
     return MeasureValue(float(shape.mt1[0] - shape.x_mm(0.0)))
 
 

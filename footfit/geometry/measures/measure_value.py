@@ -13,6 +13,7 @@ NO_BALL = "the scan shows no joint at the ball"
 OPEN = "the scan is open at the {place}"
 CUT = "the leg is cut below the {place}"
 BLOCKED = "the forepart is in the tape's way"
+UNSCANNED = "this part was not scanned"
 SAWN = "the last is sawn off below the {place}"
 
 
@@ -23,6 +24,11 @@ class MeasureValue(NamedTuple):
     reason: str | None = None
 
 
+def no_ball(shape: Shape) -> MeasureValue:
+    """What is said of a shape on which a joint of the ball is not found."""
+    return MeasureValue(None, UNSCANNED if shape.filled.any() else NO_BALL)
+
+
 def lacking(shape: Shape, section: Outline, place: str, *, over_cone: bool = False) -> str | None:
     """Why a section at a place is not a whole section of the foot or last; None if it is whole.
 
@@ -30,6 +36,8 @@ def lacking(shape: Shape, section: Outline, place: str, *, over_cone: bool = Fal
     """
     if shape.opened(section):
         return OPEN.format(place=place)
+    if shape.unscanned(section):
+        return UNSCANNED
     if shape.kind == "last" and over_cone:
         return None
     if shape.topped(section):

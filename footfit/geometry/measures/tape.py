@@ -45,3 +45,17 @@ def hull_girth(points: Floats) -> float:
     """
     hull = convex_hull(points)
     return float(np.linalg.norm(np.roll(hull, -1, axis=0) - hull, axis=1).sum())
+
+
+def depth_under_hull(points: Floats, hull: Floats) -> Floats:
+    """How deep points (n, 2) lie inside a convex hull (h, 2), counter-clockwise, (n,).
+
+    Examples
+    --------
+    >>> square = np.array([[0.0, 0], [4, 0], [4, 4], [0, 4]])
+    >>> depth_under_hull(np.array([[2.0, 1], [4, 2]]), square).tolist()
+    [1.0, 0.0]
+    """
+    sides = np.roll(hull, -1, axis=0) - hull
+    inward = np.column_stack([-sides[:, 1], sides[:, 0]]) / np.hypot(*sides.T)[:, None]
+    return np.asarray((points @ inward.T - (hull * inward).sum(axis=1)).min(axis=1))

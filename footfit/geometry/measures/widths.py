@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from footfit.geometry.measures.landmarks import Shape
-from footfit.geometry.measures.measure_value import NO_BALL, OPEN, MeasureValue
+from footfit.geometry.measures.measure_value import OPEN, UNSCANNED, MeasureValue, no_ball
 from footfit.geometry.mesh.outlines import Outline
 
 
@@ -30,7 +30,7 @@ WIDTHS = WidthSettings()
 def ball_width(shape: Shape) -> MeasureValue:
     """From MT1 to MT5 in plan (the oblique ball width)."""
     if shape.mt1 is None or shape.mt5 is None:
-        return MeasureValue(None, NO_BALL)
+        return no_ball(shape)
     return MeasureValue(float(np.hypot(*(shape.mt1 - shape.mt5)[:2])))
 
 
@@ -38,7 +38,7 @@ def ball_width_orthogonal(shape: Shape) -> MeasureValue:
     """Between the two tangents along X at the forefoot (ISO 7250-1 foot breadth)."""
     medial, lateral = (shape.outermost(side, WIDTHS.forefoot) for side in (1.0, -1.0))
     if medial is None or lateral is None:
-        return MeasureValue(None, NO_BALL)
+        return no_ball(shape)
     return MeasureValue(float(medial[1] - lateral[1]))
 
 
@@ -72,6 +72,8 @@ def _mean_width(
         below_mm = section.points[:, 1].min(initial=np.inf) + WIDTHS.height * shape.length_mm
         if shape.opened(section, below_mm):
             return MeasureValue(None, OPEN.format(place=place))
+        if shape.unscanned(section, upright=True):
+            return MeasureValue(None, UNSCANNED)
         widths.append(width(section, shape.length_mm))
     return MeasureValue(float(np.mean(widths)))
 

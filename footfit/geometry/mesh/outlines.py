@@ -51,13 +51,14 @@ class Outline:
     """A section: ``loops`` of smoothed, evenly spaced points (k, 2), across and up.
 
     ``gaps`` (g, 2, 2) are the ends of the straight pieces that close open loops. ``face`` (m,) are
-    the faces that the plane cuts, each over the length ``length_mm`` (m,).
+    the faces that the plane cuts, each along a segment (m, 2, 2) of the length ``length_mm`` (m,).
     """
 
     loops: tuple[Floats, ...]
     gaps: Floats
     face: Ints
     length_mm: Floats
+    segments: Floats
 
     def gap_mm(self, below_mm: float = np.inf) -> float:
         """The longest straight piece with an end below a height; 0 where there is none."""
@@ -110,7 +111,8 @@ def outline(
         if long >= settings.speck * max(lengths)
     ]
     steps = np.linalg.norm(segments.points[:, 1] - segments.points[:, 0], axis=1)
-    return Outline(tuple(kept), (gaps - origin) @ axes.T, cut[segments.face], steps)
+    flat = (segments.points - origin) @ axes.T
+    return Outline(tuple(kept), (gaps - origin) @ axes.T, cut[segments.face], steps, flat)
 
 
 def closed_loops(points: Floats) -> tuple[list[Floats], Floats]:

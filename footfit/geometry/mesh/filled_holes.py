@@ -1,0 +1,203 @@
+"""Facets that a program closed a hole with: large ones, or small ones that all lie in one plane."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from footfit.geometry.mesh.surface import area_vectors, unit
+from footfit.geometry.mesh.topology import edge_groups, lowest_connected
+from footfit.geometry.numeric.arrays import Bools, Floats, Ints, row_dots, row_lengths
+
+
+@dataclass(frozen=True, slots=True)
+class FillingSettings:
+    """What tells a filling from a surface; lengths over L, areas over L squared.
+
+    Attributes
+    ----------
+    long, longer : float
+        Facets that meet in an edge longer than both, over L and over the mesh's median edge,
+        belong together.
+    larger : float
+        They are a filling if their longest edges are so many times as long as the edges around
+        them. No hole is filled evenly: its rim is as fine as the scan. Decimated meshes reach 3.4.
+    crease_deg : float
+        And if the surface bends where they begin: by so much, times how much larger they are. Where
+        it hardly bends, they hardly differ from it.
+    area, plane_area, plane_faces : float, float, int
+        The least area of large facets, and of facets in a plane, and how many of these there are
+        at least: of a decimated mesh a few facets may lie in a plane.
+    normal_bins, bin_area, counted : int, float, int
+        Normals are counted in so many bins each way. A plane fills one, or four neighbours. About
+        so many faces are counted.
+    level : float
+        How far the unit normals of neighbours in a plane may differ.
+    thickness : float
+        How far facets in a plane may lie from it.
+    known : float
+        A patch of which so much is known to be a lid or a flat sole is no filling.
+    """
+
+    long: float = 0.05
+    longer: float = 3.0
+    larger: float = 4.0
+    crease_deg: float = 60.0
+    area: float = 0.004
+    plane_area: float = 0.008
+    plane_faces: int = 30
+    normal_bins: int = 256
+    bin_area: float = 0.0015
+    counted: int = 12_000
+    level: float = 0.002
+    thickness: float = 0.001
+    known: float = 0.5
+
+
+FILLING = FillingSettings()
+
+
+@dataclass(frozen=True, slots=True)
+class _Patches:
+    """Patches of faces: the faces' rows, and the number of the patch of each, (k,)."""
+
+    rows: Ints
+    label: Ints
+
+    def sums(self, values: Floats) -> Floats:
+        """The sum of the values (k,) of each patch's faces, (patches,)."""
+        return np.bincount(self.label, weights=values).astype(np.float64)
+
+
+def filled_faces(
+    vertices: Floats, faces: Ints, length: float, known: Bools, *, plane_is_shape: bool
+) -> Bools:
+    """Which faces (m,) a program closed a hole with.
+
+    Parameters
+    ----------
+    vertices : (n, 3) float64
+    faces : (m, 3) int64
+    length : float
+        Of the shape, in the unit of the vertices.
+    known : (m,) bool
+        Faces that are flat in their own right: the lid of a leg, a sole on the ground.
+    plane_is_shape : bool
+        Whether a plane may be a part of the shape, as the cuts of a last are. Then facets in a
+        plane are no filling.
+    """
+    filled = np.zeros(len(faces), dtype=bool)
+    patches = [_large_facets(vertices, faces, length)]
+    if not plane_is_shape:
+        patches.append(_planes(vertices, faces, length, known))
+    for each in patches:
+        if not len(each.rows):
+            continue
+        areas = row_lengths(area_vectors(vertices, faces[each.rows]))
+        filling = each.sums(areas * known[each.rows]) < FILLING.known * each.sums(areas)
+        if plane_is_shape:
+            filling &= ~_lie_in_planes(vertices, faces, each, length)
+        filled[each.rows[filling[each.label]]] = True
+    return filled
+
+
+def _lie_in_planes(vertices: Floats, faces: Ints, patches: _Patches, length: float) -> Bools:
+    """Which patches are thinner than ``FILLING.thickness``, (patches,)."""
+    flat = np.zeros(int(patches.label.max()) + 1, dtype=bool)
+    for number in range(len(flat)):
+        points = vertices[np.unique(faces[patches.rows[patches.label == number]])]
+        normal = np.linalg.svd(points - points.mean(axis=0), full_matrices=False)[2][-1]
+        flat[number] = np.ptp(points @ normal) < FILLING.thickness * length
+    return flat
+
+
+# ---------------------------------------------------------------- large facets
+
+
+def _large_facets(vertices: Floats, faces: Ints, length: float) -> _Patches:
+    """Patches of facets much larger than the edges around them, with a crease around them."""
+    columns = [np.ascontiguousarray(column)[faces.T] for column in vertices.T]
+    x, y, z = (np.square(column[[1, 2, 0]] - column) for column in columns)
+    squares = x + y + z  # (3, m): the edge from each corner on
+    usual = float(np.sqrt(np.median(squares[:, :: max(1, len(faces) // 2000)])))
+    least = max(FILLING.long * length, FILLING.longer * usual) ** 2
+    large = (squares > least).any(axis=0)
+    if not large.any():
+        return _none()
+    rim = np.zeros(len(vertices), dtype=bool)
+    rim[faces[large]] = True
+    near = np.flatnonzero(rim[faces].sum(axis=1) >= 2)  # the facets and their neighbours
+    sides = np.sqrt(squares[:, near].T)
+    order, starts, counts = edge_groups(faces[near])
+    edge = sides.ravel()[order[starts]]
+    pair = order[np.stack([starts, np.minimum(starts + 1, len(order) - 1)], axis=1)] // 3
+    inside = (counts == 2) & (edge**2 > least)
+    label = np.unique(lowest_connected(pair[inside], len(near)), return_inverse=True)[1].ravel()
+    vectors = area_vectors(vertices, faces[near])
+    areas, normals = row_lengths(vectors), unit(vectors)
+    patches = _Patches(near, label)
+    size = patches.sums(areas * sides.max(axis=1)) / patches.sums(areas)
+    around, crease = np.zeros((2, len(size)))
+    bend = row_dots(normals[pair[:, 0]], normals[pair[:, 1]]).clip(-1.0, 1.0)
+    outer = (counts == 2) & (label[pair[:, 0]] != label[pair[:, 1]])
+    total = np.zeros(len(size))
+    for side in (0, 1):
+        of = label[pair[outer, side]]
+        around += np.bincount(of, minlength=len(size))
+        total += np.bincount(of, edge[outer], len(size))
+        crease += np.bincount(of, edge[outer] * np.arccos(bend[outer]), len(size))
+    filling = patches.sums(areas) > FILLING.area * length**2
+    filling &= (around > 0) & (size * around > FILLING.larger * total)
+    filling &= size * around * crease > np.radians(FILLING.crease_deg) * total**2
+    filling &= np.bincount(label) > 1
+    return _chosen(patches, filling)
+
+
+# ---------------------------------------------------------------- planes
+
+
+def _planes(vertices: Floats, faces: Ints, length: float, known: Bools) -> _Patches:
+    """Patches of faces that lie in one plane to within rounding, as no scanned skin does."""
+    step = max(1, len(faces) // FILLING.counted)
+    vectors = area_vectors(vertices, faces[::step])
+    areas = np.where(known[::step], 0.0, step * row_lengths(vectors))
+    share = np.bincount(_normal_bin(vectors), areas, minlength=2 * FILLING.normal_bins**2)
+    full = share > FILLING.bin_area * length**2
+    if not full.any():
+        return _none()
+    vectors = area_vectors(vertices, faces)
+    rows = np.flatnonzero(full[_normal_bin(vectors)] & ~known)
+    vectors = vectors[rows]
+    order, starts, counts = edge_groups(faces[rows])
+    first = starts[counts == 2]
+    pair = np.stack([order[first], order[first + 1]], axis=1) // 3
+    normals = unit(vectors)
+    level = row_lengths(normals[pair[:, 0]] - normals[pair[:, 1]]) < FILLING.level
+    label = np.unique(lowest_connected(pair[level], len(rows)), return_inverse=True)[1].ravel()
+    patches = _Patches(rows, label)
+    wanted = patches.sums(row_lengths(vectors)) > FILLING.plane_area * length**2
+    large = _chosen(patches, wanted & (np.bincount(label) >= FILLING.plane_faces))
+    if not len(large.rows):
+        return large
+    return _chosen(large, _lie_in_planes(vertices, faces, large, length))
+
+
+def _normal_bin(vectors: Floats) -> Ints:
+    """The bin (m,) of each normal: its place in the octahedron's plan, and whether it looks up."""
+    size = np.abs(vectors).sum(axis=1)
+    x, y, z = vectors.T / np.where(size > 0.0, size, 1.0)
+    bins = FILLING.normal_bins
+    place = [(0.5 * bins * (axis + 1.0)).astype(np.int64).clip(0, bins - 1) for axis in (x, y)]
+    return np.asarray((place[0] * bins + place[1]) * 2 + (z > 0.0))
+
+
+def _none() -> _Patches:
+    return _Patches(np.empty(0, dtype=np.int64), np.empty(0, dtype=np.int64))
+
+
+def _chosen(patches: _Patches, wanted: Bools) -> _Patches:
+    """Some of the patches, numbered anew."""
+    kept = wanted[patches.label]
+    label = (np.cumsum(wanted) - 1)[patches.label[kept]]
+    return _Patches(patches.rows[kept], label)
