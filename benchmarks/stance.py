@@ -1,17 +1,20 @@
-"""How high a heel stands by ``footfit.geometry.stance``, on two families of lasts.
+"""How high a heel stands and how far a toe springs, on two families of lasts.
 
     python -m benchmarks.stance [--count 8] [--seed 7]
 
 The lasts lie in their resting frame, as drafted by ``tools.last_specs.wide`` and, where it stands
-beside the project, by ``../shared/tools/lasts2.py``. Errors are mm of heel height; ``sd`` is the
-mean standard deviation that the stance states.
+beside the project, by ``../shared/tools/lasts2.py``. Errors are in mm: of the heel height by the
+shape alone, and of the toe spring at the tip if the heel is labelled. ``sd`` is the mean standard
+deviation that the stance states; ``ms`` is the time of the stance by the shape.
 """
 
 from __future__ import annotations
 
 import argparse
 import sys
+import time
 from collections.abc import Callable, Iterator
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
@@ -19,21 +22,39 @@ import numpy as np
 
 from benchmarks.tables import markdown
 from footfit.geometry.numeric.arrays import Floats, Ints
-from footfit.geometry.stance.ground import standing_ground
+from footfit.geometry.stance.cues import StanceLabels
+from footfit.geometry.stance.stance import STANCE, stance_of
 from tools.last_specs import HEEL_BANDS_MM, STYLES, wide
 from tools.lasts import last_mesh, standing
 
 SHARED = Path(__file__).resolve().parents[2] / "shared" / "tools"
 HIGHEST_MM = 112.0  # of lasts2
-SEAT = 0.62  # from the tread to the seat, over the standing length
-Case = tuple[Floats, Ints, float]
+HEADS = ["family", "heel mm", "lasts", "heel RMS", "bias", "worst", "sd", "within 2 sd"]
+HEADS += ["spring RMS", "worst", "sd", "ms"]
+
+
+@dataclass(frozen=True, slots=True)
+class Case:
+    """A last in its resting frame, its seat's line at the rear, and its drafted toe spring."""
+
+    vertices_mm: Floats
+    faces: Ints
+    heel_mm: float
+    spring_mm: float
+
+
 Draw = Callable[[np.random.Generator, tuple[float, float], int], Case]
 
 
 def own(rng: np.random.Generator, band: tuple[float, float], number: int) -> Case:
-    """A last of the project's generator, and how far its ground is turned, radians."""
+    """A last of the project's generator."""
     spec = wide(rng, STYLES[number % 4], band, rings=100, segments=72)
-    return *last_mesh(spec), float(np.radians(standing(spec).pitch_deg))
+    drafted = standing(spec)
+    x, z = drafted.middle_mm.T
+    place = (x - x[0]) / np.ptp(x)
+    seat = (place >= STANCE.seat[0]) & (place <= STANCE.seat[1])
+    heel_mm = np.polyfit(x[seat] - x[0], z[seat] - z.min(), 1)[1]
+    return Case(*last_mesh(spec), float(heel_mm), drafted.tip_mm)
 
 
 def second_family() -> bool:
@@ -47,7 +68,9 @@ def other(rng: np.random.Generator, band: tuple[float, float], _: int) -> Case:
     """A last of the second family, laid on its resting line."""
     import lasts2
 
-    return at_rest(lasts2.mesh(other_spec(rng, band), n_long=150, n_round=84))
+    spec = other_spec(rng, band)
+    vertices_mm, faces = at_rest(lasts2.mesh(spec, n_long=150, n_round=84))
+    return Case(vertices_mm, faces, spec.heel_height, spec.toe_spring)
 
 
 def other_spec(rng: np.random.Generator, band: tuple[float, float]) -> Any:
@@ -59,8 +82,8 @@ def other_spec(rng: np.random.Generator, band: tuple[float, float]) -> Any:
     return spec
 
 
-def at_rest(mesh: Any) -> Case:
-    """A standing mesh on its resting line, and how far that turned it, radians."""
+def at_rest(mesh: Any) -> tuple[Floats, Ints]:
+    """A standing mesh laid on its resting line."""
     from scipy.spatial import ConvexHull
 
     points = np.array(mesh.vertices)
@@ -70,39 +93,55 @@ def at_rest(mesh: Any) -> Case:
     angle = -float(np.arctan2(below[1], below[0]))
     cosine, sine = np.cos(angle), np.sin(angle)
     turn = np.array([[cosine, 0.0, sine], [0.0, 1.0, 0.0], [-sine, 0.0, cosine]])
-    return points @ turn, np.array(mesh.faces), angle
+    return points @ turn, np.array(mesh.faces)
 
 
 def rows(count: int, seed: int) -> Iterator[list[str]]:
     """A row for each family and band of heels."""
-    families = {"own": own} | ({"lasts2": other} if second_family() else {})
+    families: dict[str, Draw] = {"own": own} | ({"lasts2": other} if second_family() else {})
     for name, draw in families.items():
         rng = np.random.default_rng(seed)
         for band in HEEL_BANDS_MM:
-            yield [name, f"{band[0]:.0f}-{band[1]:.0f}", *_errors(rng, draw, band, count)]
+            cases = [draw(rng, band, number) for number in range(count)]
+            yield [name, f"{band[0]:.0f}-{band[1]:.0f}", *_figures(cases)]
 
 
-def _errors(
-    rng: np.random.Generator, draw: Draw, band: tuple[float, float], count: int
-) -> list[str]:
-    off, sds = [], []
-    for number in range(count):
-        vertices, faces, angle = draw(rng, band, number)
-        ground = standing_ground(vertices, faces)
-        if ground is None:
-            continue
-        arm_mm = SEAT * ground.line.length_mm
-        off.append(arm_mm * np.tan(ground.angle - angle))
-        sds.append(np.hypot(arm_mm * ground.sd, 0.5))
-    error, sd = np.array(off), np.array(sds)
+def _figures(cases: list[Case]) -> list[str]:
+    readings = [reading for case in cases if (reading := _reading(case)) is not None]
+    heel, heel_sd, spring, spring_sd, ms = np.array(readings).T
     return [
-        f"{len(error)} of {count}",
-        f"{np.sqrt(np.mean(error**2)):.1f}",
-        f"{np.mean(error):+.1f}",
-        f"{np.abs(error).max():.1f}",
-        f"{sd.mean():.1f}",
-        f"{100 * np.mean(np.abs(error) < 2 * sd):.0f} %",
+        f"{len(readings)} of {len(cases)}",
+        f"{np.sqrt(np.mean(heel**2)):.1f}",
+        f"{np.mean(heel):+.1f}",
+        f"{np.abs(heel).max():.1f}",
+        f"{heel_sd.mean():.1f}",
+        f"{100 * np.mean(np.abs(heel) < 2 * heel_sd):.0f} %",
+        f"{np.sqrt(np.mean(spring**2)):.1f}",
+        f"{np.abs(spring).max():.1f}",
+        f"{spring_sd.mean():.1f}",
+        f"{ms.mean():.0f}",
     ]
+
+
+def _reading(case: Case) -> tuple[float, ...] | None:
+    """Errors and standard deviations of heel and labelled spring, and the time; None if refused."""
+    start = time.process_time()
+    by_shape = stance_of(case.vertices_mm, case.faces, "last")
+    ms = 1e3 * (time.process_time() - start)
+    labels = StanceLabels(case.heel_mm)
+    by_label = stance_of(case.vertices_mm, case.faces, "last", labels)
+    if by_shape is None or by_label is None:
+        return None
+    heel_mm, tip_mm = by_shape.heel_mm(), by_label.tip_mm()
+    if heel_mm is None or tip_mm is None:
+        return None
+    return (
+        heel_mm - case.heel_mm,
+        by_shape.heel_sd_mm,
+        tip_mm - case.spring_mm,
+        by_label.tip_sd_mm,
+        ms,
+    )
 
 
 def main() -> None:
@@ -111,8 +150,7 @@ def main() -> None:
     parser.add_argument("--count", type=int, default=8)
     parser.add_argument("--seed", type=int, default=7)
     options = parser.parse_args()
-    heads = ["family", "heel mm", "lasts", "RMS", "bias", "worst", "sd", "within 2 sd"]
-    print(markdown(heads, list(rows(options.count, options.seed))))
+    print(markdown(HEADS, list(rows(options.count, options.seed))))
 
 
 if __name__ == "__main__":

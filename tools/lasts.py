@@ -407,10 +407,14 @@ class Standing:
         From the resting plane to the floor, + where the heel is raised.
     middle_mm : (k, 2)
         The bottom's middle from heel to toe, x along the floor and z over it.
+    tip_mm : float
+        The height of the feather edge at the tip, where the sole is no longer hollowed to its
+        middle.
     """
 
     pitch_deg: float
     middle_mm: Floats
+    tip_mm: float
 
     def height_mm(self, station: float) -> float:
         """The bottom's height over the floor at a share of its length along the floor."""
@@ -426,4 +430,7 @@ class Standing:
 def standing(spec: LastSpec) -> Standing:
     """How the last of a spec stands, as it was drafted."""
     view = _side_view(spec)
-    return Standing(view.pitch_deg, view.drafted * _placed(spec)[2])
+    unit_mm = _placed(spec)[2]
+    middle_mm = view.drafted * unit_mm
+    tip_mm = middle_mm[-1, 1] - middle_mm[:, 1].min() + unit_mm * float(view.crown(np.ones(1))[0])
+    return Standing(view.pitch_deg, middle_mm, float(tip_mm))

@@ -1,8 +1,8 @@
 """The ground under a standing last: where its tread lies level.
 
 Heel height and toe spring trade one against the other, and a last has no mark of how it stands.
-Two cues are combined by their own uncertainties: a model of the whole bottom
-(:mod:`footfit.geometry.stance.tread_fit`), and the mean slope near the tread's usual place.
+Two cues are read from its bottom: a model of all of it (:mod:`footfit.geometry.stance.tread_fit`),
+and the mean slope near the tread's usual place.
 """
 
 from __future__ import annotations
@@ -13,6 +13,7 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from footfit.geometry.numeric.arrays import Floats, Ints
+from footfit.geometry.stance.cues import Cue
 from footfit.geometry.stance.middle_line import MiddleLine, middle_line
 from footfit.geometry.stance.tread_fit import (
     TREAD_FIT,
@@ -49,8 +50,12 @@ class GroundSettings:
         Standard deviation of the weights about the tread's place, over the length.
     near_bend : float
         Curvature times length at which the weight has fallen to .61: what bends is no tread.
-    near_sd : float
-        The least standard deviation of the near slope, radians.
+    near_sd_deg : float
+        The near slope's standard deviation where the tread is level: lasts differ by this in what
+        their makers mean by it.
+    near_level_deg : float
+        If the slopes near the tread spread by more than this, it is not level, and the spread is
+        all added to the standard deviation; if by less, that share of it.
     fit_doubt : float
         The fit's standard deviation counts this many times: on two families of lasts its error
         was two to five times that of the near slope.
@@ -68,11 +73,12 @@ class GroundSettings:
     step_deg: float = 4.0
     near_window: tuple[float, float] = (0.45, 0.92)
     near_samples: int = 95
-    near_bandwidth: float = 0.022
+    near_bandwidth: float = 0.017
     near_reach: float = 0.03
-    near_bend: float = 0.8
-    near_sd: float = 0.004
-    fit_doubt: float = 2.0
+    near_bend: float = 0.4
+    near_sd_deg: float = 0.5
+    near_level_deg: float = 2.5
+    fit_doubt: float = 4.0
 
 
 GROUND = GroundSettings()
@@ -80,32 +86,22 @@ _TIP = 0.94  # the toe spring is read at this place
 
 
 @dataclass(frozen=True, slots=True)
-class StandingGround:
-    """The ground of a standing last.
+class BottomCues:
+    """The ground by the tread and by the whole bottom, and the middle line cut close to both."""
 
-    Attributes
-    ----------
-    angle : float
-        From the resting plane, radians; + raises the heel.
-    sd : float
-        Its standard deviation, radians: of where a tread may lie, not of a second scan.
-    line : MiddleLine
-        The middle line over this ground.
-    """
-
-    angle: float
-    sd: float
+    tread: Cue
+    bottom: Cue
     line: MiddleLine
 
 
-def standing_ground(
+def bottom_cues(
     vertices_mm: Floats, faces: Ints, settings: GroundSettings = GROUND
-) -> StandingGround | None:
-    """The ground under a right last in its resting frame.
+) -> BottomCues | None:
+    """What the bottom of a right last in its resting frame says of the ground.
 
     Returns
     -------
-    StandingGround or None
+    BottomCues or None
         None if the bottom is open or has no tread.
     """
     rough = _rough_fit(_Trials(vertices_mm, faces, settings), settings)
@@ -114,15 +110,10 @@ def standing_ground(
     if rough is None or line is None or bottom is None:
         return None
     fit = _fit(lambda _: bottom, rough.ground, rough.parameters, settings)
-    near = None if fit is None else _near_slope(line, fit.ground, settings)
-    if fit is None or near is None:
+    tread = None if fit is None else _near_slope(line, fit.ground, settings)
+    if fit is None or tread is None:
         return None
-    near_angle, near_sd = near
-    fit_sd = settings.fit_doubt * fit.ground_sd
-    share = near_sd**-2 / (near_sd**-2 + fit_sd**-2)
-    angle = share * near_angle + (1.0 - share) * fit.ground
-    variance = 0.5 * (fit.ground_sd**2 + near_sd**2) + 0.25 * (near_angle - fit.ground) ** 2
-    return StandingGround(angle, float(np.sqrt(variance)), line.on(angle, vertices_mm))
+    return BottomCues(tread, Cue("bottom", fit.ground, settings.fit_doubt * fit.ground_sd), line)
 
 
 @dataclass
@@ -195,10 +186,8 @@ def _fit(
     return fit
 
 
-def _near_slope(
-    line: MiddleLine, ground: float, settings: GroundSettings
-) -> tuple[float, float] | None:
-    """The mean slope near the tread's usual place, and its standard deviation, radians."""
+def _near_slope(line: MiddleLine, ground: float, settings: GroundSettings) -> Cue | None:
+    """The mean slope near the tread's usual place."""
     arc = np.linspace(*settings.near_window, settings.near_samples)
     bottom = sloped(line, arc, settings.near_bandwidth)
     if bottom is None:
@@ -206,6 +195,8 @@ def _near_slope(
     bend = np.gradient(bottom.slope, arc)
     off = (bottom.places(ground) - TREAD_FIT.tread[0]) / settings.near_reach
     weight = np.exp(-0.5 * (off**2 + (bend / settings.near_bend) ** 2))
-    mean = float(weight @ bottom.slope / weight.sum())
-    variance = float(weight @ (bottom.slope - mean) ** 2 / weight.sum())
-    return mean, float(np.sqrt(variance + settings.near_sd**2))
+    weight /= weight.sum()
+    mean = float(weight @ bottom.slope)
+    spread = float(np.sqrt(weight @ (bottom.slope - mean) ** 2))
+    uneven = spread * min(1.0, spread / np.radians(settings.near_level_deg))
+    return Cue("tread", mean, float(np.hypot(np.radians(settings.near_sd_deg), uneven)))

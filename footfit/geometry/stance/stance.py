@@ -1,24 +1,26 @@
 """A standing foot or last: its ground, its length along it, and its bottom's middle over it.
 
 A foot stands on the contact plane of its frame. A last rests on its seat and its ball, but it
-stands on its heel with its tread level.
+stands on its heel with its tread level. A label decides how; else the shape of the bottom does.
 """
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
 
 from footfit.geometry.numeric.arrays import Floats, Ints
 from footfit.geometry.numeric.smoothing import local_quadratic
-from footfit.geometry.stance.ground import standing_ground
-from footfit.geometry.stance.middle_line import low_points, middle_line
+from footfit.geometry.stance.cues import NO_LABELS, Cue, StanceLabels, combined
+from footfit.geometry.stance.ground import BottomCues, bottom_cues
+from footfit.geometry.stance.middle_line import MiddleLine, low_points, middle_line
 
 
 @dataclass(frozen=True, slots=True)
 class StanceSettings:
-    """Where the ground touches and where the seat's line runs; over the standing length.
+    """Where the ground touches and what lies over it; places over the standing length.
 
     Attributes
     ----------
@@ -26,16 +28,39 @@ class StanceSettings:
         The ground touches the lowest place of the middle line between these.
     bandwidth : float
         Standard deviation of the local parabolas that the lowest place is found on.
-    seat : tuple of float
-        The seat's line runs along the middle line between these.
+    seat, toe : tuple of float
+        The line of the seat, and the parabola of the toe, run along the middle line between these.
+    pitch, pitch_spread : float
+        The seat's pitch (radians) over the heel's share of the length, and its spread: from level
+        seats to the pitch that wearers like best.
+    pitch_sd_deg : float
+        The spread of the seat's pitch under a last without a heel.
+    heel_sd_mm, spring_sd_mm : float
+        How far a label may be from the true heel and toe spring.
+    rounds, settled_mm, recut_deg
+        Of finding the ground of a label, and when the middle line is cut anew on the way.
+    range_deg : tuple of float
+        A labelled ground is kept within these.
     """
 
     touch: tuple[float, float] = (0.50, 0.90)
     bandwidth: float = 0.012
     seat: tuple[float, float] = (0.06, 0.14)
+    toe: tuple[float, float] = (0.82, 0.94)
+    pitch: float = 0.78
+    pitch_spread: float = 0.48
+    pitch_sd_deg: float = 2.0
+    heel_sd_mm: float = 1.5
+    spring_sd_mm: float = 1.0
+    rounds: int = 8
+    settled_mm: float = 0.002
+    recut_deg: float = 2.0
+    range_deg: tuple[float, float] = (-15.0, 55.0)
 
 
 STANCE = StanceSettings()
+LINE_SD_MM = 0.5
+"""How far a line that is drawn on from the bottom may pass the end that it is drawn to."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -58,6 +83,10 @@ class Stance:
     middle_mm : (k, 2)
         The middle line of the bottom in the standing frame, from heel to toe: x from the rearmost
         point along the ground, z over the ground. Empty if a foot's sole is open.
+    decided_by : {"contact", "shape", "label"}
+        What the ground is by: a foot's contact plane, a last's shape, or its label.
+    cues : tuple of Cue
+        What each cue says of a last's ground; the shape's mean is among them.
     """
 
     ground: float
@@ -66,6 +95,8 @@ class Stance:
     rear_mm: float
     length_mm: float
     middle_mm: Floats
+    decided_by: str = "contact"
+    cues: tuple[Cue, ...] = ()
 
     @property
     def standing_transform(self) -> Floats:
@@ -81,6 +112,22 @@ class Stance:
         result[0, 3], result[2, 3] = -self.rear_mm, sine * x_mm - cosine * z_mm
         return result
 
+    @property
+    def heel_sd_mm(self) -> float:
+        """The standard deviation of a height at the rearmost point, by that of the ground."""
+        return float(np.hypot(self.touching_x_mm * self.ground_sd, LINE_SD_MM))
+
+    @property
+    def tip_sd_mm(self) -> float:
+        """The standard deviation of a height at the tip, by that of the ground."""
+        return float(np.hypot((self.length_mm - self.touching_x_mm) * self.ground_sd, LINE_SD_MM))
+
+    @property
+    def touching_x_mm(self) -> float:
+        """Where the ground touches, along the ground from the rearmost point."""
+        x_mm, z_mm = self.touching_mm
+        return float(x_mm * np.cos(self.ground) + z_mm * np.sin(self.ground)) - self.rear_mm
+
     def over_ground_mm(self, x_mm: float, z_mm: float) -> float:
         """How high a place of the resting frame's side view lies over the ground.
 
@@ -92,20 +139,43 @@ class Stance:
         across = (z_mm - self.touching_mm[1]) * np.cos(self.ground)
         return float(across - (x_mm - self.touching_mm[0]) * np.sin(self.ground))
 
+    def stretch_mm(self, window: tuple[float, float]) -> Floats:
+        """The points (k, 2) of the middle line between two shares of the standing length."""
+        place = self.middle_mm[:, 0] / self.length_mm
+        return np.asarray(self.middle_mm[(place >= window[0]) & (place <= window[1])])
+
     def heel_mm(self, settings: StanceSettings = STANCE) -> float | None:
         """How high the seat's line stands over the ground at the rearmost point.
 
         None if the bottom is open along the seat.
         """
-        place = self.middle_mm[:, 0] / self.length_mm
-        seat = self.middle_mm[(place >= settings.seat[0]) & (place <= settings.seat[1])]
-        if len(seat) < 3:
+        seat = self.seat_line(settings)
+        return None if seat is None else seat[1]
+
+    def seat_line(self, settings: StanceSettings = STANCE) -> tuple[float, float] | None:
+        """The slope of the seat's line, and its height (mm) at the rearmost point.
+
+        None if the bottom is open along the seat.
+        """
+        x, z = self.stretch_mm(settings.seat).T
+        if len(x) < 3:
             return None
-        return float(np.polyfit(seat[:, 0], seat[:, 1], 1)[1])
+        slope, height_mm = np.polyfit(x, z, 1)
+        return float(slope), float(height_mm)
+
+    def tip_mm(self, settings: StanceSettings = STANCE) -> float | None:
+        """How high the bottom's middle, drawn on to the foremost point, lies over the ground.
+
+        None if the bottom is open along the toes.
+        """
+        x, z = self.stretch_mm(settings.toe).T
+        if len(x) < 6:
+            return None
+        return float(np.polynomial.Polynomial.fit(x, z, 2)(self.length_mm))
 
 
 def stance_of(
-    vertices_mm: Floats, faces: Ints, kind: str, settings: StanceSettings = STANCE
+    vertices_mm: Floats, faces: Ints, kind: str, labels: StanceLabels = NO_LABELS
 ) -> Stance | None:
     """How a right shape stands.
 
@@ -116,6 +186,8 @@ def stance_of(
     faces : (m, 3)
         Wound outward.
     kind : {"foot", "last"}
+    labels : StanceLabels
+        What people say of a last; a foot stands flat whatever they say.
 
     Returns
     -------
@@ -124,25 +196,15 @@ def stance_of(
     """
     if kind == "foot":
         return _foot_stance(vertices_mm, faces)
-    ground = standing_ground(vertices_mm, faces)
-    if ground is None:
+    bottom = bottom_cues(vertices_mm, faces)
+    if bottom is None:
         return None
-    line = ground.line
-    x, z = line.points_mm.T
-    place = (x - line.ends_mm[0]) / line.length_mm
-    near = np.linspace(*settings.touch, 1 + round(np.ptp(settings.touch) / 0.005))
-    heights = local_quadratic(near, place, settings.bandwidth)[0] @ z
-    lowest = int(np.argmin(heights))
-    low_x, low_z = line.ends_mm[0] + near[lowest] * line.length_mm, heights[lowest]
-    cosine, sine = np.cos(line.ground), np.sin(line.ground)
-    return Stance(
-        ground=ground.angle,
-        ground_sd=ground.sd,
-        touching_mm=(float(low_x * cosine - low_z * sine), float(low_x * sine + low_z * cosine)),
-        rear_mm=line.ends_mm[0],
-        length_mm=line.length_mm,
-        middle_mm=line.points_mm - [line.ends_mm[0], low_z],
-    )
+    last = _StandingLast(vertices_mm, faces, bottom.line)
+    cues = _shape_cues(last, bottom)
+    label = _label_cue(last, labels, cues[-1].ground)
+    if label is None:
+        return last.on(cues[-1], "shape", cues)
+    return last.on(label, "label", (*cues, label))
 
 
 def _foot_stance(vertices_mm: Floats, faces: Ints) -> Stance:
@@ -151,3 +213,104 @@ def _foot_stance(vertices_mm: Floats, faces: Ints) -> Stance:
     points_mm = np.empty((0, 2)) if line is None else line.points_mm
     low_mm = vertices_mm[low_points(vertices_mm)]
     return Stance(0.0, 0.0, (0.0, 0.0), 0.0, float(np.ptp(low_mm[:, 0])), points_mm)
+
+
+@dataclass
+class _StandingLast:
+    """A last on any ground; its middle line is cut anew for a ground far from the last cut."""
+
+    vertices_mm: Floats
+    faces: Ints
+    line: MiddleLine
+    settings: StanceSettings = STANCE
+
+    def on(self, cue: Cue, decided_by: str = "", cues: tuple[Cue, ...] = ()) -> Stance:
+        """The last as it stands on the ground of a cue."""
+        if abs(cue.ground - self.line.ground) > np.radians(self.settings.recut_deg):
+            cut = middle_line(self.vertices_mm, self.faces, cue.ground)
+            self.line = self.line if cut is None else cut
+        line = self.line.on(cue.ground, self.vertices_mm)
+        x, z = line.points_mm.T
+        place = (x - line.ends_mm[0]) / line.length_mm
+        start, end = self.settings.touch
+        near = np.linspace(start, end, 1 + round((end - start) / 0.005))
+        heights = local_quadratic(near, place, self.settings.bandwidth)[0] @ z
+        lowest = int(np.argmin(heights))
+        low_x, low_z = line.ends_mm[0] + near[lowest] * line.length_mm, heights[lowest]
+        cosine, sine = np.cos(line.ground), np.sin(line.ground)
+        touching = low_x * cosine - low_z * sine, low_x * sine + low_z * cosine
+        return Stance(
+            ground=cue.ground,
+            ground_sd=cue.sd,
+            touching_mm=(float(touching[0]), float(touching[1])),
+            rear_mm=line.ends_mm[0],
+            length_mm=line.length_mm,
+            middle_mm=line.points_mm - [line.ends_mm[0], low_z],
+            decided_by=decided_by,
+            cues=cues,
+        )
+
+
+def _shape_cues(last: _StandingLast, bottom: BottomCues) -> tuple[Cue, ...]:
+    """The cues of a last's shape, and their mean."""
+    cues: tuple[Cue, ...] = (bottom.tread, bottom.bottom)
+    seat = _seat_cue(last.on(combined("shape", cues)), last.settings)
+    cues = cues if seat is None else (*cues, seat)
+    return (*cues, combined("shape", cues))
+
+
+def _seat_cue(stance: Stance, settings: StanceSettings) -> Cue | None:
+    """The ground on which the seat has the pitch that seats have under such a heel.
+
+    A ground that is higher by a radian raises the heel by ``arm``, and so the pitch that seats
+    have.
+    """
+    seat = stance.seat_line(settings)
+    if seat is None:
+        return None
+    slope, heel_mm = seat
+    pitch = -float(np.arctan(slope))
+    share, arm = max(heel_mm, 0.0) / stance.length_mm, stance.touching_x_mm / stance.length_mm
+    gain = 1.0 - settings.pitch * arm
+    sd = float(np.hypot(np.radians(settings.pitch_sd_deg), settings.pitch_spread * share))
+    return Cue("seat", stance.ground + (settings.pitch * share - pitch) / gain, sd / gain)
+
+
+def _label_cue(last: _StandingLast, labels: StanceLabels, start: float) -> Cue | None:
+    """The ground by the labels, from a ``start`` near to it; None if nothing is said."""
+    settings = last.settings
+    says = (
+        (labels.drop_mm, Stance.heel_mm, settings.heel_sd_mm, 0.0),
+        (labels.toe_spring_mm, Stance.tip_mm, settings.spring_sd_mm, 1.0),
+    )
+    cues = (
+        _solved(last, target_mm, height_of, sd_mm, place, start)
+        for target_mm, height_of, sd_mm, place in says
+        if target_mm is not None
+    )
+    solved = [cue for cue in cues if cue is not None]
+    return combined("label", solved) if solved else None
+
+
+def _solved(
+    last: _StandingLast,
+    target_mm: float,
+    height_of: Callable[[Stance], float | None],
+    sd_mm: float,
+    place: float,
+    start: float,
+) -> Cue | None:
+    """The ground over which a place (0 rear, 1 tip) has a height; None if it has none."""
+    least, most = np.radians(last.settings.range_deg)
+    ground, arm_mm = start, 1.0
+    for _ in range(last.settings.rounds):
+        stance = last.on(Cue("label", ground, 0.0))
+        height_mm = height_of(stance)
+        if height_mm is None:
+            return None
+        arm_mm = stance.touching_x_mm - place * stance.length_mm
+        miss_mm = target_mm - height_mm
+        ground = float(np.clip(ground + miss_mm / arm_mm, least, most))
+        if abs(miss_mm) < last.settings.settled_mm:
+            break
+    return Cue("label", ground, sd_mm / abs(arm_mm))

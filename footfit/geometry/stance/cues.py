@@ -1,0 +1,62 @@
+"""What says how a last stands: its tread, its bottom, its seat, and what people say of it."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+
+import numpy as np
+
+
+@dataclass(frozen=True, slots=True)
+class StanceLabels:
+    """What people say of how a last stands, in mm; None where nothing is said.
+
+    ``heel_height_mm`` is the seat over the ground at the rearmost point, ``platform_mm`` the height
+    of the forepart over the same ground, ``toe_spring_mm`` the bottom's height at the tip over the
+    forepart's ground. What counts is the heel less the platform.
+    """
+
+    heel_height_mm: float | None = None
+    toe_spring_mm: float | None = None
+    platform_mm: float = 0.0
+
+    @property
+    def drop_mm(self) -> float | None:
+        """The heel less the platform: how high the last itself stands.
+
+        Examples
+        --------
+        >>> StanceLabels(60.0, platform_mm=15.0).drop_mm
+        45.0
+        """
+        return None if self.heel_height_mm is None else self.heel_height_mm - self.platform_mm
+
+
+NO_LABELS = StanceLabels()
+
+
+@dataclass(frozen=True, slots=True)
+class Cue:
+    """A ground by one cue and its standard deviation, both in radians.
+
+    ``name`` is "tread" (the slope of the bottom near the tread's usual place), "bottom" (a model of
+    shank, tread and toe spring), "seat" (the pitch that seats have under such heels), "shape" (all
+    three) or "label".
+    """
+
+    name: str
+    ground: float
+    sd: float
+
+
+def combined(name: str, cues: Iterable[Cue]) -> Cue:
+    """The mean of some cues, each by its inverse variance.
+
+    Examples
+    --------
+    >>> combined("shape", [Cue("tread", 0.1, 0.01), Cue("bottom", 0.2, 0.01)]).ground.round(3)
+    np.float64(0.15)
+    """
+    grounds, weights = np.array([(cue.ground, cue.sd**-2) for cue in cues]).T
+    return Cue(name, grounds @ weights / weights.sum(), float(weights.sum() ** -0.5))
