@@ -73,9 +73,9 @@ class GroundSettings:
     step_deg: float = 4.0
     near_window: tuple[float, float] = (0.45, 0.92)
     near_samples: int = 95
-    near_bandwidth: float = 0.017
+    near_bandwidth: float = 0.025
     near_reach: float = 0.03
-    near_bend: float = 0.4
+    near_bend: float = 0.5
     near_sd_deg: float = 0.5
     near_level_deg: float = 2.5
     fit_doubt: float = 4.0
