@@ -68,6 +68,7 @@ def _axes(axes: Any) -> dict[str, Any]:
     words = [axes.get_title(), axes.get_xlabel(), axes.get_ylabel()]
     ticks = [label.get_text() for label in (*axes.get_xticklabels(), *axes.get_yticklabels())]
     return {
+        "frame": [side for side, spine in axes.spines.items() if spine.get_visible()],
         "limits": [*_rounded(axes.get_xlim()), *_rounded(axes.get_ylim())],
         "words": [NUMBER.findall(text) for text in words],
         "ticks": [NUMBER.findall(text) for text in ticks if text],

@@ -8,6 +8,10 @@ import sys
 
 import pytest
 
+from footfit.cli.signals import PATIENCE_S, RETRY_S
+
+PROMISED_S = 2.0
+"""How long a process may take to end, by docs/reliability.md."""
 WHILE_BLOCKED = """
 import os, signal, sys, time
 from footfit.cli.signals import LISTENER, Stopped
@@ -38,3 +42,7 @@ def test_a_signal_that_the_main_thread_blocks_is_heard_afterwards(number: signal
     command = [sys.executable, "-c", WHILE_BLOCKED, str(int(number))]
     found = subprocess.run(command, capture_output=True, text=True, timeout=60, check=False)
     assert (found.stdout.split(), found.returncode) == (["blocked", "stopped"], 0), found.stderr
+
+
+def test_what_is_waited_for_leaves_time_to_end() -> None:
+    assert 0.5 * PROMISED_S < PATIENCE_S + RETRY_S < 0.9 * PROMISED_S

@@ -14,11 +14,12 @@ import pytest
 from footfit.report.csv import csv_text
 from footfit.report.json import json_line
 from footfit.report.page.compare_page import compare_page
+from footfit.report.page.rendering import picture_data
 from footfit.report.pictures import figures
 from footfit.report.pictures.figures import svg_text
 from footfit.report.pictures.heat import heat_colours
-from footfit.report.pictures.heat_figure import heat_bytes, heat_image
-from footfit.report.pictures.section_figure import section_figure
+from footfit.report.pictures.heat_figure import heat_bytes, heat_figure, heat_image
+from footfit.report.pictures.section_figure import ACROSS, STRIP, section_figure
 from footfit.report.pictures.shading import VIEWS, Frame
 from footfit.report.pictures.sides import own_side
 from footfit.report.terminal.comparison_tables import compare_table
@@ -126,6 +127,20 @@ def test_the_heat_picture_has_the_colour_of_each_place():
     assert image[0, 0, 3] == 0.0
     area = image[..., 3].mean() * 120.0**2
     assert area == pytest.approx(np.pi * 50.0**2, rel=0.0065)  # measured 0.0043
+
+
+def test_the_pictures_of_the_page_have_no_titles_of_their_own():
+    for picture in (heat_figure, section_figure):
+        assert picture_data(picture(comparison(), titled=False)) in page_of()
+
+
+def test_only_a_strip_leaves_out_what_its_numbers_are():
+    wide, strip = (
+        [axes.get_xlabel() for axes in section_figure(comparison(), across).axes]
+        for across in (ACROSS, STRIP)
+    )
+    assert all(words.startswith("last minus foot: ") for words in wide)
+    assert not any("last minus foot" in words for words in strip)
 
 
 def test_pictures_are_the_same_twice():

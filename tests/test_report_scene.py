@@ -77,6 +77,22 @@ def test_left_feet_are_shown_as_left_feet():
     assert left["foot"]["origin"][1] == pytest.approx(-(low + span), abs=3 * printed(4))
 
 
+def test_a_left_foot_is_seen_from_where_a_right_one_is_mirrored():
+    """From above and from below both are seen with the heel at the same end."""
+    right, left = (scene_of(comparison(side, side)).views for side in (False, True))
+    for (name, seen), (other, mirrored) in zip(right, left, strict=True):
+        (turn, up), (back, same) = (map(float, angles.split(",")) for angles in (seen, mirrored))
+        assert (other, same) == (name, up)
+        assert (turn - back if name in ("top", "sole") else turn + back) % 360.0 == 0.0, name
+        assert abs(up) == 90.0 if name in ("top", "sole") else 0.0 <= up <= 10.0
+
+
+def test_the_data_of_the_view_are_in_the_order_of_their_names():
+    """So that the pages of two versions can be compared."""
+    data = data_of(page_of(comparison()))
+    assert [*data] == sorted(data)
+
+
 def test_the_colours_of_the_view_are_the_legends():
     page = page_of(comparison())
     data = data_of(page)
