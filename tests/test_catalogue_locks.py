@@ -104,3 +104,13 @@ def open_files():
     for name in OPEN_FILES.iterdir():
         with suppress(OSError):
             yield os.fstat(int(name.name))
+
+
+def test_a_flag_that_a_system_lacks_adds_nothing_to_how_a_file_is_opened():
+    code = (
+        "import os; [delattr(os, name) for name in ('O_NONBLOCK', 'O_CLOEXEC')];"
+        "from footfit.catalogue.file import descriptors; print(descriptors._READING, os.O_RDONLY)"
+    )
+    run = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
+    used, reading = run.stdout.split()
+    assert used == reading

@@ -224,6 +224,16 @@ def test_the_transform_takes_the_file_to_the_frame() -> None:
     assert paired != sorted(paired, reverse=True) == document["eigenvalues_mm2"]
 
 
+def test_only_a_label_that_is_off_its_length_has_words() -> None:
+    near, off = (
+        answers.record(size="42", length_mm=length_mm).entry(None)["label_check"]
+        for length_mm in (280.0, 260.0)
+    )
+    assert (near["flagged"], near["words"]) == (False, None)
+    assert off["flagged"]
+    assert off["words"].endswith("it is EU 39 by its length")
+
+
 def test_rejected_lasts_are_counted_by_reason() -> None:
     match = answers.match().to_dict()
     assert match["rejected"] == {"count": 7, "by_reason": {"too_long": 3, "too_short": 4}}
