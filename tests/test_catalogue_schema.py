@@ -18,13 +18,15 @@ from footfit.catalogue.store import open_catalogue
 from footfit.errors import CatalogueDamaged, CatalogueUnusable, NewerCatalogue
 from tests import records
 
+HEAD = SIGNATURE.revisions[-1]
+NEXT = f"{int(HEAD) + 1:04d}"
 SECOND = '''
 """A column more."""
 import sqlalchemy as sa
 from alembic import op
 
-revision = "0002"
-down_revision = "0001"
+revision = {revision!r}
+down_revision = {down!r}
 
 
 def upgrade():
@@ -47,8 +49,10 @@ def path(tmp_path: Path) -> Path:
 def later_schema(folder: Path, then: str = "") -> Schema:
     """A schema one revision on, in a copy of the migrations."""
     shutil.copytree(migrations_folder(), folder, ignore=shutil.ignore_patterns("__pycache__"))
-    (folder / "versions" / "0002_colour.py").write_text(SECOND.format(then=then or "pass"))
-    return Schema(("0001", "0002"), folder)
+    (folder / "versions" / f"{NEXT}_colour.py").write_text(
+        SECOND.format(revision=NEXT, down=HEAD, then=then or "pass")
+    )
+    return Schema((*SIGNATURE.revisions, NEXT), folder)
 
 
 def test_the_migrations_make_what_the_models_say(path: Path) -> None:
@@ -173,12 +177,12 @@ def test_an_older_schema_is_upgraded_with_a_copy_beside(path: Path, tmp_path: Pa
         pass
     assert path.read_bytes() == before
     with open_catalogue(path, write=True, schema=newer) as catalogue:
-        assert catalogue.revisions == Revisions("0001", "0002", str(copy_path(path, "0001")))
-        assert catalogue.summary().schema_revision == "0002"
+        assert catalogue.revisions == Revisions(HEAD, NEXT, str(copy_path(path, HEAD)))
+        assert catalogue.summary().schema_revision == NEXT
         assert catalogue.findings() == [], "a column more leaves every hash as it was"
         assert [str(record) for record in catalogue.lasts().records] == old
         assert catalogue.summary().mesh_copies == 3, "foreign keys on would have deleted them"
-    with open_catalogue(copy_path(path, "0001")) as copy:
+    with open_catalogue(copy_path(path, HEAD)) as copy:
         assert [str(record) for record in copy.lasts().records] == old
         assert copy.findings() == []
 

@@ -93,7 +93,7 @@ def test_a_profile_of_another_definition_is_set_apart(path: Path, tmp_path: Path
     flare = records.profile(3)
     older = replace(flare, definition=replace(flare.definition, version="flare/0"))
     with open_catalogue(copy, write=True) as catalogue:
-        catalogue.update_profile(replace(catalogue.record("last-03"), flare=older))
+        catalogue.update_measured(replace(catalogue.record("last-03"), flare=older))
         rows = catalogue.lasts()
         assert rows.outdated == ("last-03",)
         assert len(rows.records) == LASTS

@@ -14,6 +14,7 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
 from footfit.catalogue import store
+from footfit.catalogue.file.file_signature import SIGNATURE
 from footfit.catalogue.rows import reference_last
 from footfit.catalogue.rows.schema import METADATA
 from footfit.catalogue.store import Catalogue, open_catalogue
@@ -308,12 +309,12 @@ def test_a_parent_must_be_there_and_no_descendant(catalogue: Catalogue) -> None:
 def test_a_profile_made_anew_says_what_it_replaces(catalogue: Catalogue) -> None:
     flare, measures = records.profile(77), records.last(seed=78).measures
     changed = replace(catalogue.record("last-1"), flare=flare, upgraded_from="flare/0")
-    catalogue.update_profile(changed)
+    catalogue.update_measured(changed)
     found = catalogue.record("last-1")
     assert records.plain(found.flare) == records.plain(flare)
     assert found.upgraded_from == "flare/0"
     assert found.measures == records.last("last-1", 1).measures
-    catalogue.update_profile(replace(changed, upgraded_from=None, measures=measures))
+    catalogue.update_measured(replace(changed, upgraded_from=None, measures=measures))
     assert catalogue.record("last-1").measures == measures
     assert catalogue.record("last-1").upgraded_from is None
     assert catalogue.findings() == []
@@ -330,7 +331,11 @@ def test_facts_count_what_is_there(catalogue: Catalogue, path: Path) -> None:
     facts = catalogue.summary()
     assert facts.path == str(path)
     assert facts.bytes == path.stat().st_size
-    assert (facts.lasts, facts.reference, facts.schema_revision) == (5, "last-0", "0001")
+    assert (facts.lasts, facts.reference, facts.schema_revision) == (
+        5,
+        "last-0",
+        SIGNATURE.revisions[-1],
+    )
     assert facts.definitions == ((records.profile().definition.version, 5),)
     assert facts.styles == (("", 1), ("boot", 1), ("oxford", 2), ("trainer", 1))
     assert facts.sides == (("left", 2), ("right", 3))
@@ -366,7 +371,7 @@ def test_damage_is_never_sealed_as_sound(catalogue: Catalogue) -> None:
     for write in (
         lambda: catalogue.set_reference("last-2"),
         lambda: catalogue.rename("last-1", "x"),
-        lambda: catalogue.update_profile(records.last("last-1")),
+        lambda: catalogue.update_measured(records.last("last-1")),
         lambda: catalogue.record("last-1"),
     ):
         with pytest.raises(CatalogueDamaged, match="'last-1'") as caught:

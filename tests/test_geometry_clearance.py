@@ -19,8 +19,9 @@ from footfit.geometry.fit.clearance import (
     zone_clearances,
     zone_of,
 )
-from footfit.geometry.fit.paired_sections import STATIONS, section_pairs
+from footfit.geometry.fit.paired_sections import section_pairs
 from footfit.geometry.fit.placement import placed, placement
+from footfit.geometry.fit.stations import STATIONS
 from footfit.geometry.measures.landmarks import Shape
 from footfit.geometry.mesh.nearest import nearest_on_surface, part_middles
 from tests import shapes

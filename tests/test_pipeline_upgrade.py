@@ -25,7 +25,7 @@ def test_profiles_of_another_definition_are_recomputed_and_marked(catalogue: Pat
         record = opened.lasts().records[0]
         definition = replace(record.flare.definition, version="flare/0", band_height=0.2)
         older = replace(record.flare, definition=definition, angle_deg=99.0)
-        opened.update_profile(replace(record, flare=older))
+        opened.update_measured(replace(record, flare=older))
     assert [notice.code for notice in library(catalogue).warnings] == ["outdated_last"]
 
     outcome = upgrade(catalogue)
@@ -73,7 +73,7 @@ def test_measures_of_older_definitions_are_taken_anew_and_the_profile_stays(
         record, other = opened.lasts().records[:2]
         name = record.labels.name
         stale = [replace(record.measures[0], definition="length/1"), *record.measures[2:]]
-        opened.update_profile(replace(record, measures=tuple(stale)))
+        opened.update_measured(replace(record, measures=tuple(stale)))
     assert upgrade(catalogue).recomputed == (name,)
     with open_catalogue(catalogue) as opened:
         again, untouched = opened.record(name), opened.record(other.labels.name)

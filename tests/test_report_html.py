@@ -188,7 +188,7 @@ def test_the_page_says_what_the_json_says() -> None:
             value = zone["clearance"]["value"]
             assert value is None or f"{value:+.1f}" in text
     assert "260.0 ± 0.4 mm" in text
-    assert "+10.0 ± 0.2 degrees: straight" in text
+    assert "+10.0 ± 0.2 degrees" in text
     assert "3 too long; 4 too short." in text
     for zone in comparison().zones:
         assert f"{zone.mean_mm:+.1f}" in text

@@ -28,7 +28,7 @@ from footfit.pipeline.library import backup, check, lasts
 
 if TYPE_CHECKING:
     from footfit.pipeline.fit.match import Question
-    from footfit.pipeline.library.ingest import Entry, HoldSignals
+    from footfit.pipeline.library.ingest import Entry, HoldSignals, KeepMesh
 
 NO_LABELS = results.LastLabels("")
 """Nothing is said of a last: its name is that of its file."""
@@ -199,6 +199,7 @@ class Catalogue:
             replace=options.get("replace", False),
             dry_run=options.get("dry_run", False),
             jobs=options.get("jobs", HERE),
+            keep_mesh=options.get("keep_mesh", "compact"),
         )
         return tuple(each)
 
@@ -209,6 +210,7 @@ class Catalogue:
         replace: bool = False,
         dry_run: bool = False,
         jobs: int = HERE,
+        keep_mesh: KeepMesh = "compact",
         hold_signals: HoldSignals = nullcontext,
     ) -> Iterator[results.IngestOutcome]:
         """Store entries of ``pipeline.library.ingest``; yield the outcome of each after its commit.
@@ -220,7 +222,13 @@ class Catalogue:
 
         self._chosen.clear()
         return ingest(
-            batch, self.path, jobs=jobs, replace=replace, dry_run=dry_run, hold_signals=hold_signals
+            batch,
+            self.path,
+            jobs=jobs,
+            replace=replace,
+            dry_run=dry_run,
+            keep_mesh=keep_mesh,
+            hold_signals=hold_signals,
         )
 
     def lasts(self) -> results.Library:
@@ -294,9 +302,9 @@ class Catalogue:
         self._chosen.clear()
         return backup.restore(self.path, Path(file))
 
-    def upgrade(self) -> results.UpgradeOutcome:
+    def upgrade(self, jobs: int = HERE) -> results.UpgradeOutcome:
         """Bring an older catalogue to this version, and keep a copy of the old file."""
         from footfit.pipeline.library import upgrade
 
         self._chosen.clear()
-        return upgrade.upgrade(self.path)
+        return upgrade.upgrade(self.path, jobs)

@@ -58,11 +58,15 @@ class MatchKeywords(ReadingKeywords, total=False):
 
 
 class IngestKeywords(ReadingKeywords, total=False):
-    """How lasts are stored: over one of the same name, only as a trial, by how many processes."""
+    """How lasts are stored: over one of the same name, only as a trial, by how many processes.
+
+    ``keep_mesh`` "full" keeps every face of a mesh, "compact" a light copy.
+    """
 
     replace: bool
     dry_run: bool
     jobs: int
+    keep_mesh: Literal["compact", "full"]
 
 
 @runtime_checkable

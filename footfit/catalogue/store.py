@@ -12,8 +12,8 @@ from footfit.catalogue.file.copying import copy_into
 from footfit.catalogue.file.engine import SETTINGS, CatalogueFile, sqlite_errors_in_words
 from footfit.catalogue.file.migrate import Revisions, Schema
 from footfit.catalogue.file.opening import open_for_reading, open_for_writing
-from footfit.catalogue.rows.columns import FLARE, LAST, MEASURE, MESH_COPY
-from footfit.catalogue.rows.records import mesh_copy_of, record_of
+from footfit.catalogue.rows.columns import FLARE, LAST, MEASURE, MESH_COPY, SECTION, Table
+from footfit.catalogue.rows.records import mesh_copy_of, record_of, sections_of
 from footfit.catalogue.rows.reference_last import (
     express,
     make_reference,
@@ -38,6 +38,7 @@ from footfit.catalogue.rows.writing import (
     update_row,
     write_last,
     write_owned,
+    write_sealed,
 )
 from footfit.errors import CatalogueDamaged, NameTaken, UnknownLast
 from footfit.results import (
@@ -49,6 +50,7 @@ from footfit.results import (
     ReferenceOutcome,
     RemoveOutcome,
     RenameOutcome,
+    ShapeSections,
 )
 
 
@@ -157,11 +159,35 @@ class Catalogue:
             )
         return mesh_copy_of(copies[0])
 
+    def sections(self, name: str) -> ShapeSections | None:
+        """The kept sections of a last; None if it was stored without them.
+
+        Raises
+        ------
+        UnknownLast, CatalogueDamaged
+            There is no such last; its sections are not what was stored.
+        """
+        with self.file.reading() as connection:
+            kept = rows(connection, SECTION, last_id(connection, name))
+        if kept and kept[0].get("sha256") != row_digest(SECTION, kept[0]):
+            raise CatalogueDamaged(
+                f"the sections of {name!r} are damaged; ingest the last again with --replace",
+                str(self.file.path),
+            )
+        return sections_of(kept[0]) if kept else None
+
     def mesh_copy_names(self) -> tuple[str, ...]:
         """The names of the lasts that have a mesh copy, damaged or not, sorted."""
+        return self._owners(MESH_COPY)
+
+    def section_names(self) -> tuple[str, ...]:
+        """The names of the lasts whose sections are kept, damaged or not, sorted."""
+        return self._owners(SECTION)
+
+    def _owners(self, table: Table) -> tuple[str, ...]:
         with self.file.reading() as connection:
             names = last_names(connection)
-            owners = connection.execute("SELECT last_id FROM mesh_copy").fetchall()
+            owners = connection.execute(f"SELECT last_id FROM {table.name}").fetchall()
             return tuple(sorted(str(names.get(owner, "?")) for (owner,) in owners))
 
     def summary(self) -> CatalogueFacts:
@@ -188,7 +214,12 @@ class Catalogue:
     # ------------------------------------------------------------ writing
 
     def add(
-        self, record: LastRecord, copy: MeshCopy | None = None, *, replace: bool = False
+        self,
+        record: LastRecord,
+        copy: MeshCopy | None = None,
+        sections: ShapeSections | None = None,
+        *,
+        replace: bool = False,
     ) -> None:
         """Store a last; the first one becomes the reference in the same transaction.
 
@@ -204,7 +235,10 @@ class Catalogue:
         """
         with self.file.atomic() as connection:
             key, parent_id = place_of(driver_of(connection), record, replace=replace)
-            express(connection, write_last(connection, record, copy, parent_id, key))
+            key = write_last(connection, record, parent_id, key)
+            write_sealed(connection, key, MESH_COPY, copy)
+            write_sealed(connection, key, SECTION, sections)
+            express(connection, key)
 
     def remove(self, name: str) -> RemoveOutcome:
         """Remove a last with everything that the catalogue holds of it.
@@ -252,8 +286,10 @@ class Catalogue:
             reference = make_reference(connection, last_id(driver, name))
             return ReferenceOutcome(reference, len(last_names(driver)))
 
-    def update_profile(self, record: LastRecord) -> None:
-        """Replace the flare profile and the measures of the last that has the record's name.
+    def update_measured(self, record: LastRecord, sections: ShapeSections | None = None) -> None:
+        """Replace all that is measured from the mesh of the last that has the record's name.
+
+        Without ``sections`` the stored ones stay.
 
         Raises
         ------
@@ -265,4 +301,6 @@ class Catalogue:
             key = intact_last(driver, last_id(driver, record.labels.name)).id
             for table in (FLARE, MEASURE):
                 write_owned(connection, key, table, record)
+            if sections is not None:
+                write_sealed(connection, key, SECTION, sections)
             seal(connection, key)

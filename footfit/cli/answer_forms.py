@@ -10,9 +10,7 @@ from collections.abc import Callable, Iterable
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from footfit import results
-from footfit.cli.console import answer, say_notices, show
 from footfit.pipeline.scan.settled_unit import unit_notes
-from footfit.report.json import json_line
 from footfit.report.terminal import (
     catalogue_tables,
     comparison_tables,
@@ -23,8 +21,6 @@ from footfit.results import Alignment, Match, Notice
 
 if TYPE_CHECKING:
     from rich.console import RenderableType
-
-    from footfit.cli.options import OutputMode
 
 Notices = tuple[str | None, Iterable[Notice]]
 """The file that notices are about, and the notices."""
@@ -94,16 +90,3 @@ FORMS: dict[type, Form] = {
     results.RestoreOutcome: Form(catalogue_tables.restore_catalogue_table),
     results.DemoOutcome: Form(catalogue_tables.demo_table),
 }
-
-
-def tell(value: Any, mode: OutputMode) -> None:
-    """Write the notices of a result to stderr, and the result to stdout."""
-    form = FORMS[type(value)]
-    path, notices = form.notices(value)
-    say_notices(notices, path, quiet=mode.quiet)
-    if not mode.answers:
-        return
-    if mode.json:
-        answer(json_line(value.to_dict()))
-    else:
-        show(form.table(value))

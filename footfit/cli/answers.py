@@ -10,7 +10,8 @@ from typing import TYPE_CHECKING, Any, TypeVar
 
 import typer
 
-from footfit.cli.console import STDOUT, answer, error_line, say
+from footfit.cli.console import answer, error_line, say, say_notices, show
+from footfit.cli.options import STDOUT
 from footfit.cli.signals import LISTENER
 from footfit.errors import BadOption, FootfitError
 
@@ -60,7 +61,6 @@ def answer_outcomes(
 
     One bad mesh does not stop the others: it has a line of its own, and it sets the exit code.
     """
-    from footfit.cli.answer_forms import tell
     from footfit.pipeline.batch.runs import common_code
 
     mode = replace(mode, answers=outputs.csv != STDOUT)
@@ -91,8 +91,6 @@ def answer_outcomes(
 
 def answer_result(result: Any, mode: OutputMode, outputs: Outputs) -> None:
     """Write the files of a single result, and tell the result."""
-    from footfit.cli.answer_forms import tell
-
     outputs.write(result)
     tell(result, replace(mode, answers=outputs.csv != STDOUT))
     outputs.write_csv([result])
@@ -119,6 +117,23 @@ def sources_of(meshes: Sequence[str], reading: Scale, *, split: bool = False) ->
         raise BadOption("a mesh on standard input needs --format, for example --format stl")
     source = stdin_source(sys.stdin.buffer, reading.format)
     return scans.sources([source], split=split, **reading.keywords())
+
+
+def tell(value: Any, mode: OutputMode) -> None:
+    """Write the notices of a result to stderr, and the result to stdout."""
+    from footfit.cli.answer_forms import FORMS
+
+    form = FORMS[type(value)]
+    path, notices = form.notices(value)
+    say_notices(notices, path, quiet=mode.quiet)
+    if not mode.answers:
+        return
+    if mode.json:
+        from footfit.report.json import json_line
+
+        answer(json_line(value.to_dict()))
+    else:
+        show(form.table(value))
 
 
 @contextmanager

@@ -39,7 +39,7 @@ def plain_command(command: Callable[..., object]) -> Callable[..., None]:
             given[name] = group(**{each.name: given.pop(each.name) for each in members[name]})
         result = command(**given)
         if result is not None:
-            from footfit.cli.answer_forms import tell
+            from footfit.cli.answers import tell
 
             tell(result, given["mode"])
 

@@ -7,7 +7,6 @@ import shutil
 import sys
 from collections.abc import Iterable
 from contextlib import suppress
-from pathlib import Path
 from typing import TYPE_CHECKING
 
 from footfit.errors import BadOption, FootfitError
@@ -20,8 +19,6 @@ if TYPE_CHECKING:
     from footfit.results import Notice
 
 PLAIN_WIDTH = 80
-STDOUT = Path("-")
-"""Where a file is asked for: the answer goes to stdout instead."""
 
 
 class ReaderGone(Exception):

@@ -18,6 +18,9 @@ UnitName = Literal["auto", "mm", "cm", "m", "in"]
 SideChoice = Literal["auto", "left", "right"]
 FormatName = Literal["stl", "obj", "ply", "off", "glb", "3mf"]
 
+STDOUT = Path("-")
+"""Where a file is asked for: the answer goes to stdout instead."""
+
 ANSWER = "Answer"
 READING = "Reading the scan"
 OUTPUT = "Files written"

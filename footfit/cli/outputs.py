@@ -7,7 +7,8 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from footfit.cli.console import STDOUT, answer
+from footfit.cli.console import answer
+from footfit.cli.options import STDOUT
 from footfit.errors import BadOption
 from footfit.pipeline.export import file_kind
 from footfit.whole_files import give_name, partial_beside, require_free, sync

@@ -41,6 +41,7 @@ from footfit.results.match import Match as Match
 from footfit.results.meshes import MeshCopy as MeshCopy
 from footfit.results.meshes import MeshInfo as MeshInfo
 from footfit.results.meshes import Scan as Scan
+from footfit.results.meshes import ShapeSections as ShapeSections
 from footfit.results.profile import MeasuredScan as MeasuredScan
 from footfit.results.profile import Profiled as Profiled
 from footfit.results.profile import SurfaceCurvature as SurfaceCurvature

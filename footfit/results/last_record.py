@@ -19,7 +19,10 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, slots=True)
 class LastLabels:
-    """What people say of a last. It is kept as given; the geometry has the last word."""
+    """What people say of a last. It is kept as given; the geometry has the last word.
+
+    ``heel_height_mm`` is over the ground, ``platform_mm`` the height of the forepart over it.
+    """
 
     name: str
     style: str | None = None
@@ -29,6 +32,8 @@ class LastLabels:
     heel_height_mm: float | None = None
     family: str | None = None
     parent: str | None = None
+    toe_spring_mm: float | None = None
+    platform_mm: float | None = None
 
 
 @dataclass(frozen=True, slots=True)

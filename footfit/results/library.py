@@ -84,7 +84,10 @@ class CatalogueFacts(Document):
 
 @dataclass(frozen=True, slots=True)
 class UpgradeOutcome(Document):
-    """What ``upgrade-catalogue`` did: the schema's revisions, and the profiles computed again."""
+    """What ``upgrade-catalogue`` did: the schema's revisions, and the lasts measured again.
+
+    ``left`` names the lasts that could not be measured; ``warnings`` say why.
+    """
 
     path: str
     revision_before: str
@@ -92,6 +95,8 @@ class UpgradeOutcome(Document):
     definition: str
     recomputed: tuple[str, ...]
     backup: str | None
+    left: tuple[str, ...] = ()
+    warnings: tuple[Notice, ...] = ()
 
     schema = "upgrade-catalogue/1"
 

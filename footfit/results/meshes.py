@@ -8,6 +8,9 @@ from typing import TYPE_CHECKING
 from footfit.results.values import Part
 
 if TYPE_CHECKING:
+    from collections.abc import Mapping
+
+    from footfit.geometry.fit.named_sections import NamedSection
     from footfit.geometry.numeric.arrays import Floats, Ints
     from footfit.geometry.pose.pose_search import RoughPose
     from footfit.results.values import Notice
@@ -63,6 +66,18 @@ class Scan:
     warnings: tuple[Notice, ...]
     source_to_vertex: Ints | None = None
     pose: RoughPose | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class ShapeSections:
+    """What is kept of a last's shape beside its mesh, in mm of the canonical right frame.
+
+    ``sections`` by the name of their station; ``toes_outline_mm`` (n, 3) are the edges of the toes
+    on the bottom laid flat: the way along it, the lateral and the medial edge.
+    """
+
+    sections: Mapping[str, NamedSection]
+    toes_outline_mm: Floats | None
 
 
 @dataclass(frozen=True, slots=True)

@@ -131,11 +131,18 @@ class Document(Part):
 
 @dataclass(frozen=True, slots=True)
 class Measured:
-    """A measured value with its standard deviation, or the reason why there is none."""
+    """A measured value with its uncertainty, or the reason why there is none.
+
+    ``sd`` is the repeatability: how far a second scan of the same shape reads another value.
+    ``total_sd`` also holds what is known of the trueness, and ``bias`` is the mean error that is
+    known; None where nothing is known of them.
+    """
 
     value: float | None
     sd: float | None = None
     reason: str | None = None
+    total_sd: float | None = None
+    bias: float | None = None
 
     def to_dict(self) -> Json:
         """``value`` and ``sd`` in mm, and a ``reason`` only if the value is null.

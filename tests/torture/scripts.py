@@ -160,7 +160,7 @@ EDITS: tuple[Callable[[Path], None], ...] = (
     _edit(lambda c: c.remove("last-2")),
     _edit(lambda c: c.add(records.last("last-4", 40), mesh_copy(1), replace=True)),
     _edit(
-        lambda c: c.update_profile(
+        lambda c: c.update_measured(
             replace(c.record("last-5"), flare=records.profile(50), upgraded_from="flare/0")
         )
     ),

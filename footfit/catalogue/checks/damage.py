@@ -12,7 +12,7 @@ from footfit.catalogue.checks.plausible_values import implausible, implausible_v
 from footfit.catalogue.checks.schema_comparison import expected_objects, stored_objects
 from footfit.catalogue.file.migrate import Schema
 from footfit.catalogue.rows.array_blobs import array_of, definition_text
-from footfit.catalogue.rows.columns import MESH_COPY, REFERENCE
+from footfit.catalogue.rows.columns import REFERENCE, SEALED
 from footfit.catalogue.rows.reference_last import stored_reference, transform_by
 from footfit.catalogue.rows.verified_rows import (
     LastRows,
@@ -105,15 +105,18 @@ def _definitions(connection: sqlite3.Connection) -> Iterator[Finding]:
             yield Finding("definition", words, stored.name, damage=False)
 
 
-def _mesh_copies(connection: sqlite3.Connection) -> Iterator[Finding]:
+def _sealed_rows(connection: sqlite3.Connection) -> Iterator[Finding]:
+    """What ranking does not read, and what has a hash of its own for that."""
     names = last_names(connection)
-    for row in rows(connection, MESH_COPY):
-        name = names.get(row["last_id"], "?")
-        if row.get("sha256") != row_digest(MESH_COPY, row):
-            yield Finding("mesh_copy", "its mesh copy is not what was stored", name)
-            continue
-        for words in implausible_values(MESH_COPY, row):
-            yield Finding("range", words, name)
+    for table in SEALED:
+        noun = table.name.replace("_", " ")
+        for row in rows(connection, table):
+            name = names.get(row["last_id"], "?")
+            if row.get("sha256") != row_digest(table, row):
+                yield Finding(table.name, f"its {noun} is not what was stored", name)
+                continue
+            for words in implausible_values(table, row):
+                yield Finding("range", words, name)
 
 
 def _reference(connection: sqlite3.Connection) -> Iterator[Finding]:
@@ -146,7 +149,7 @@ CHECKS: tuple[Check, ...] = (
     _keys,
     _lasts,
     _definitions,
-    _mesh_copies,
+    _sealed_rows,
     _reference,
 )
 """All checks but the one of the schema, in the order of their findings."""

@@ -22,6 +22,7 @@ from footfit.catalogue.rows import rules
 from footfit.catalogue.rows.array_blobs import array_of, blob, definition_of, definition_text
 from footfit.catalogue.rows.digests import Row
 from footfit.catalogue.rows.rules import Rule, choice, number
+from footfit.geometry.fit.stations import STATIONS
 from footfit.geometry.flare.definition import CHANNELS
 
 T = TypeVar("T")
@@ -65,7 +66,7 @@ FLAG = Kind("flag", bool, choice(0, 1), bool)
 BYTES = Kind("blob", bytes, rules.BYTES)
 FILE_NAME = Kind("text", lambda path: _text(PurePath(path).name), rules.TEXT)
 DEFINITION = Kind("text", definition_text, rules.TEXT, definition_of)
-VECTOR, SERIES, POINTS = _array(3), _array(), _array(-1, 2)
+VECTOR, SERIES, POINTS, EDGES = _array(3), _array(), _array(-1, 2), _array(-1, 3)
 ROTATION, TRANSFORM = _array(3, 3), _array(4, 4)
 
 
@@ -110,6 +111,8 @@ class Column:
 
 
 def _member(whole: Any, name: str) -> Any:
+    if whole is None:
+        return None
     return whole.get(name) if isinstance(whole, Mapping) else getattr(whole, name)
 
 
@@ -194,6 +197,8 @@ LAST = Table(
         Column("side_source", TEXT, "side.source", choice("given", "detected")),
         Column("footfit_version", TEXT),
         Column("record_sha256", TEXT, rule=rules.SHA256, hashed=False),
+        Column("toe_spring_mm", REAL, "labels.toe_spring_mm", nullable=True),
+        Column("platform_mm", REAL, "labels.platform_mm", nullable=True),
     ),
 )
 """One last: its labels, what its file was, which side it is."""
@@ -246,6 +251,8 @@ MEASURE = _owned(
     Column("sd", REAL, "measured.sd", number(0.0), nullable=True),
     Column("reason", TEXT, "measured.reason", nullable=True),
     Column("definition", TEXT, "definition"),
+    Column("total_sd", REAL, "measured.total_sd", number(0.0), nullable=True),
+    Column("bias", REAL, "measured.bias", nullable=True),
 )
 """One measure of one last: a new measure is a new row, never a new column."""
 
@@ -267,6 +274,32 @@ MESH_COPY = _owned(
 )
 """The last's compact mesh; a table of its own, so that ranking reads no mesh."""
 
+SECTION = _owned(
+    "section",
+    *(
+        column
+        for station in STATIONS
+        for column in (
+            Column(
+                f"{station.name}_plane", TRANSFORM, f"sections.{station.name}.plane", nullable=True
+            ),
+            Column(
+                f"{station.name}_points_mm",
+                POINTS,
+                f"sections.{station.name}.points_mm",
+                nullable=True,
+            ),
+        )
+    ),
+    Column("toes_outline_mm", EDGES, "toes_outline_mm", nullable=True),
+    Column("sha256", TEXT, rule=rules.SHA256, hashed=False),
+    hashed=True,
+)
+"""The sections of a last at the named stations; a null station could not be cut."""
+
+SEALED = (MESH_COPY, SECTION)
+"""What has a hash of its own in its row, so that ranking does not read it."""
+
 REFERENCE = Table(
     "reference",
     (
@@ -280,4 +313,4 @@ REFERENCE = Table(
 )
 """The one reference last: OM_E (Eq. 6), and its centroid in its canonical frame."""
 
-TABLES = (LAST, FRAME, FLARE, MEASURE, NOTICE, MESH_COPY, REFERENCE)
+TABLES = (LAST, FRAME, FLARE, MEASURE, NOTICE, MESH_COPY, SECTION, REFERENCE)

@@ -6,10 +6,21 @@ from collections.abc import Mapping
 from operator import itemgetter
 
 from footfit.catalogue.file.engine import LACKS
-from footfit.catalogue.rows.columns import FLARE, FRAME, LAST, MEASURE, MESH_COPY, NOTICE, REFERENCE
+from footfit.catalogue.rows.columns import (
+    FLARE,
+    FRAME,
+    LAST,
+    MEASURE,
+    MESH_COPY,
+    NOTICE,
+    REFERENCE,
+    SECTION,
+)
 from footfit.catalogue.rows.digests import Row
 from footfit.catalogue.rows.verified_rows import LastRows
 from footfit.errors import CatalogueDamaged
+from footfit.geometry.fit.named_sections import NamedSection
+from footfit.geometry.fit.stations import STATIONS
 from footfit.geometry.flare.definition import FlareProfile
 from footfit.results import (
     Eigenframe,
@@ -22,6 +33,7 @@ from footfit.results import (
     Notice,
     PoseQuality,
     Reference,
+    ShapeSections,
     SideVerdict,
 )
 
@@ -39,6 +51,14 @@ _measured = MEASURE.reader("measured", Measured)
 _measure = MEASURE.reader("", Measure, measured=_measured)
 _notice = NOTICE.reader("", Notice)
 mesh_copy_of = MESH_COPY.reader("", MeshCopy)
+_toes_outline = SECTION.fields_reader("")
+_stations = {
+    station.name: (
+        SECTION.readers(f"sections.{station.name}"),
+        f"{station.name}_points_mm",
+    )
+    for station in STATIONS
+}
 _reference = REFERENCE.reader("", Reference, last=itemgetter("last"))
 
 
@@ -71,6 +91,16 @@ def record_of(stored: LastRows, names: Mapping[int, str]) -> LastRecord:
         )
     except KeyError as error:
         raise CatalogueDamaged(LACKS) from error
+
+
+def sections_of(row: Row) -> ShapeSections:
+    """The kept sections of a last of its verified row."""
+    kept = {
+        name: NamedSection(**{field: read(row) for field, read in readers.items()})
+        for name, (readers, column) in _stations.items()
+        if row[column] is not None
+    }
+    return ShapeSections(kept, **_toes_outline(row))
 
 
 def reference_from(row: Row, name: str) -> Reference:

@@ -13,14 +13,13 @@ from footfit.catalogue.rows.columns import (
     FRAME,
     LAST,
     MEASURE,
-    MESH_COPY,
     NOTICE,
     REFERENCE,
     Table,
 )
 from footfit.catalogue.rows.digests import Row
 from footfit.catalogue.rows.verified_rows import row_digest, rows, stored_lasts
-from footfit.results import LastRecord, MeshCopy, Reference
+from footfit.results import LastRecord, Reference
 from footfit.version import __version__
 
 if TYPE_CHECKING:
@@ -37,7 +36,6 @@ def driver_of(connection: sa.Connection) -> sqlite3.Connection:
 def write_last(
     connection: sa.Connection,
     record: LastRecord,
-    copy: MeshCopy | None,
     parent_id: int | None,
     key: int | None = None,
 ) -> int:
@@ -54,10 +52,14 @@ def write_last(
         update_row(connection, LAST, key, row)
     for table in (FRAME, FLARE, MEASURE, NOTICE):
         write_owned(connection, key, table, record)
-    _write_rows(connection, key, MESH_COPY, [MESH_COPY.row(copy, sha256="")] if copy else [])
-    if copy is not None:
-        _seal_row(connection, key, MESH_COPY)
     return key
+
+
+def write_sealed(connection: sa.Connection, key: int, table: Table, value: object | None) -> None:
+    """Write the row with a hash of its own that a table has for a last; None deletes it."""
+    _write_rows(connection, key, table, [] if value is None else [table.row(value, sha256="")])
+    if value is not None:
+        _seal_row(connection, key, table)
 
 
 def write_owned(connection: sa.Connection, key: int, table: Table, record: LastRecord) -> None:

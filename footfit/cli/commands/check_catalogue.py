@@ -10,7 +10,7 @@ def check_catalogue(*, lasts: options.Lasts, mode: options.OutputMode) -> None:
 
     Example: footfit check-catalogue
     """
-    from footfit.cli.answer_forms import tell
+    from footfit.cli.answers import tell
     from footfit.errors import CheckFailed
     from footfit.pipeline.library.check import failure_words
 

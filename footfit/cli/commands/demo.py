@@ -8,6 +8,8 @@ import typer
 
 from footfit.cli import options
 
+CATALOGUE_NAME = "demo.footfit"
+
 
 def demo(
     folder: Path = typer.Argument(
@@ -25,7 +27,7 @@ def demo(
 
     from footfit.api import files, scans
     from footfit.api.catalogues import open_catalogue
-    from footfit.cli.answer_forms import tell
+    from footfit.cli.answers import tell
     from footfit.cli.outputs import write_output
     from footfit.errors import GeometryRefused
     from footfit.pipeline.sample_data import sample_folder
@@ -69,7 +71,7 @@ def fresh_catalogue(folder: Path, *, replace: bool) -> Path:
     """
     from footfit.errors import BadOption, OutputExists
 
-    catalogue = folder / "demo.footfit"
+    catalogue = folder / CATALOGUE_NAME
     if folder.exists() and not folder.is_dir():
         raise BadOption("is a file; name a folder for the demo", str(folder))
     if catalogue.exists():

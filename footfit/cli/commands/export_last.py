@@ -19,12 +19,13 @@ def export_last(
     lasts: options.Lasts,
     force: bool = options.FORCE,
     mode: options.OutputMode,
-) -> object:
+) -> None:
     """Write the mesh of a last (canonical frame, mm) or its record to a file.
 
     Example: footfit export-last derby-42 -o derby-42.stl
     """
     from footfit.api import files
+    from footfit.cli.answers import tell
     from footfit.cli.outputs import refuse_existing, write_output
     from footfit.pipeline.export import MESH_KINDS, file_kind
     from footfit.report.json import json_line
@@ -41,4 +42,4 @@ def export_last(
         outcome = ExportOutcome(last, str(output), copy.faces, copy.error_mm)
         data = files.mesh_file(copy, kind)
     write_output(output, data, force=force)
-    return outcome
+    tell(outcome, mode)

@@ -5,13 +5,14 @@ from __future__ import annotations
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
-from typing import Any
+from typing import Any, Literal
 
 import typer
 
 from footfit.cli import options
 
 LABELS = "What people say of the last"
+KeepMesh = Literal["compact", "full"]
 
 
 def _label(flag: str, metavar: str, text: str) -> Any:
@@ -38,9 +39,22 @@ def ingest_last(
         "--size-system", "eu", "Set the system of the size, such as eu or uk."
     ),
     width_label: str | None = _label("--width-label", "G", "Set the width as it is marked."),
-    heel_height: float | None = _label("--heel-height", "MM", "Set the heel height in mm."),
+    heel_height: float | None = _label(
+        "--heel-height", "MM", "Set the heel height in mm: the seat over the ground."
+    ),
+    toe_spring: float | None = _label(
+        "--toe-spring", "MM", "Set the toe spring in mm: the tip over the ground."
+    ),
+    platform: float | None = _label(
+        "--platform", "MM", "Set the height of the forepart over the ground in mm."
+    ),
     replace: bool = options.switch("--replace", "Replace a stored last of the same name."),
     dry_run: bool = options.switch("--dry-run", "Store nothing; say what would be stored."),
+    keep_mesh: KeepMesh = options.option(
+        "--keep-mesh",
+        "Keep a compact copy of each mesh, or the full mesh, which custom lasts need.",
+        default="compact",
+    ),
     jobs: int = options.JOBS,
     *,
     lasts: options.Lasts,
@@ -55,8 +69,7 @@ def ingest_last(
     """
     from dataclasses import replace as changed
 
-    from footfit.cli.answer_forms import tell
-    from footfit.cli.answers import failures_last, sources_of, watched_items
+    from footfit.cli.answers import failures_last, sources_of, tell, watched_items
     from footfit.cli.console import error_line, say, say_notices
     from footfit.cli.signals import LISTENER
     from footfit.pipeline.batch.runs import common_code
@@ -65,8 +78,15 @@ def ingest_last(
     from footfit.pipeline.library.ingest import entries, unused_rows
     from footfit.results import LastLabels
 
-    heel_height_mm = manifests.heel_height_mm(heel_height)
-    labels = LastLabels(name or "", style, size, size_system, width_label, heel_height_mm)
+    heights = {
+        "heel_height_mm": heel_height,
+        "toe_spring_mm": toe_spring,
+        "platform_mm": platform,
+    }
+    given: dict[str, Any] = {
+        label: manifests.label_mm(value, label) for label, value in heights.items()
+    }
+    labels = LastLabels(name or "", style, size, size_system, width_label, **given)
     rows = manifests.read_manifest(manifest) if manifest else []
     sources = sources_of(paths or [], reading) if paths else []
     batch = entries(sources, rows, labels, ReadingOptions(**reading.keywords()))
@@ -74,7 +94,12 @@ def ingest_last(
     say_notices(unused_rows(batch, rows), str(manifest), quiet=mode.quiet)
     refused: list[int] = []
     outcomes = lasts.open().ingest_each(
-        batch, replace=replace, dry_run=dry_run, jobs=jobs, hold_signals=LISTENER.hold
+        batch,
+        replace=replace,
+        dry_run=dry_run,
+        jobs=jobs,
+        keep_mesh=keep_mesh,
+        hold_signals=LISTENER.hold,
     )
     with reader_required(), failures_last(mode) as tell_failure:
         for outcome in watched_items(outcomes, mode):

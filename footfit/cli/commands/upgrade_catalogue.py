@@ -5,9 +5,13 @@ from __future__ import annotations
 from footfit.cli import options
 
 
-def upgrade_catalogue(*, lasts: options.Lasts, mode: options.OutputMode) -> object:
+def upgrade_catalogue(
+    jobs: int = options.JOBS, *, lasts: options.Lasts, mode: options.OutputMode
+) -> object:
     """Bring an older catalogue to the schema and the definitions of this version.
 
-    Example: footfit upgrade-catalogue
+    You can stop it and run it again: it goes on with the lasts that are left.
+
+    Example: footfit upgrade-catalogue --jobs 2
     """
-    return lasts.open().upgrade()
+    return lasts.open().upgrade(jobs)

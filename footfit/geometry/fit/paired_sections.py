@@ -10,29 +10,12 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from footfit.geometry.fit.stations import STATIONS, Station
 from footfit.geometry.measures.landmarks import AXES, Shape
 from footfit.geometry.measures.measure_value import MeasureValue
 from footfit.geometry.measures.tape import hull_girth
 from footfit.geometry.mesh.outlines import Outline
-
-
-@dataclass(frozen=True, slots=True)
-class Station:
-    """A named place along the foot: a share of its length, or ``oblique``, through MT1 and MT5."""
-
-    name: str
-    share: float
-    oblique: bool = False
-
-
-STATIONS = (
-    Station("heel", 1.0 / 6.0),
-    Station("arch", 0.38),
-    Station("instep", 0.50),
-    Station("waist", 0.58),
-    Station("ball", 0.68, oblique=True),
-    Station("toes", 0.88),
-)
+from footfit.geometry.numeric.arrays import Floats
 
 
 @dataclass(frozen=True, slots=True)
@@ -71,9 +54,7 @@ def section_pairs(foot: Shape, last: Shape) -> tuple[SectionPair, ...]:
 
 
 def _pair(foot: Shape, last: Shape, station: Station) -> SectionPair:
-    origin, axes = np.array([foot.x_mm(station.share), 0.0, 0.0]), AXES[1:]
-    if station.oblique and foot.ball_plane is not None:
-        origin, axes = foot.ball_plane
+    origin, axes = station_plane(foot, station)
     band_mm = SECTIONS.band * foot.length_mm
     ours, theirs = foot.cut(origin, axes), last.cut(origin, axes)
     return SectionPair(
@@ -84,6 +65,13 @@ def _pair(foot: Shape, last: Shape, station: Station) -> SectionPair:
         foot_sizes=_sizes(foot, ours, station, band_mm),
         last_sizes=_sizes(last, theirs, station, band_mm),
     )
+
+
+def station_plane(foot: Shape, station: Station) -> tuple[Floats, Floats]:
+    """A point (3,) of a station's plane, in the middle of the foot, and its two axes (2, 3)."""
+    if station.oblique and foot.ball_plane is not None:
+        return foot.ball_plane
+    return np.array([foot.x_mm(station.share), 0.0, 0.0]), AXES[1:]
 
 
 def _sizes(

@@ -27,6 +27,8 @@ from footfit.meshes.copies.lighter import lighter_mesh
 from footfit.meshes.read_limits import LIMITS
 from footfit.results import MeshCopy
 
+COPY_FACES = 10_000
+"""Of a compact copy, unless it needs more to be close enough."""
 _HEADER = struct.Struct("<4sBxxxIId3d")
 _MAGIC = b"ffmc"
 _VERSION = 1
@@ -54,7 +56,7 @@ class CopySettings:
 COPY_SETTINGS = CopySettings()
 
 
-def compact_copy(vertices_mm: Floats, faces: Ints, target_faces: int = 10_000) -> MeshCopy:
+def compact_copy(vertices_mm: Floats, faces: Ints, target_faces: int = COPY_FACES) -> MeshCopy:
     """A simplified, quantised and compressed copy, with its measured error.
 
     Parameters

@@ -8,6 +8,7 @@ from contextlib import AbstractContextManager, nullcontext
 from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
+from typing import Literal
 
 from footfit.catalogue.rows.requirements import same_scan
 from footfit.catalogue.store import Catalogue, open_catalogue
@@ -17,9 +18,11 @@ from footfit.pipeline.batch.sources import ReadingOptions, Source
 from footfit.pipeline.library.manifest import ManifestRow
 from footfit.pipeline.scan.measure import last_record
 from footfit.pipeline.scan.reading import content_hash, profiled_source
+from footfit.pipeline.scan.sections import kept_sections
 from footfit.pipeline.scan.settled_unit import unit_notes
-from footfit.results import IngestOutcome, LastLabels, LastRecord, MeshCopy, Notice
+from footfit.results import IngestOutcome, LastLabels, LastRecord, MeshCopy, Notice, ShapeSections
 
+KeepMesh = Literal["compact", "full"]
 SAME_LENGTH_MM = 0.01
 """Two known lengths that differ by less are the same: a measuring stick shows whole mm."""
 
@@ -40,11 +43,12 @@ class Entry:
 
 @dataclass(frozen=True, slots=True)
 class NewLast:
-    """A last that can be stored; it has no ``record`` and ``copy`` if its content is known."""
+    """A last that can be stored; if its content is known, it has only the hash."""
 
     sha256: str
     record: LastRecord | None = None
     copy: MeshCopy | None = None
+    sections: ShapeSections | None = None
 
 
 HoldSignals = Callable[[], AbstractContextManager[object]]
@@ -111,19 +115,26 @@ def _entry(
     return Entry(source, labels, reading)
 
 
-def new_last(entry: Entry, known: frozenset[str] = frozenset()) -> NewLast:
+def new_last(
+    entry: Entry, known: frozenset[str] = frozenset(), keep_mesh: KeepMesh = "compact"
+) -> NewLast:
     """The slow part of an ingest. It does not use the catalogue, and runs in a worker.
 
     ``known`` holds the content hashes that the catalogue has: those files are not aligned again.
+    ``keep_mesh`` "full" keeps every face of the mesh.
     """
-    from footfit.meshes.copies.compact_copy import compact_copy
+    from footfit.meshes.copies.compact_copy import COPY_FACES, compact_copy
 
     sha256 = content_hash(entry.source)
     if sha256 in known:
         return NewLast(sha256)
     shape = profiled_source(entry.source, entry.reading)
-    copy = compact_copy(shape.aligned.vertices_mm, shape.aligned.faces)
-    return NewLast(sha256, last_record(shape, entry.labels), copy)
+    faces = shape.aligned.faces
+    target = len(faces) if keep_mesh == "full" else COPY_FACES
+    copy = compact_copy(shape.aligned.vertices_mm, faces, target)
+    prepared = shape.aligned.prepared
+    sections = kept_sections(prepared.vertices_mm, prepared.faces, prepared.pose.kind)
+    return NewLast(sha256, last_record(shape, entry.labels), copy, sections)
 
 
 class Holdings:
@@ -186,12 +197,14 @@ def ingest(
     jobs: int = HERE,
     replace: bool = False,
     dry_run: bool = False,
+    keep_mesh: KeepMesh = "compact",
     hold_signals: HoldSignals = nullcontext,
 ) -> Iterator[IngestOutcome]:
     """Ingest a batch into the catalogue at ``path``; yield each file's outcome after its commit.
 
-    A missing catalogue is made. Signals are held off by ``hold_signals`` from before a commit
-    until the next outcome is asked for.
+    ``keep_mesh`` "full" keeps every face of a mesh; with ``replace`` also of a last that is stored
+    with a lighter copy. A missing catalogue is made. Signals are held off by ``hold_signals`` from
+    before a commit until the next outcome is asked for.
 
     Raises
     ------
@@ -200,10 +213,12 @@ def ingest(
     """
     with nullcontext() if dry_run else open_catalogue(path, write=True) as catalogue:
         holdings = Holdings(_stored_lasts(path) if catalogue is None else catalogue.lasts().records)
+        again = replace and keep_mesh == "full"  # its copy may be a lighter one
         known = frozenset() if replace else frozenset(holdings.by_content)
-        for work in outcomes(partial(new_last, known=known), batch, jobs):
+        work_on = partial(new_last, known=known, keep_mesh=keep_mesh)
+        for work in outcomes(work_on, batch, jobs):
             with hold_signals():
-                outcome = _store(work, holdings, catalogue, replace=replace)
+                outcome = _store(work, holdings, catalogue, replace=replace, again=again)
                 yield dataclasses.replace(outcome, dry_run=dry_run)
 
 
@@ -222,6 +237,7 @@ def _store(
     catalogue: Catalogue | None,
     *,
     replace: bool,
+    again: bool,
 ) -> IngestOutcome:
     """Store what the work on one file made, and say what became of the file; None is a dry run."""
     entry, new = work.item, work.value
@@ -230,7 +246,7 @@ def _store(
         return IngestOutcome(path, "refused", failure=work.error)
     try:
         status = holdings.status(new.sha256, entry, replace=replace)
-        if status == "unchanged":
+        if status == "unchanged" and not again:
             return _success(path, status, holdings.by_name[name])
         if new.record is None:  # it was known when the batch began, and is not any more
             new = new_last(entry)
@@ -238,12 +254,13 @@ def _store(
         first = not holdings.by_name
         if catalogue is not None:
             try:
-                catalogue.add(new.record, new.copy, replace=replace)
+                catalogue.add(new.record, new.copy, new.sections, replace=replace)
             except NameTaken:  # another process stored it meanwhile: look again, and say so
                 holdings = Holdings(catalogue.lasts().records)
                 status = holdings.status(new.sha256, entry, replace=replace)
                 return _success(path, status, holdings.by_name[name])
         holdings.put(new.record)
+        status = "replaced" if status == "unchanged" else status
     except FootfitError as error:
         if error.exit == ExitCode.CATALOGUE_UNUSABLE:
             raise

@@ -6,6 +6,7 @@ import csv
 import io
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
 from footfit.errors import BadManifest, BadOption
 from footfit.meshes.units import UNIT_SCALES
@@ -13,10 +14,12 @@ from footfit.pipeline.batch.sources import ReadingOptions
 from footfit.results import LastLabels
 
 LABEL_TEXTS = ("name", "style", "size", "size_system", "width_label")
-COLUMNS = ("path", *LABEL_TEXTS, "side", "units", "heel_height_mm")
+LABEL_HEIGHTS = ("heel_height_mm", "toe_spring_mm", "platform_mm")
+COLUMNS = ("path", *LABEL_TEXTS, "side", "units", *LABEL_HEIGHTS)
 CHOICES = {"side": ("auto", "left", "right"), "units": ("auto", *UNIT_SCALES)}
 LARGEST_BYTES = 16_000_000
-HEEL_HEIGHTS_MM = (0, 200)
+LIMITS_MM = {"heel_height_mm": (0, 200), "toe_spring_mm": (0, 80), "platform_mm": (0, 100)}
+"""What a label can say of how high a last stands."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -88,9 +91,9 @@ def _row(values: dict[str, str | None], folder: Path, where: str) -> ManifestRow
     given = {name: text for name, value in values.items() if (text := (value or "").strip())}
     if "path" not in given:
         raise BadManifest("has no path; fill it in or remove the line", where)
-    texts = {name: given[name] for name in LABEL_TEXTS if name in given}
-    texts.setdefault("name", Path(given["path"]).stem)
-    labels = LastLabels(**texts, heel_height_mm=_height(given.get("heel_height_mm"), where))
+    said: dict[str, Any] = {name: given[name] for name in LABEL_TEXTS if name in given}
+    said |= {name: _height(given.get(name), name, where) for name in LABEL_HEIGHTS}
+    labels = LastLabels(**{"name": Path(given["path"]).stem} | said)
     units, side = (_choice(given.get(name, "auto"), name, where) for name in ("units", "side"))
     reading = ReadingOptions(units=units, side=side)
     return ManifestRow(str(folder / given["path"]), labels, reading)
@@ -103,24 +106,30 @@ def _choice(value: str, column: str, where: str) -> str:
     return value.lower()
 
 
-def _height(value: str | None, where: str) -> float | None:
+def _height(value: str | None, column: str, where: str) -> float | None:
     try:
-        return None if value is None else heel_height_mm(float(value))
+        return None if value is None else label_mm(float(value), column)
     except (ValueError, BadOption) as error:
-        low, high = HEEL_HEIGHTS_MM
-        words = f"heel_height_mm is {value!r}; it must be a number of mm from {low} to {high}"
+        low, high = LIMITS_MM[column]
+        words = f"{column} is {value!r}; it must be a number of mm from {low} to {high}"
         raise BadManifest(words, where) from error
 
 
-def heel_height_mm(value: float | None) -> float | None:
-    """The heel height of a label, or None.
+def label_mm(value: float | None, name: str) -> float | None:
+    """A height that a label gives, in mm, or None.
 
     Raises
     ------
     BadOption
-        No heel has that height.
+        No last has that height.
+
+    Examples
+    --------
+    >>> label_mm(25.0, "heel_height_mm"), label_mm(None, "platform_mm")
+    (25.0, None)
     """
-    low, high = HEEL_HEIGHTS_MM
+    low, high = LIMITS_MM[name]
     if value is not None and not low <= value <= high:
-        raise BadOption(f"a heel height is from {low} to {high} mm, not {value}")
+        noun = name.removesuffix("_mm").replace("_", " ")
+        raise BadOption(f"a {noun} is from {low} to {high} mm, not {value}")
     return value

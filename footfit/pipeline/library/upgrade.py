@@ -2,57 +2,117 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 from footfit.catalogue.store import Catalogue, open_catalogue
-from footfit.geometry.flare.definition import FlareDefinition
+from footfit.geometry.flare.definition import FlareDefinition, FlareProfile
+from footfit.pipeline.batch.runs import HERE, outcomes
 from footfit.pipeline.library.lasts import has_other_measures
 from footfit.pipeline.scan.flare import shape_flare
 from footfit.pipeline.scan.measure import shape_measures
 from footfit.pipeline.scan.preparation import stored_shape
-from footfit.results import LastRecord, UpgradeOutcome
+from footfit.pipeline.scan.sections import kept_sections
+from footfit.results import LastRecord, Measure, Notice, ShapeSections, UpgradeOutcome
+
+AT_A_TIME = 256
+"""Mesh copies that are held in memory; each is 60 kB, or a few MB if the whole mesh is kept."""
 
 
-def upgrade(path: Path) -> UpgradeOutcome:
-    """Bring the schema up to date, and every last whose profile or measures follow other
-    definitions than this version's.
+@dataclass(frozen=True, slots=True)
+class StoredMesh:
+    """A mesh copy to measure again; ``path`` names the last in errors."""
 
-    A copy of the file is kept beside it if its schema changes. Profiles and measures are made
-    from the catalogue's own mesh copies; a profile says which definition it replaces.
+    path: str
+    data: bytes
+    record: LastRecord
+    reprofile: bool
+
+
+@dataclass(frozen=True, slots=True)
+class MeasuredAgain:
+    """What is measured from a mesh copy; no ``flare`` where the stored profile stays."""
+
+    measures: tuple[Measure, ...]
+    flare: FlareProfile | None
+    sections: ShapeSections
+
+
+def upgrade(path: Path, jobs: int = HERE) -> UpgradeOutcome:
+    """Bring the schema up to date, and every last that was measured by other definitions.
+
+    A copy of the file is kept beside it if its schema changes. Everything is measured from the
+    catalogue's own mesh copies, and each last is stored by itself: an upgrade that is interrupted
+    goes on with the lasts that are left. A profile says which definition it replaces.
 
     Raises
     ------
     NoCatalogue, CatalogueUnusable
         There is no catalogue, or it cannot be written; it is then as it was.
     """
-    definition = FlareDefinition()
     with open_catalogue(path, write=True, create=False) as catalogue:
-        stored = catalogue.lasts()
-        older = [
-            record
-            for record in stored.records
-            if record.labels.name in stored.outdated or has_other_measures(record)
-        ]
-        for record in older:
-            _renew(catalogue, record, profile=record.labels.name in stored.outdated)
+        older = _older(catalogue)
+        names = [record.labels.name for record, _ in older]
+        with_copy = frozenset(catalogue.mesh_copy_names())
+        work = [(record, again) for record, again in older if record.labels.name in with_copy]
+        failures = {
+            name: f"{name!r} was stored without its mesh: ingest its file again with --replace"
+            for name in names
+            if name not in with_copy
+        }
+        for start in range(0, len(work), AT_A_TIME):
+            failures |= dict(_renew(catalogue, work[start : start + AT_A_TIME], jobs))
         revisions = catalogue.revisions
     return UpgradeOutcome(
         path=str(path),
         revision_before=revisions.before,
         revision_after=revisions.after,
-        definition=definition.version,
-        recomputed=tuple(record.labels.name for record in older),
+        definition=FlareDefinition().version,
+        recomputed=tuple(name for name in names if name not in failures),
         backup=None if revisions.backup is None else str(revisions.backup),
+        left=tuple(name for name in names if name in failures),
+        warnings=tuple(Notice("not_upgraded", words) for words in failures.values()),
     )
 
 
-def _renew(catalogue: Catalogue, record: LastRecord, *, profile: bool) -> None:
-    """Measure a last again; with ``profile`` also profile it by this version's definition."""
-    copy, kind = catalogue.mesh_copy(record.labels.name), record.pose.kind
-    right = stored_shape(copy.data, record.side.side)
-    record = replace(record, measures=shape_measures(*right, kind))
-    if profile:
-        flare = shape_flare(*right, kind)
-        record = replace(record, flare=flare, upgraded_from=record.flare.definition.version)
-    catalogue.update_profile(record)
+def _older(catalogue: Catalogue) -> list[tuple[LastRecord, bool]]:
+    """The lasts that were measured by other definitions, and whether each needs a new profile."""
+    stored, cut = catalogue.lasts(), frozenset(catalogue.section_names())
+    outdated = frozenset(stored.outdated)
+    return [
+        (record, record.labels.name in outdated)
+        for record in stored.records
+        if record.labels.name in outdated
+        or has_other_measures(record)
+        or record.labels.name not in cut
+    ]
+
+
+def _renew(
+    catalogue: Catalogue, work: Sequence[tuple[LastRecord, bool]], jobs: int
+) -> Iterator[tuple[str, str]]:
+    """Measure lasts again and store each; yield the name of each that fails, and why."""
+    meshes = [
+        StoredMesh(name, catalogue.mesh_copy(name).data, record, again)
+        for record, again in work
+        for name in (record.labels.name,)
+    ]
+    for outcome in outcomes(_measured_again, meshes, jobs):
+        record, new = outcome.item.record, outcome.value
+        if new is None:
+            yield record.labels.name, f"{record.labels.name!r} stays as it is: {outcome.error}"
+            continue
+        record = replace(record, measures=new.measures)
+        if new.flare is not None:
+            old = record.flare.definition.version
+            record = replace(record, flare=new.flare, upgraded_from=old)
+        catalogue.update_measured(record, new.sections)
+
+
+def _measured_again(mesh: StoredMesh) -> MeasuredAgain:
+    """The slow part of an upgrade. It does not use the catalogue, and runs in a worker."""
+    kind = mesh.record.pose.kind
+    right = stored_shape(mesh.data, mesh.record.side.side)
+    flare = shape_flare(*right, kind) if mesh.reprofile else None
+    return MeasuredAgain(shape_measures(*right, kind), flare, kept_sections(*right, kind))

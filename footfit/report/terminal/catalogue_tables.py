@@ -175,7 +175,8 @@ def upgrade_catalogue_line(outcome: results.UpgradeOutcome) -> RenderableType:
     return facts(
         ("catalogue", cell(outcome.path)),
         ("schema", schema),
-        ("profiles", f"{count} re-computed to {visible(outcome.definition)}"),
+        ("lasts", f"{count} measured again by {visible(outcome.definition)}"),
+        ("left", ", ".join(map(visible, outcome.left)) or "none"),
         ("backup", cell(outcome.backup)),
     )
 

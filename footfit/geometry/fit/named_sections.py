@@ -1,0 +1,118 @@
+"""The sections of one shape that are kept of it, so that later questions read no mesh."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from footfit.errors import HalfScan
+from footfit.geometry.fit.paired_sections import station_plane
+from footfit.geometry.fit.stations import STATIONS
+from footfit.geometry.flare.definition import FlareDefinition
+from footfit.geometry.flare.flattened import flattened
+from footfit.geometry.measures.landmarks import Shape
+from footfit.geometry.mesh.sections import extremes_below, sections_across
+from footfit.geometry.numeric.arrays import Floats
+
+
+@dataclass(frozen=True, slots=True)
+class NamedSectionSettings:
+    """What is kept; lengths over the length of the shape, or of its bottom laid flat.
+
+    Attributes
+    ----------
+    points : int
+        Of each section, evenly along its outline: off the outline by 0.1 mm at most.
+    toe_height : float
+        The toes' outline is the widest of what lies lower than this over the bottom: a toe box is
+        as high.
+    toes_from, toes_to, toe_stations
+        Where along the flat bottom its edges are kept.
+    """
+
+    points: int = 120
+    toe_height: float = 0.08
+    toes_from: float = 0.60
+    toes_to: float = 0.998
+    toe_stations: int = 80
+
+
+NAMED_SECTIONS = NamedSectionSettings()
+
+
+@dataclass(frozen=True, slots=True)
+class NamedSection:
+    """The section of a right shape by one plane.
+
+    Attributes
+    ----------
+    plane : (4, 4)
+        From the plane's own axes (across, up, out of it) to the canonical frame.
+    points_mm : (n, 2)
+        Its longest loop in the plane's axes, across to the medial side and up.
+    """
+
+    plane: Floats
+    points_mm: Floats
+
+
+def named_sections(
+    shape: Shape, settings: NamedSectionSettings = NAMED_SECTIONS
+) -> dict[str, NamedSection]:
+    """The sections at the named stations: where :func:`section_pairs` cuts, on the shape itself.
+
+    A station where the section is open is left out. A section that runs over the top cut of a last
+    or a leg is kept with it.
+    """
+    kept = {}
+    for station in STATIONS:
+        origin, axes = station_plane(shape, station)
+        section = shape.cut(origin, axes)
+        if shape.opened(section):
+            continue
+        plane = np.eye(4)
+        plane[:3, :3] = np.column_stack([*axes, np.cross(*axes)])
+        plane[:3, 3] = origin
+        longest = max(section.loops, key=len)
+        kept[station.name] = NamedSection(plane, _evenly(longest, settings.points))
+    return kept
+
+
+def toes_outline_mm(
+    shape: Shape,
+    definition: FlareDefinition | None = None,
+    settings: NamedSectionSettings = NAMED_SECTIONS,
+) -> Floats | None:
+    """The outline of the toes at toe height, on the bottom laid flat as for the flare.
+
+    Returns
+    -------
+    (n, 3) or None
+        Along the flat bottom from its rearmost point, and the lateral and the medial edge there,
+        in mm. None if the bottom is not shown.
+    """
+    stance = shape.stance if shape.kind == "last" else None
+    try:
+        definition = FlareDefinition() if definition is None else definition
+        bottom = flattened(shape.vertices_mm, shape.faces, stance, definition).shape
+    except HalfScan:
+        return None
+    x = np.linspace(settings.toes_from, settings.toes_to, settings.toe_stations)
+    segments = sections_across(bottom.vertices, bottom.faces, x)
+    limit = np.full(len(x), settings.toe_height)
+    lateral, medial = extremes_below(
+        segments.points[:, :, 1], segments.points[:, :, 2], limit, segments
+    )
+    known = np.isfinite(lateral) & np.isfinite(medial)
+    if not known.any():
+        return None
+    return np.asarray(np.column_stack([x, lateral, medial])[known] * bottom.length_mm)
+
+
+def _evenly(loop: Floats, count: int) -> Floats:
+    """A closed loop (k, 2) as ``count`` points at equal steps."""
+    closed = np.concatenate([loop, loop[:1]])
+    arc = np.concatenate([[0.0], np.cumsum(np.linalg.norm(np.diff(closed, axis=0), axis=1))])
+    at = np.linspace(0.0, arc[-1], count, endpoint=False)
+    return np.column_stack([np.interp(at, arc, closed[:, axis]) for axis in (0, 1)])
