@@ -16,9 +16,9 @@ from footfit.errors import BadOption, ExitCode, FootfitError, NameTaken, NoCatal
 from footfit.pipeline.batch.runs import HERE, Outcome, outcomes
 from footfit.pipeline.batch.sources import ReadingOptions, Source
 from footfit.pipeline.library.manifest import ManifestRow
+from footfit.pipeline.scan.kept_sections import kept_sections
 from footfit.pipeline.scan.measure import last_record
 from footfit.pipeline.scan.reading import content_hash, profiled_source
-from footfit.pipeline.scan.sections import kept_sections
 from footfit.pipeline.scan.settled_unit import unit_notes
 from footfit.results import IngestOutcome, LastLabels, LastRecord, MeshCopy, Notice, ShapeSections
 

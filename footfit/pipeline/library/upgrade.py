@@ -11,9 +11,9 @@ from footfit.geometry.flare.definition import FlareDefinition, FlareProfile
 from footfit.pipeline.batch.runs import HERE, outcomes
 from footfit.pipeline.library.lasts import has_other_measures
 from footfit.pipeline.scan.flare import shape_flare
+from footfit.pipeline.scan.kept_sections import kept_sections
 from footfit.pipeline.scan.measure import shape_measures
 from footfit.pipeline.scan.preparation import stored_shape
-from footfit.pipeline.scan.sections import kept_sections
 from footfit.results import LastRecord, Measure, Notice, ShapeSections, UpgradeOutcome
 
 AT_A_TIME = 256
