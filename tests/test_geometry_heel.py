@@ -78,3 +78,13 @@ def test_the_whole_way_from_a_scan_gives_the_heels_length():
     answer = footfit.measure(scan, side="right")
     assert answer.alignment.length_mm == pytest.approx(true_mm, abs=SD_MM)
     assert answer.alignment.extent_mm > true_mm + 5.0
+
+
+@pytest.mark.parametrize("name", FEET)
+def test_a_leaning_shank_does_not_turn_the_flare(name):
+    """As it was, the centre line began in the calf: the angle lost up to 5 degrees."""
+    angles_deg = [
+        footfit.flare(footfit.read(mesh, units="mm"), side="right").flare.angle_deg
+        for mesh in (foot(name)[:2], leaning(name, 0.20, 1.0))
+    ]
+    assert angles_deg[1] == pytest.approx(angles_deg[0], abs=0.05)  # measured 0.01

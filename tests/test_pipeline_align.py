@@ -346,7 +346,10 @@ def test_a_foot_without_its_sole_is_posed_by_the_rest(name, height_mm):
         alone = aligned(scan_of(distortions.moved(cut[0], pose), cut[1])).alignment
         assert "no_sole" in codes(alone)
         assert alone.side.side == whole.side.side
-        assert alone.length_mm == pytest.approx(whole.length_mm, abs=1.4)  # measured 0.9
+        if "open_end" in codes(alone):  # at 15 mm a part of the toes went with the sole
+            assert height_mm > 10.0
+        else:
+            assert alone.length_mm == pytest.approx(whole.length_mm, abs=1.4)  # measured 0.9
         turn = alone.transform[:3, :3] @ pose[:3, :3]
         assert min(turn[0, 0], turn[2, 2]) > np.cos(np.radians(1.4))  # measured 0.74
 

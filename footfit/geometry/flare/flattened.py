@@ -8,6 +8,7 @@ import numpy as np
 
 from footfit.geometry.flare.centre_line import CentreLine
 from footfit.geometry.flare.definition import FlareDefinition
+from footfit.geometry.flare.leaning_shank import without_leaning_shank
 from footfit.geometry.flare.levelled_bottom import BottomShape, bottom_shape
 from footfit.geometry.flare.unrolling import FlatBottom, SideLine, flat_bottom, side_line
 from footfit.geometry.numeric.arrays import Floats, Ints
@@ -77,7 +78,7 @@ def flattened(
         The shape has no length.
     """
     if stance is None:
-        flat = FlatBottom(vertices_mm, faces, np.eye(2))
+        flat = FlatBottom(*without_leaning_shank(vertices_mm, faces), np.eye(2))
         shape = bottom_shape(flat.vertices_mm, flat.faces, definition)
         return Flattened(shape, definition, SideLine.level(), flat.turn, np.eye(4))
     stands = stance.standing_transform

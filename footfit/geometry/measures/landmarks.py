@@ -11,14 +11,14 @@ from typing import NamedTuple
 
 import numpy as np
 
+from footfit.geometry.flare.leaning_shank import heel_end
 from footfit.geometry.flare.levelled_bottom import low_length
 from footfit.geometry.measures.bottom_arc import BottomArc, bottom_arc
 from footfit.geometry.measures.tape import convex_hull, depth_under_hull
 from footfit.geometry.measures.top_cut import top_cut_faces
 from footfit.geometry.mesh.filled_holes import filled_faces
-from footfit.geometry.mesh.outermost_point import TIPS, Tip, tip
+from footfit.geometry.mesh.outermost_point import Tip, tip
 from footfit.geometry.mesh.outlines import Outline, outline
-from footfit.geometry.mesh.sections import lowest, sections_across
 from footfit.geometry.numeric.arrays import Bools, Floats, Ints
 from footfit.geometry.stance.stance import Stance, stance_of
 
@@ -31,12 +31,6 @@ class LandmarkSettings:
     """Where landmarks are looked for; heights and places over the length."""
 
     length_height: float = 0.30  # higher parts are leg
-    narrowing: tuple[float, float] = (
-        0.10,
-        0.30,
-    )  # a heel narrows at .20-.30, its rear is at .06-.18
-    narrowing_levels: int = 21
-    rear: float = 0.25  # over the length: how far forward a heel's back is looked at
     width_height: float = 0.20  # over the floor; above it ankles may stand out
     inner_joint: tuple[float, float] = (0.60, 0.82)  # MT1 of a foot lies at .72, MT5 at .63
     outer_joint: tuple[float, float] = (0.52, 0.76)
@@ -104,24 +98,10 @@ class Shape:
         """The faces (k, 3) that the heel's rearmost point is looked for in.
 
         Of a foot whose shank leans back over its heel these are the faces below the heel's own
-        narrowing: the height at which its back lies farthest in front of the heel's rear below and
-        of the shank's rear above. There the heel bone ends.
+        narrowing.
         """
-        if self.kind != "foot":
-            return self.low
-        x, z = self.vertices_mm[:, 0], self.vertices_mm[:, 2]
-        low_mm, high_mm = (height * self._rough_length_mm for height in LANDMARKS.narrowing)
-        shank = self._faces_of((z > 0.5 * (low_mm + high_mm)) & (z < high_mm))
-        start_mm = float(x[self.low].min())
-        if not (x[shank] < start_mm + TIPS.cap * self._rough_length_mm).any():
-            return self.low
-        rear = self._faces_of(x < start_mm + LANDMARKS.rear * self._rough_length_mm)
-        levels = np.linspace(low_mm, high_mm, LANDMARKS.narrowing_levels)
-        cuts = sections_across(self.vertices_mm[:, ::-1], rear, levels)
-        back = lowest(cuts.points[:, :, 2], cuts)
-        below, above = np.fmin.accumulate(back), np.fmin.accumulate(back[::-1])[::-1]
-        hollow = np.nan_to_num(back - np.maximum(below, above))
-        return self._faces_of(z < levels[hollow.argmax()]) if hollow.any() else self.low
+        end_mm = heel_end(self.vertices_mm, self.faces) if self.kind == "foot" else np.inf
+        return self.low if end_mm == np.inf else self._faces_of(self.vertices_mm[:, 2] < end_mm)
 
     @cached_property
     def length_mm(self) -> float:
