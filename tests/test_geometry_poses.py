@@ -21,6 +21,7 @@ from footfit.geometry.pose.icp import (
 )
 from footfit.geometry.pose.pose_search import (
     POSE_SEARCH,
+    _turns,
     is_accepted,
     mirror_image,
     rough_pose,
@@ -38,6 +39,16 @@ SEEDS = st.integers(0, 2**32 - 1)
 @pytest.fixture(scope="module")
 def last():
     return last_mesh(LastSpec(rings=60, segments=40))
+
+
+def test_the_turns_that_are_tried_are_every_other_one_that_keeps_the_line_of_x():
+    """With the identity they are a group of eight: four rolls, with either end in front."""
+    turns = np.rint(np.concatenate([np.eye(3)[None], _turns()])).astype(int)
+    known = {turn.tobytes() for turn in turns}
+    assert len(known) == len(turns) == 8
+    assert {(one @ other).tobytes() for one in turns for other in turns} == known
+    assert np.array_equal(np.abs(turns[:, 0]), [[1, 0, 0]] * 8)
+    assert np.linalg.det(turns) == pytest.approx([1.0] * 8)
 
 
 def test_the_normal_equations_are_those_of_the_rows_written_out():
