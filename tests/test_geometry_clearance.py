@@ -20,7 +20,7 @@ from footfit.geometry.fit.clearance import (
     zone_of,
 )
 from footfit.geometry.fit.paired_sections import section_pairs
-from footfit.geometry.fit.placement import placed, placement
+from footfit.geometry.fit.placement import Placement, placed, placement
 from footfit.geometry.fit.stations import STATIONS
 from footfit.geometry.measures.landmarks import Shape
 from footfit.geometry.mesh.nearest import nearest_on_surface, part_middles
@@ -100,6 +100,13 @@ def test_the_parts_of_a_triangle_are_equal_and_fill_it(split):
 
 
 # ---------------------------------------------------------------- placement
+
+
+def test_a_placement_that_is_not_sought_yet_moves_nothing():
+    start = Placement(np.zeros(2), 1.0)
+    vertices, _ = last_mesh(LastSpec(rings=60, segments=40))
+    assert np.array_equal(placed(vertices, start), vertices)
+    assert start.swing_mm == 0.0
 
 
 def test_a_last_lies_in_itself_without_moving():

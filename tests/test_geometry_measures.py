@@ -105,13 +105,16 @@ def test_a_last_stands_as_high_as_it_was_drafted(heel_mm: float, toe_shape: ToeS
 def test_the_heel_height_is_no_matter_of_widths_toes_or_flare(seed: int) -> None:
     spec = varied(np.random.default_rng(seed), rings=110, segments=80, level_tread=True)
     found = taken(*last_mesh(spec), "last")
+    # measured: 2.15 mm, of 60 lasts
     assert found["heel_height"] == pytest.approx(drafted_heel_mm(spec), abs=4.0)
 
 
 def test_a_toe_that_is_sprung_more_reads_more() -> None:
     springs = (6.0, 12.0, 18.0)
     found = [taken(*last_of(replace(SPEC, toe_spring_mm=s)), "last")["toe_spring"] for s in springs]
-    assert np.diff(found) == pytest.approx([4.0, 4.0], abs=1.5)  # .68 of the spring is at .94 L
+    assert np.diff(found) == pytest.approx(
+        [4.0, 4.0], abs=0.9
+    )  # .68 of it is at .94 L; measured 0.46
 
 
 def test_the_bottom_is_as_wide_as_from_feather_to_feather() -> None:
@@ -176,8 +179,8 @@ def test_a_slight_turn_of_the_frame_changes_little() -> None:
 def test_measures_are_ordered_as_they_must_be() -> None:
     for kind, mesh in (("foot", foot()), ("last", last_of())):
         found = taken(*mesh, kind)
-        assert found["functional_length"] >= found["length"] - 0.05
-        assert found["ball_width"] >= found["ball_width_orthogonal"] - 1.0
+        assert found["functional_length"] >= found["length"]
+        assert found["ball_width"] >= found["ball_width_orthogonal"]
         assert found["ball_length"] < found["length"]
         assert found["long_heel_girth"] > found["short_heel_girth"]
         assert found["ball_girth"] > 2.0 * found["ball_width"]

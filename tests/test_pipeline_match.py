@@ -200,6 +200,16 @@ def test_a_clearance_is_the_last_minus_the_foot_with_both_spreads() -> None:
     assert clearance["length"].value == pytest.approx(13.0)
 
 
+def test_a_measure_without_a_spread_adds_none_to_its_clearance() -> None:
+    def sure(shape: Any) -> Any:
+        rows = (replace(row, measured=Measured(row.measured.value)) for row in shape.measures)
+        return replace(shape, measures=tuple(rows))
+
+    for ours, theirs in ((sure(foot()), last("a")), (foot(), sure(last("a")))):
+        (found,) = answer(theirs, feet=(ours,)).candidates
+        assert zone(found, "ball_girth").clearance.sd == pytest.approx(SD_MM)
+
+
 # ---------------------------------------------------------------- order and ties
 
 
