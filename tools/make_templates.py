@@ -1,9 +1,9 @@
-"""Make footfit/pipeline/scan/templates.npz: the foot and the last that every pose is fitted to.
+"""Make footfit/pipeline/scan/templates.npz: the foot and the lasts that every pose is fitted to.
 
     python -m tools.make_templates FOOT.stl [-o footfit/pipeline/scan/templates.npz]
 
 FOOT is a right foot in mm with x from heel to toe and the sole near z = 0; the shipped file is
-made from the CC0 foot mh006_R of the generated feet. The last is the generator's own.
+made from the CC0 foot mh006_R of the generated feet. The lasts are the generator's own.
 Same input, same bytes.
 """
 
@@ -18,6 +18,7 @@ from footfit.geometry.mesh.samples import even_sample, quadrature
 from footfit.geometry.pose.frame import canonical_frame
 from footfit.pipeline.scan.shipped_templates import FILE, NORMAL_STEP, POINT_STEP
 from tests.reading import read_scan
+from tools.lasts import LastSpec, last_mesh
 
 PITCH = 0.025
 POINTS = 6000
@@ -25,12 +26,19 @@ LEG_POINTS = 1800
 LEG_TOP = 1.35
 LEG_BAND = (0.06, 0.01)  # of L below the cut: what is repeated upwards as a leg
 MARGIN = 0.15
+HEELED = {"toe_spring_mm": 6.0, "break_length": 0.06, "level_tread": True}
+LASTS = {
+    "last": LastSpec(),
+    "heel_90": LastSpec(heel_height_mm=90.0, **HEELED),
+    "heel_115": LastSpec(heel_height_mm=115.0, cone_height_mm=70.0, **HEELED),
+    "boot": LastSpec(heel_height_mm=60.0, shaft_mm=170.0, **HEELED),
+}
 
 
-def canonical_points(vertices, faces, count):
+def canonical_points(vertices, faces, count, *, last):
     """Even points and normals of a mesh, canonical, over its length."""
     fine = quadrature(vertices, faces, edge=3.0)
-    frame = canonical_frame(fine, np.ptp(vertices[:, 0]))
+    frame = canonical_frame(fine, np.ptp(vertices[:, 0]), last=last)
     sample = even_sample(vertices, faces, count)
     points = (sample.points @ frame.rotation.T + frame.shift) / frame.length
     print(f"length {frame.length:.2f}, support {frame.support:.3f}")
@@ -60,7 +68,7 @@ def thinned(points, normals, count):
     return points[chosen], normals[chosen]
 
 
-def arrays_of(kind, points, normals):
+def arrays_of(name, points, normals):
     """What the file holds of one shape."""
     from scipy.spatial import cKDTree
 
@@ -71,30 +79,27 @@ def arrays_of(kind, points, normals):
     _, table = cKDTree(stored * POINT_STEP).query(middles.reshape(-1, 3))
     low = points[points[:, 2] < 0.35, 1]
     return {
-        f"{kind}_points": stored,
-        f"{kind}_normals": np.round(normals / NORMAL_STEP).astype(np.int8),
-        f"{kind}_origin": origin.astype(np.float32),
-        f"{kind}_table": table.reshape(shape).astype(np.int16),
-        f"{kind}_middle_y": np.float32((low.min() + low.max()) / 2),
+        f"{name}_points": stored,
+        f"{name}_normals": np.round(normals / NORMAL_STEP).astype(np.int8),
+        f"{name}_origin": origin.astype(np.float32),
+        f"{name}_table": table.reshape(shape).astype(np.int16),
+        f"{name}_middle_y": np.float32((low.min() + low.max()) / 2),
     }
 
 
 def foot_arrays(path):
     """The foot with its leg."""
     scan = read_scan(path, units="mm")
-    points, normals = canonical_points(scan.vertices_mm, scan.faces, 12000)
+    points, normals = canonical_points(scan.vertices_mm, scan.faces, 12000, last=False)
     body, leg = with_leg(points, normals)
     parts = thinned(*body, POINTS - LEG_POINTS), thinned(*leg, LEG_POINTS)
     joined = [np.concatenate(columns) for columns in zip(*parts, strict=True)]
     return arrays_of("foot", *joined)
 
 
-def last_arrays():
-    """The generator's default last."""
-    from tools.lasts import LastSpec, last_mesh
-
-    vertices, faces = last_mesh(LastSpec())
-    return arrays_of("last", *canonical_points(vertices, faces, POINTS))
+def last_arrays(name):
+    """A last of the generator."""
+    return arrays_of(name, *canonical_points(*last_mesh(LASTS[name]), POINTS, last=True))
 
 
 def main():
@@ -102,12 +107,15 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("foot", type=Path)
     parser.add_argument("-o", "--output", type=Path, default=FILE)
-    parser.add_argument("--foot-only", action="store_true")
     options = parser.parse_args()
-    kinds = ["foot"] if options.foot_only else ["foot", "last"]
-    arrays = {"kinds": np.array(kinds), "pitch": np.float32(PITCH), **foot_arrays(options.foot)}
-    if not options.foot_only:
-        arrays |= last_arrays()
+    arrays = {
+        "names": np.array(["foot", *LASTS]),
+        "kinds": np.array(["foot"] + ["last"] * len(LASTS)),
+        "pitch": np.float32(PITCH),
+        **foot_arrays(options.foot),
+    }
+    for name in LASTS:
+        arrays |= last_arrays(name)
     np.savez_compressed(options.output, **arrays)
     print(f"{options.output}: {options.output.stat().st_size} bytes")
 

@@ -6,6 +6,7 @@ low area end, y = 0 is the heel's middle, z = 0 is the contact plane.
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
@@ -15,6 +16,12 @@ from footfit.geometry.numeric.angles import angle_between
 from footfit.geometry.numeric.arrays import Floats
 from footfit.geometry.numeric.planes import LEVEL, Plane
 from footfit.geometry.numeric.quantiles import area_quantile
+from footfit.geometry.pose.resting_line import (
+    bottom_of,
+    heeled_share,
+    resting_line,
+    resting_plane,
+)
 from footfit.geometry.pose.sole_plane import FLOOR, rim_plane, sole_plane, support
 
 
@@ -52,7 +59,9 @@ class CanonicalFrame:
     sole: bool
 
 
-def canonical_frame(sample: SurfaceSample, length: float) -> CanonicalFrame:
+def canonical_frame(
+    sample: SurfaceSample, length: float, *, last: bool = False
+) -> CanonicalFrame:
     """The canonical frame of a sample in an approximate canonical pose.
 
     Parameters
@@ -61,15 +70,18 @@ def canonical_frame(sample: SurfaceSample, length: float) -> CanonicalFrame:
         Points of the whole surface with areas, x roughly heel to toe, z up, ground near z = 0.
     length : float
         Its approximate length, in the sample's unit.
+    last : bool
+        Whether it is a last, which rests on its seat and its tread if its heel is raised.
     """
-    rotation, plane = _settled(sample, length, rim=False)
+    standing_plane = _last_plane if last else sole_plane
+    rotation, plane = _settled(sample, length, standing_plane)
     tilt_deg = float(np.degrees(angle_between(rotation[2], LEVEL.normal)))
     turned = turned_sample(sample, rotation)
     length = length_of(turned.points, plane.offset, length)
     held = support(turned, plane, length)
     sole = held >= FRAME.support_minimum and tilt_deg <= FRAME.tilt_maximum_deg
     if not sole:
-        rotation, plane = _settled(sample, length, rim=True)
+        rotation, plane = _settled(sample, length, lambda turned, size, _: rim_plane(turned, size))
         turned = turned_sample(sample, rotation)
         length = length_of(turned.points, plane.offset, length)
     shift = origin_shift(turned, plane.offset, length, sole)
@@ -87,12 +99,30 @@ def length_of(points: Floats, ground: float, length: float) -> float:
     return float(np.ptp(low)) if len(low) else 0.0
 
 
-def _settled(sample: SurfaceSample, length: float, *, rim: bool) -> tuple[Floats, Plane]:
+def _last_plane(sample: SurfaceSample, length: float, start: Plane) -> Plane:
+    """The plane of a last: the sole plane of a low one, the resting plane of one with a heel."""
+    bottom = bottom_of(sample, length)
+    line = resting_line(bottom)
+    share = heeled_share(line, length)
+    if line is None or share == 0.0:
+        return sole_plane(sample, length, start)
+    resting = resting_plane(bottom, line, length)
+    if share == 1.0:
+        return resting
+    low = sole_plane(sample, length, start)
+    normal = share * resting.normal + (1.0 - share) * low.normal
+    offset = share * resting.offset + (1.0 - share) * low.offset
+    return Plane(normal / np.linalg.norm(normal), offset)
+
+
+def _settled(
+    sample: SurfaceSample, length: float, standing_plane: Callable[..., Plane]
+) -> tuple[Floats, Plane]:
     """The rotation that puts plane and axis in place, and the plane after it."""
     rotation = np.eye(3)
     turned, plane = sample, LEVEL
     for _ in range(FRAME.rounds):
-        tilted = rim_plane(turned, length) if rim else sole_plane(turned, length, plane)
+        tilted = standing_plane(turned, length, plane)
         level = levelling(tilted.normal)
         plane = Plane(LEVEL.normal, tilted.offset)
         axis = plan_axis(turned_sample(turned, level), plane.offset, length)

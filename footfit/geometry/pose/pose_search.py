@@ -32,6 +32,7 @@ MIRROR = np.diag([1.0, -1.0, 1.0])
 class PoseSearchSettings:
     """Everything numeric of the search."""
 
+    first_templates: int = 2  # the others are tried only if these fit badly
     rotations: int = 576
     more_rotations: int = 1728
     sample_points: int = 1500
@@ -180,21 +181,33 @@ class _Search:
         least = 1.001 * FIT.least_length * size_of(clouds[0].few)
         limits = tuple((max(low, least), high) for low, high in self.windows or ((0.0, np.inf),))
         limited = replace(self, windows=limits)
-        candidates = limited.candidates(clouds, settings.rotations)
+        first = self.templates[: settings.first_templates]
+        candidates = limited.candidates(clouds, first, settings.rotations)
         pose = _cheapest(candidates, settings)
-        doubt = pose.cost > settings.retry_cost or pose.margin < settings.retry_margin
+        if self.is_doubtful(pose) and len(first) < len(self.templates):
+            others = self.templates[len(first) :]
+            candidates += limited.candidates(clouds, others, settings.rotations)
+            pose = _cheapest(candidates, settings)
+        doubt = self.is_doubtful(pose)
         if doubt:
-            candidates += limited.candidates(clouds, settings.more_rotations)
+            candidates += limited.candidates(clouds, self.templates, settings.more_rotations)
         if doubt or pose.margin == settings.margin_without_rival:
             candidates += limited.rivals(candidates)
             pose = _cheapest(candidates, settings)
         return replace(pose, shift=pose.shift - pose.rotation @ centre)
 
-    def candidates(self, clouds: tuple[_Cloud, _Cloud], count: int) -> list[_Candidate]:
+    def is_doubtful(self, pose: RoughPose) -> bool:
+        """Whether a pose fits badly, or another nearly as well."""
+        badly = pose.cost > self.settings.retry_cost
+        return badly or pose.margin < self.settings.retry_margin
+
+    def candidates(
+        self, clouds: tuple[_Cloud, _Cloud], templates: tuple[Template, ...], count: int
+    ) -> list[_Candidate]:
         """The best few poses per template over both mirrors, fitted with all points."""
         rotations = super_fibonacci(count).astype(np.float32)
         result = []
-        for template in self.templates:
+        for template in templates:
             start = self._coarse(clouds[0], template, rotations)
             starts = start, mirror_image(start, template.middle_y)
             fitted = [
@@ -215,10 +228,10 @@ class _Search:
         """
         settings, result = self.settings, []
         for template in self.templates:
-            best = min(
-                (each for each in candidates if each.template is template),
-                key=lambda each: each.cost,
-            )
+            fitted = [each for each in candidates if each.template is template]
+            if not fitted:
+                continue
+            best = min(fitted, key=lambda each: each.cost)
             cloud = best.cloud
             poses = turned_about(best.pose, _turns(), template.middle_y, settings.middle)
             poses = icp_steps(poses, cloud.few, cloud.few_normals, template, settings.rival_steps)

@@ -192,7 +192,7 @@ class _Frame:
             sample = gathered_sample(sample, FRAMING.gathered_edge * rough.length)
         rotation, shift, surface, length = np.eye(3), np.zeros(3), sample, rough.length
         for _ in range(FRAMING.rounds):  # until the pose that it came from is forgotten
-            fine = canonical_frame(surface, length)
+            fine = canonical_frame(surface, length, last=rough.kind == "last")
             rotation, shift = fine.rotation @ rotation, fine.rotation @ shift + fine.shift
             turned = turned_sample(sample, rotation)
             surface, length = replace(turned, points=turned.points + shift), fine.length

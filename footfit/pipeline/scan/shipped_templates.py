@@ -22,12 +22,12 @@ def shipped_templates() -> tuple[Template, ...]:
         return tuple(
             Template(
                 kind=str(kind),
-                points=arrays[f"{kind}_points"].astype(np.float32) * np.float32(POINT_STEP),
-                normals=arrays[f"{kind}_normals"].astype(np.float32) * np.float32(NORMAL_STEP),
-                origin=arrays[f"{kind}_origin"],
+                points=arrays[f"{name}_points"].astype(np.float32) * np.float32(POINT_STEP),
+                normals=arrays[f"{name}_normals"].astype(np.float32) * np.float32(NORMAL_STEP),
+                origin=arrays[f"{name}_origin"],
                 pitch=float(arrays["pitch"]),
-                table=arrays[f"{kind}_table"],
-                middle_y=float(arrays[f"{kind}_middle_y"]),
+                table=arrays[f"{name}_table"],
+                middle_y=float(arrays[f"{name}_middle_y"]),
             )
-            for kind in arrays["kinds"]
+            for name, kind in zip(arrays["names"], arrays["kinds"], strict=True)
         )

@@ -1,0 +1,154 @@
+"""The line that a last with a raised heel rests on: the longest lower edge of its side view.
+
+Points are in an approximate canonical pose: x heel to toe, z up, the ground near z = 0; mm.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from footfit.geometry.mesh.samples import SurfaceSample
+from footfit.geometry.numeric.arrays import Floats
+from footfit.geometry.numeric.planes import Plane
+from footfit.geometry.numeric.quantiles import area_quantile
+
+
+@dataclass(frozen=True, slots=True)
+class RestingSettings:
+    """Everything numeric of the resting line; lengths over L.
+
+    Attributes
+    ----------
+    reach : float
+        A point that is higher is no bottom.
+    facing : float
+        Nor is one whose normal's z is above this.
+    stations, share
+        The side view's lower edge: the height below which this share of a station's points lie.
+    contact_share : float
+        Seat and tread touch the ground where this share of the area of their half lies below.
+    width : float
+        How near the ground the points lie that level the last across.
+    heeled : (2,)
+        The rise of the bottom over the resting line from which, and up to which, the resting line
+        takes the place of the sole plane: lasts with a heel to 20 mm rise .010-.020, 60 mm .034-.058.
+    """
+
+    reach: float = 0.25
+    facing: float = -0.3
+    stations: int = 64
+    share: float = 0.03
+    fewest_points: int = 3
+    contact_share: float = 0.003
+    width: float = 0.02
+    levelling_rounds: int = 3
+    heeled: tuple[float, float] = (0.018, 0.028)
+
+
+RESTING = RestingSettings()
+
+
+@dataclass(frozen=True, slots=True)
+class RestingLine:
+    """The longest lower edge of a side view.
+
+    ``contacts`` (2, 2) are x and z where it touches the seat and the tread, ``rise`` how far the
+    bottom between them rises over it, ``summit`` the x of the rise.
+    """
+
+    contacts: Floats
+    rise: float
+    summit: float
+
+
+def bottom_of(sample: SurfaceSample, length: float) -> SurfaceSample:
+    """The points of a sample that face down and lie low."""
+    points, normals = sample.points, sample.normals
+    low = (points[:, 2] < RESTING.reach * length) & (normals[:, 2] < RESTING.facing)
+    return SurfaceSample(points[low], normals[low], sample.areas[low])
+
+
+def resting_line(bottom: SurfaceSample) -> RestingLine | None:
+    """The resting line of a bottom; None if there is too little of it."""
+    edge = _lower_edge(bottom.points)
+    hull = _lower_hull(edge)
+    if len(hull) < 2:
+        return None
+    longest = int(np.diff(hull[:, 0]).argmax())
+    contacts = hull[longest : longest + 2]
+    inside = edge[(edge[:, 0] > contacts[0, 0]) & (edge[:, 0] < contacts[1, 0])]
+    if not len(inside):
+        return None
+    over = inside[:, 1] - np.interp(inside[:, 0], *contacts.T)
+    return RestingLine(contacts, float(over.max()), float(inside[over.argmax(), 0]))
+
+
+def heeled_share(line: RestingLine | None, length: float) -> float:
+    """How far the resting line takes the place of the sole plane: 0 for a low last, 1 for a heel."""
+    if line is None:
+        return 0.0
+    low, high = RESTING.heeled
+    share = float(np.clip((line.rise / length - low) / (high - low), 0.0, 1.0))
+    return share * share * (3.0 - 2.0 * share)
+
+
+def resting_plane(bottom: SurfaceSample, line: RestingLine, length: float) -> Plane:
+    """The plane that a bottom rests on: along its resting line, level across seat and tread."""
+    x, y, z = bottom.points.T
+    (x_seat, z_seat), (x_tread, z_tread) = line.contacts
+    along = float((z_tread - z_seat) / (x_tread - x_seat))
+    height = z - z_seat - along * (x - x_seat)
+    front = x > line.summit
+    across = _slope_across(bottom, front, height, RESTING.width * length)
+    height = height - across * y
+    seat, tread = (
+        area_quantile(height[half], bottom.areas[half], RESTING.contact_share)
+        for half in (~front, front)
+    )
+    along += (tread - seat) / float(x_tread - x_seat)
+    normal = np.array([-along, -across, 1.0]) / np.sqrt(1.0 + along**2 + across**2)
+    return Plane(normal, area_quantile(bottom.points @ normal, bottom.areas, RESTING.contact_share))
+
+
+def _slope_across(bottom: SurfaceSample, front: Floats, height: Floats, width: float) -> float:
+    """The slope in y that seat and tread share, whatever slope in x each of them has."""
+    x, y = bottom.points[:, 0], bottom.points[:, 1]
+    half = np.where(front, 1.0, 0.0)
+    rows = np.column_stack([1.0 - half, half, (1.0 - half) * x, half * x, y])
+    down = np.square(np.square(bottom.normals[:, 2])) * bottom.areas
+    slope = 0.0
+    for _ in range(RESTING.levelling_rounds):
+        weights = down * np.exp(-(((height - slope * (y - y.mean())) / width) ** 2))
+        weighted = rows * weights[:, None]
+        solution = np.linalg.lstsq(weighted.T @ rows, weighted.T @ height, rcond=None)[0]
+        slope = float(solution[4])
+    return slope
+
+
+def _lower_edge(points: Floats) -> Floats:
+    """The lower edge (k, 2), x and z, of the side view of points (n, 3), by stations along x."""
+    x, z = points[:, 0], points[:, 2]
+    if len(x) == 0:
+        return np.empty((0, 2))
+    place = ((x - x.min()) * (RESTING.stations / max(float(np.ptp(x)), 1e-9))).astype(np.int64)
+    order = np.lexsort((z, place))
+    starts = np.flatnonzero(np.append(True, np.diff(place[order]) != 0))
+    counts = np.diff(np.append(starts, len(order)))
+    many = counts >= RESTING.fewest_points
+    chosen = order[(starts + RESTING.share * counts).astype(np.int64)[many]]
+    return np.column_stack([x[chosen], z[chosen]])
+
+
+def _lower_hull(edge: Floats) -> Floats:
+    """The corners of the convex hull of (k, 2) from below, from left to right."""
+    hull: list[Floats] = []
+    for point in edge:
+        while len(hull) > 1:
+            (ax, az), (bx, bz) = hull[-2], hull[-1]
+            if (bx - ax) * (point[1] - az) > (bz - az) * (point[0] - ax):
+                break
+            hull.pop()
+        hull.append(point)
+    return np.array(hull)
