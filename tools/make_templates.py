@@ -18,7 +18,7 @@ from footfit.geometry.mesh.samples import even_sample, quadrature
 from footfit.geometry.pose.frame import canonical_frame
 from footfit.pipeline.scan.shipped_templates import FILE, NORMAL_STEP, POINT_STEP
 from tests.reading import read_scan
-from tools.lasts import LastSpec, last_mesh
+from tools.lasts import LastSpec, last_mesh, standing
 
 PITCH = 0.025
 POINTS = 6000
@@ -27,12 +27,31 @@ LEG_TOP = 1.35
 LEG_BAND = (0.06, 0.01)  # of L below the cut: what is repeated upwards as a leg
 MARGIN = 0.15
 HEELED = {"toe_spring_mm": 6.0, "break_length": 0.06, "level_tread": True}
-LASTS = {
+TALL_MM = 165.0
+LASTS = {  # those after "last" are tried in this order, only where the first two fit badly
     "last": LastSpec(),
     "heel_90": LastSpec(heel_height_mm=90.0, **HEELED),
     "heel_115": LastSpec(heel_height_mm=115.0, cone_height_mm=70.0, **HEELED),
-    "boot": LastSpec(heel_height_mm=60.0, shaft_mm=170.0, **HEELED),
+    "boot_30": LastSpec(heel_height_mm=30.0, cone_height_mm=TALL_MM, **HEELED),
+    "boot_85": LastSpec(heel_height_mm=85.0, cone_height_mm=TALL_MM, **HEELED),
+    "boot_75": LastSpec(heel_height_mm=75.0, cone_height_mm=TALL_MM, **HEELED),
 }
+ERECT = ("heel_90", "boot_85")
+"""Lasts whose sections are upright where they stand; the others' are where they rest."""
+EDGE_STATIONS = 60
+
+
+def erect(vertices, pitch_deg):
+    """A last at rest, its sections leaned back about the bottom by the pitch that it stands at."""
+    x, z = vertices[:, 0], vertices[:, 2]
+    place = np.minimum(((x - x.min()) / np.ptp(x) * EDGE_STATIONS).astype(int), EDGE_STATIONS - 1)
+    stations = [place == i for i in range(EDGE_STATIONS)]
+    edge = [x[there].mean() for there in stations], [z[there].min() for there in stations]
+    bottom = np.interp(x, *edge)
+    height, angle = z - bottom, np.radians(pitch_deg)
+    upper = np.maximum(height, 0.0)
+    away = [x - np.sin(angle) * upper, vertices[:, 1], z - (1.0 - np.cos(angle)) * upper]
+    return np.column_stack(away)
 
 
 def canonical_points(vertices, faces, count, *, last):
@@ -99,7 +118,10 @@ def foot_arrays(path):
 
 def last_arrays(name):
     """A last of the generator."""
-    return arrays_of(name, *canonical_points(*last_mesh(LASTS[name]), POINTS, last=True))
+    vertices, faces = last_mesh(LASTS[name])
+    if name in ERECT:
+        vertices = erect(vertices, standing(LASTS[name]).pitch_deg)
+    return arrays_of(name, *canonical_points(vertices, faces, POINTS, last=True))
 
 
 def main():

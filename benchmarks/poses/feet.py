@@ -68,13 +68,13 @@ def of_kind(vertices: Floats, faces: Ints, kind: str, rng: np.random.Generator) 
         vertices = vertices * [1.0, rng.uniform(1.12, 1.25), 1.0]
     if kind == "bunion":
         vertices = with_bunion(vertices, rng.uniform(6.0, 14.0))
-    if kind.startswith("no sole"):
-        vertices, faces = soleless(vertices, faces)
     if kind == "leaning shank":
         vertices, faces = with_leg(vertices, faces, rng.uniform(140.0, 260.0))
         vertices = leaned(vertices, rng.uniform(8.0, 20.0), rng.uniform(0.0, 2 * np.pi))
     if kind.endswith(("to the knee", "long leg")):
         vertices, faces = with_leg(vertices, faces, wanted * rng.uniform(1.2, 1.9))
+    if kind.startswith("no sole"):
+        vertices, faces = soleless(vertices, faces)
     return vertices, faces
 
 

@@ -33,6 +33,7 @@ class PoseSearchSettings:
     """Everything numeric of the search."""
 
     first_templates: int = 2  # the others are tried only if these fit badly
+    likely_cost: float = 0.05  # more than the best costs: then a template is not searched again
     rotations: int = 576
     more_rotations: int = 1728
     sample_points: int = 1500
@@ -184,13 +185,15 @@ class _Search:
         first = self.templates[: settings.first_templates]
         candidates = limited.candidates(clouds, first, settings.rotations)
         pose = _cheapest(candidates, settings)
-        if self.is_doubtful(pose) and len(first) < len(self.templates):
-            others = self.templates[len(first) :]
-            candidates += limited.candidates(clouds, others, settings.rotations)
+        for template in self.templates[settings.first_templates :]:
+            if not self.is_doubtful(pose):
+                break
+            candidates += limited.candidates(clouds, (template,), settings.rotations)
             pose = _cheapest(candidates, settings)
         doubt = self.is_doubtful(pose)
         if doubt:
-            candidates += limited.candidates(clouds, self.templates, settings.more_rotations)
+            likely = self.likely_templates(candidates)
+            candidates += limited.candidates(clouds, likely, settings.more_rotations)
         if doubt or pose.margin == settings.margin_without_rival:
             candidates += limited.rivals(candidates)
             pose = _cheapest(candidates, settings)
@@ -200,6 +203,16 @@ class _Search:
         """Whether a pose fits badly, or another nearly as well."""
         badly = pose.cost > self.settings.retry_cost
         return badly or pose.margin < self.settings.retry_margin
+
+    def likely_templates(self, candidates: list[_Candidate]) -> tuple[Template, ...]:
+        """The first templates, and those of the others that fit about as well as the best."""
+        costs = [_least_cost(candidates, template) for template in self.templates]
+        limit = min(costs) + self.settings.likely_cost
+        return tuple(
+            template
+            for place, (template, cost) in enumerate(zip(self.templates, costs, strict=True))
+            if place < self.settings.first_templates or cost < limit
+        )
 
     def candidates(
         self, clouds: tuple[_Cloud, _Cloud], templates: tuple[Template, ...], count: int
@@ -321,6 +334,11 @@ def mirror_image(poses: Poses, middle_y: float) -> Poses:
     shift = poses.shift * np.diag(flip)
     shift[:, 1] += np.float32(2 * middle_y)
     return Poses(np.asarray(flip @ poses.rotation @ flip), shift, poses.scale)
+
+
+def _least_cost(candidates: list[_Candidate], template: Template) -> float:
+    """The least cost on a template; infinite if it was not tried."""
+    return min((each.cost for each in candidates if each.template is template), default=np.inf)
 
 
 def _cheapest(candidates: list[_Candidate], settings: PoseSearchSettings) -> RoughPose:
