@@ -28,11 +28,11 @@ LEG_BAND = (0.06, 0.01)  # of L below the cut: what is repeated upwards as a leg
 MARGIN = 0.15
 HEELED = {"toe_spring_mm": 6.0, "break_length": 0.06, "level_tread": True}
 TALL_MM = 165.0
-LASTS = {  # those after "last" are tried in this order, only where the first two fit badly
+LASTS = {  # those after "last" are tried in this order, only if the first two fit badly
     "last": LastSpec(),
+    "boot_30": LastSpec(heel_height_mm=30.0, cone_height_mm=TALL_MM, **HEELED),
     "heel_90": LastSpec(heel_height_mm=90.0, **HEELED),
     "heel_115": LastSpec(heel_height_mm=115.0, cone_height_mm=70.0, **HEELED),
-    "boot_30": LastSpec(heel_height_mm=30.0, cone_height_mm=TALL_MM, **HEELED),
     "boot_85": LastSpec(heel_height_mm=85.0, cone_height_mm=TALL_MM, **HEELED),
     "boot_75": LastSpec(heel_height_mm=75.0, cone_height_mm=TALL_MM, **HEELED),
 }

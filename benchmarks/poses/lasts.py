@@ -36,7 +36,7 @@ def cut_last(vertices_mm: Floats, faces: Ints, cut: str) -> tuple[Floats, Ints]:
     if cut == "hinge touching":
         return last_cuts.joined(last_cuts.hinge(vertices_mm, faces, gap_mm=0.0))
     if cut == "hinge in one body":
-        return last_cuts.slotted(vertices_mm, faces)
+        return last_cuts.slit(vertices_mm, faces)
     return vertices_mm, faces
 
 

@@ -33,6 +33,7 @@ class FrameSettings:
     axis_height: float = 0.15  # the plan axis is taken below, so that a leg does not move it
     axis_softness: float = 0.01
     length_height: float = 0.30
+    heeled_back: float = 0.10  # the back of a heeled last is taken below: over it, it leans back
     support_minimum: float = 0.05
     tilt_maximum_deg: float = 16.0
     origin_share: float = 0.003
@@ -48,8 +49,8 @@ FRAME = FrameSettings()
 class CanonicalFrame:
     """The frame: canonical = rotation @ p + shift, in the unit of p.
 
-    ``length`` is the extent along X below ``length_height``; ``sole`` is False if there is no sole
-    and the frame rests on the rim.
+    ``length`` is the extent along X, of the toes below ``length_height`` and of the heel below
+    ``back_height``, over L; ``sole`` is False if there is no sole and the frame rests on the rim.
     """
 
     rotation: Floats
@@ -57,11 +58,10 @@ class CanonicalFrame:
     length: float
     support: float
     sole: bool
+    back_height: float
 
 
-def canonical_frame(
-    sample: SurfaceSample, length: float, *, last: bool = False
-) -> CanonicalFrame:
+def canonical_frame(sample: SurfaceSample, length: float, *, last: bool = False) -> CanonicalFrame:
     """The canonical frame of a sample in an approximate canonical pose.
 
     Parameters
@@ -73,19 +73,21 @@ def canonical_frame(
     last : bool
         Whether it is a last, which rests on its seat and its tread if its heel is raised.
     """
-    standing_plane = _last_plane if last else sole_plane
-    rotation, plane = _settled(sample, length, standing_plane)
+    standing_plane = _last_plane if last else _sole_plane
+    rotation, plane, share = _settled(sample, length, standing_plane)
     tilt_deg = float(np.degrees(angle_between(rotation[2], LEVEL.normal)))
     turned = turned_sample(sample, rotation)
-    length = length_of(turned.points, plane.offset, length)
+    back_height = FRAME.length_height + share * (FRAME.heeled_back - FRAME.length_height)
+    length = length_of(turned.points, plane.offset, length, back_height)
     held = support(turned, plane, length)
     sole = held >= FRAME.support_minimum and tilt_deg <= FRAME.tilt_maximum_deg
     if not sole:
-        rotation, plane = _settled(sample, length, lambda turned, size, _: rim_plane(turned, size))
+        rotation, plane, _ = _settled(sample, length, _rim_plane)
         turned = turned_sample(sample, rotation)
-        length = length_of(turned.points, plane.offset, length)
+        back_height = FRAME.length_height
+        length = length_of(turned.points, plane.offset, length, back_height)
     shift = origin_shift(turned, plane.offset, length, sole)
-    return CanonicalFrame(rotation, shift, length, held, sole)
+    return CanonicalFrame(rotation, shift, length, held, sole, back_height)
 
 
 def turned_sample(sample: SurfaceSample, rotation: Floats) -> SurfaceSample:
@@ -93,42 +95,53 @@ def turned_sample(sample: SurfaceSample, rotation: Floats) -> SurfaceSample:
     return SurfaceSample(sample.points @ rotation.T, sample.normals @ rotation.T, sample.areas)
 
 
-def length_of(points: Floats, ground: float, length: float) -> float:
-    """The extent along x of points (n, 3) below ``length_height``, where there is no leg."""
-    low = points[points[:, 2] - ground < FRAME.length_height * length, 0]
-    return float(np.ptp(low)) if len(low) else 0.0
+def length_of(points: Floats, ground: float, length: float, back_height: float) -> float:
+    """The extent along x of points (n, 3) where there is no leg: the heel's below ``back_height``."""
+    x, height = points[:, 0], points[:, 2] - ground
+    low, back = x[height < FRAME.length_height * length], x[height < back_height * length]
+    return float(low.max() - back.min()) if len(back) else 0.0
 
 
-def _last_plane(sample: SurfaceSample, length: float, start: Plane) -> Plane:
-    """The plane of a last: the sole plane of a low one, the resting plane of one with a heel."""
+def _sole_plane(sample: SurfaceSample, length: float, start: Plane) -> tuple[Plane, float]:
+    return sole_plane(sample, length, start), 0.0
+
+
+def _rim_plane(sample: SurfaceSample, length: float, _: Plane) -> tuple[Plane, float]:
+    return rim_plane(sample, length), 0.0
+
+
+def _last_plane(sample: SurfaceSample, length: float, start: Plane) -> tuple[Plane, float]:
+    """The plane of a last, and how much of it is the resting plane of one with a raised heel."""
     bottom = bottom_of(sample, length)
     line = resting_line(bottom)
     share = heeled_share(line, length)
     if line is None or share == 0.0:
-        return sole_plane(sample, length, start)
+        return sole_plane(sample, length, start), 0.0
     resting = resting_plane(bottom, line, length)
     if share == 1.0:
-        return resting
+        return resting, share
     low = sole_plane(sample, length, start)
     normal = share * resting.normal + (1.0 - share) * low.normal
     offset = share * resting.offset + (1.0 - share) * low.offset
-    return Plane(normal / np.linalg.norm(normal), offset)
+    return Plane(normal / np.linalg.norm(normal), offset), share
 
 
 def _settled(
-    sample: SurfaceSample, length: float, standing_plane: Callable[..., Plane]
-) -> tuple[Floats, Plane]:
-    """The rotation that puts plane and axis in place, and the plane after it."""
-    rotation = np.eye(3)
+    sample: SurfaceSample,
+    length: float,
+    standing_plane: Callable[[SurfaceSample, float, Plane], tuple[Plane, float]],
+) -> tuple[Floats, Plane, float]:
+    """The rotation that puts plane and axis in place, the plane after it, and its share."""
+    rotation, share = np.eye(3), 0.0
     turned, plane = sample, LEVEL
     for _ in range(FRAME.rounds):
-        tilted = standing_plane(turned, length, plane)
+        tilted, share = standing_plane(turned, length, plane)
         level = levelling(tilted.normal)
         plane = Plane(LEVEL.normal, tilted.offset)
         axis = plan_axis(turned_sample(turned, level), plane.offset, length)
         rotation = about_z(axis) @ level @ rotation
         turned = turned_sample(sample, rotation)
-    return rotation, plane
+    return rotation, plane, share
 
 
 def levelling(normal: Floats) -> Floats:

@@ -40,7 +40,9 @@ class EndSettings:
 ENDS = EndSettings()
 
 
-def missing_part(sample: SurfaceSample, rims: list[Floats], length: float) -> Missing | None:
+def missing_part(
+    sample: SurfaceSample, rims: list[Floats], length: float, back_height: float = ENDS.height
+) -> Missing | None:
     """What was cut off a canonical shape: closed by a flat face, or left open.
 
     Parameters
@@ -50,9 +52,11 @@ def missing_part(sample: SurfaceSample, rims: list[Floats], length: float) -> Mi
     rims : list of (n, 3) float64
         The mesh's boundary loops, canonical; none for a closed mesh.
     length : float
+    back_height : float
+        Over the length; what is higher is no heel.
     """
-    for name, end in _ends(sample, length):
-        if _is_cut_off(sample, rims, end, length):
+    for name, end, height in _ends(sample, length, back_height):
+        if _is_cut_off(sample, rims, end, length, height):
             return name
     if float(sample.points[:, 2].max()) < ENDS.least_height * length:
         return "upper part"
@@ -63,7 +67,11 @@ def missing_part(sample: SurfaceSample, rims: list[Floats], length: float) -> Mi
 
 
 def doubtful_end(
-    sample: SurfaceSample, points: Floats, rims: list[Floats], length: float
+    sample: SurfaceSample,
+    points: Floats,
+    rims: list[Floats],
+    length: float,
+    back_height: float = ENDS.height,
 ) -> Literal["heel", "toes"] | None:
     """The end of a canonical shape that is open over so much that its length may be short.
 
@@ -76,8 +84,10 @@ def doubtful_end(
     rims : list of (k, 3) float64
         The mesh's boundary loops.
     length : float
+    back_height : float
+        Over the length; what is higher is no heel.
     """
-    for name, end in _ends(sample, length):
+    for name, end, _ in _ends(sample, length, back_height):
         if _open_area(rims, end, length) > ENDS.doubtful_area * length**2:
             return name
         outward = -1.0 if name == "heel" else 1.0
@@ -107,16 +117,20 @@ def _is_reached(rim: Floats, points: Floats, outward: float, length: float) -> b
 
 
 def _ends(
-    sample: SurfaceSample, length: float
-) -> tuple[tuple[Literal["heel"], float], tuple[Literal["toes"], float]]:
-    """The rearmost and the foremost x below the height at which a leg is cut."""
-    x = sample.points[sample.points[:, 2] < ENDS.height * length, 0]
-    return ("heel", float(x.min())), ("toes", float(x.max()))
+    sample: SurfaceSample, length: float, back_height: float
+) -> tuple[tuple[Literal["heel"], float, float], tuple[Literal["toes"], float, float]]:
+    """The rearmost and the foremost x below the heights over which there is leg, and these."""
+    x, z = sample.points[:, 0], sample.points[:, 2]
+    back, front = x[z < back_height * length], x[z < ENDS.height * length]
+    heel, toes = float(back.min()), float(front.max())
+    return ("heel", heel, back_height), ("toes", toes, ENDS.height)
 
 
-def _is_cut_off(sample: SurfaceSample, rims: list[Floats], end: float, length: float) -> bool:
+def _is_cut_off(
+    sample: SurfaceSample, rims: list[Floats], end: float, length: float, height: float
+) -> bool:
     """Whether the end at x = ``end`` is a flat face, or open as wide and as high as an end is."""
-    below, reach = ENDS.height * length, ENDS.reach * length
+    below, reach = height * length, ENDS.reach * length
     flat = (sample.points[:, 2] < below) & (np.abs(sample.normals[:, 0]) > ENDS.facing)
     flat &= np.abs(sample.points[:, 0] - end) < reach
     if sample.areas[flat].sum() > ENDS.flat_area * length**2:
@@ -124,8 +138,8 @@ def _is_cut_off(sample: SurfaceSample, rims: list[Floats], end: float, length: f
     for rim in rims:
         part = rim[(np.abs(rim[:, 0] - end) < reach) & (rim[:, 2] < below)]
         if len(part):
-            _, width, height = np.ptp(part, axis=0)
-            if width > ENDS.rim_width * length and height > ENDS.rim_height * length:
+            _, width, tall = np.ptp(part, axis=0)
+            if width > ENDS.rim_width * length and tall > ENDS.rim_height * length:
                 return True
     return _open_area(rims, end, length) > ENDS.open_area * length**2
 

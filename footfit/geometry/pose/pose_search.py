@@ -33,6 +33,8 @@ class PoseSearchSettings:
     """Everything numeric of the search."""
 
     first_templates: int = 2  # the others are tried only if these fit badly
+    boot_template: int = 2  # a boot with a low heel: a shape that looks like a foot may be one
+    boot_cost: float = 0.33  # boots cost .35 or more on the foot
     likely_cost: float = 0.05  # more than the best costs: then a template is not searched again
     rotations: int = 576
     more_rotations: int = 1728
@@ -197,6 +199,9 @@ class _Search:
         if doubt or pose.margin == settings.margin_without_rival:
             candidates += limited.rivals(candidates)
             pose = _cheapest(candidates, settings)
+        if pose.kind == "foot" and pose.cost > settings.boot_cost:
+            candidates += limited.boots(candidates)
+            pose = _cheapest(candidates, settings)
         return replace(pose, shift=pose.shift - pose.rotation @ centre)
 
     def is_doubtful(self, pose: RoughPose) -> bool:
@@ -252,6 +257,12 @@ class _Search:
             cheapest = np.argsort(costs, kind="stable")[: settings.rivals_finished]
             result += [self._finished(poses.at(np.array([i])), cloud, template) for i in cheapest]
         return result
+
+    def boots(self, candidates: list[_Candidate]) -> list[_Candidate]:
+        """The boot, fitted from the best pose: it costs less than the foot if the shape is one."""
+        boot = self.templates[self.settings.boot_template :][:1]
+        best = min(candidates, key=lambda each: each.cost)
+        return [self._finished(best.pose, best.cloud, template) for template in boot]
 
     def _costs(
         self, poses: Poses, points: Singles, normals: Singles, template: Template

@@ -88,7 +88,7 @@ def prepared_scan(
     closed = closed_mesh(shape.vertices, shape.faces, shape.pose.length)
     frame = _Frame.of(shape, closed)
     rims = [frame.points[rim] for rim in closed.rims]
-    missing = missing_part(frame.surface, rims, frame.extent)
+    missing = missing_part(frame.surface, rims, frame.extent, frame.back_height)
     if missing is not None:  # length and flare would be another's
         raise HalfScan(_MISSING[missing])
     info = settled_unit.info_with_unit(scan.info, frame.extent, frame.length, known_length_mm)
@@ -167,7 +167,7 @@ class _Frame:
     """The canonical frame in provisional mm: points = rotation @ vertices + shift, caps included.
 
     ``surface`` is the whole surface as points with areas, ``extent`` how far the mesh reaches along
-    X below the leg, ``length`` the measured length, whether or not its ends were scanned, ``top``
+    X below the leg (the heel's below ``back_height``, over the extent), ``length`` the measured length, whether or not its ends were scanned, ``top``
     the height of the highest scanned point.
     """
 
@@ -178,6 +178,7 @@ class _Frame:
     extent: float
     length: float
     top: float
+    back_height: float
     quality: PoseQuality
 
     @classmethod
@@ -204,9 +205,10 @@ class _Frame:
             surface=surface,
             rotation=rotation,
             shift=shift,
-            extent=length_of(points, 0.0, fine.length),
+            extent=length_of(points, 0.0, fine.length, fine.back_height),
             length=Shape(points, closed.faces, rough.kind).length_mm,
             top=float(points[: len(shape.vertices), 2].max()),
+            back_height=fine.back_height,
             quality=PoseQuality(rough.cost, rough.margin, fine.support, fine.sole, rough.kind),
         )
 
@@ -228,7 +230,7 @@ def _verdict(frame: _Frame, side: str) -> SideVerdict:
 
 def _open_end(frame: _Frame, rims: list[Floats]) -> tuple[Notice, ...]:
     """The end, if any, that may be longer than it was scanned."""
-    end = doubtful_end(frame.surface, frame.points, rims, frame.extent)
+    end = doubtful_end(frame.surface, frame.points, rims, frame.extent, frame.back_height)
     if end is None:
         return ()
     return (Notice("open_end", f"the surface is open at the {end}, so its length is not known"),)
