@@ -120,16 +120,16 @@ def shapes_at_hand(rng):
         yield Shape(name, family, vertices, faces, side, flare, frame)
 
 
-def with_leg(vertices, faces, height_mm):
-    """The shape cut at 80 mm, with a calf of the cut's outline up to ``height_mm``; open on top."""
-    vertices, faces = distortions.leg_cut(vertices, faces, 80.0)
+def with_leg(vertices, faces, height_mm, cut_mm=80.0):
+    """The shape cut at ``cut_mm``, a calf of the cut's outline up to ``height_mm``; open on top."""
+    vertices, faces = distortions.leg_cut(vertices, faces, cut_mm)
     loop = max(boundary_loops(faces), key=len)[::-1]
     rim = vertices[loop]
     middle = rim.mean(axis=0)
-    levels = np.linspace(0.0, 1.0, int((height_mm - 80.0) / 4.0))[1:, None, None]
-    swell = 1 + 0.35 * np.sin(0.5 * np.pi * np.minimum(levels * (height_mm - 80) / 250.0, 2.0))
+    levels = np.linspace(0.0, 1.0, int((height_mm - cut_mm) / 4.0))[1:, None, None]
+    swell = 1 + 0.35 * np.sin(0.5 * np.pi * np.minimum(levels * (height_mm - cut_mm) / 250.0, 2.0))
     rings = middle + (rim - middle) * np.concatenate([swell, swell, 0 * swell + 1], axis=2)
-    rings[:, :, 2] += levels[:, :, 0] * (height_mm - 80.0)
+    rings[:, :, 2] += levels[:, :, 0] * (height_mm - cut_mm)
     first = len(vertices) + np.arange(len(levels))[:, None] * len(loop) + np.arange(len(loop))
     index = np.concatenate([loop[None], first])
     a, b = index[:-1], index[1:]

@@ -27,6 +27,7 @@ KINDS = (
     "real",
 )
 LENGTHS_MM = {"child": (110.0, 180.0), "long": (300.0, 340.0)}
+ANKLE = 0.35  # of the length: where the leg begins
 Mesh = tuple[Floats, Ints]
 
 
@@ -69,10 +70,10 @@ def of_kind(vertices: Floats, faces: Ints, kind: str, rng: np.random.Generator) 
     if kind == "bunion":
         vertices = with_bunion(vertices, rng.uniform(6.0, 14.0))
     if kind == "leaning shank":
-        vertices, faces = with_leg(vertices, faces, rng.uniform(140.0, 260.0))
+        vertices, faces = with_leg(vertices, faces, wanted * rng.uniform(0.6, 1.0), ANKLE * wanted)
         vertices = leaned(vertices, rng.uniform(8.0, 20.0), rng.uniform(0.0, 2 * np.pi))
     if kind.endswith(("to the knee", "long leg")):
-        vertices, faces = with_leg(vertices, faces, wanted * rng.uniform(1.2, 1.9))
+        vertices, faces = with_leg(vertices, faces, wanted * rng.uniform(1.2, 1.9), ANKLE * wanted)
     if kind.startswith("no sole"):
         vertices, faces = soleless(vertices, faces)
     return vertices, faces

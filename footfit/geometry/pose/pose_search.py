@@ -62,6 +62,7 @@ class PoseSearchSettings:
     doubtful_cost: float = 0.42
     margin_per_cost: float = 1.5
     margin_without_rival: float = 1.0  # only if even the turned poses fall back to the winner
+    upright: float = 0.70  # cosine with Z of where an end looks
     long_leg: float = 0.70  # over L: a scan that reaches higher is searched again
     crop: float = 0.60  # without what lies higher than this
 
@@ -94,6 +95,7 @@ def rough_pose(
     templates: tuple[Template, ...],
     windows: Windows = (),
     settings: PoseSearchSettings = POSE_SEARCH,
+    ends: Floats | None = None,
 ) -> RoughPose:
     """The pose of a mesh, by the fit to the templates.
 
@@ -110,8 +112,10 @@ def rough_pose(
         Lengths, in the mesh's unit, that are plausible; poses with another length are taken last.
         Empty: any length.
     settings : PoseSearchSettings
+    ends : (k, 3), optional
+        Directions that look up or down: a pose that turns one of them sideways is implausible.
     """
-    search = _Search(templates, windows, settings)
+    search = _Search(templates, windows, settings, np.empty((0, 3)) if ends is None else ends)
     pose = search.pose_of(vertices, faces)
     height = (vertices @ pose.rotation[2] + pose.shift[2]) / pose.length
     if height.max() < settings.long_leg:
@@ -131,7 +135,13 @@ class _Cloud:
     few_normals: Singles
     many: Singles
     many_normals: Singles
+    ends: Floats
     mirrored: bool
+
+    def implausible(self, poses: Poses, upright: float) -> Singles:
+        """What each pose (k,) pays for turning an end sideways."""
+        steep = np.abs(poses.rotation[:, 2] @ self.ends.T)
+        return np.asarray(FIT.implausible_cost * (steep < upright).any(axis=1), dtype=np.float32)
 
 
 @dataclass(frozen=True, slots=True)
@@ -150,7 +160,9 @@ class _Candidate:
         return np.asarray(MIRROR @ rotation @ MIRROR) if self.cloud.mirrored else rotation
 
 
-def _clouds(vertices: Floats, faces: Ints, settings: PoseSearchSettings) -> tuple[_Cloud, _Cloud]:
+def _clouds(
+    vertices: Floats, faces: Ints, ends: Floats, settings: PoseSearchSettings
+) -> tuple[_Cloud, _Cloud]:
     """A mesh about its middle, as it is and mirrored."""
     sample = even_sample(vertices, faces, settings.sample_points)
     few = farthest_points(sample.points, settings.few_points)
@@ -158,8 +170,8 @@ def _clouds(vertices: Floats, faces: Ints, settings: PoseSearchSettings) -> tupl
     flip = MIRROR.astype(np.float32)
     mirrored, looking = points @ flip, normals @ flip
     return (
-        _Cloud(points[few], normals[few], points, normals, mirrored=False),
-        _Cloud(mirrored[few], looking[few], mirrored, looking, mirrored=True),
+        _Cloud(points[few], normals[few], points, normals, ends, mirrored=False),
+        _Cloud(mirrored[few], looking[few], mirrored, looking, ends @ MIRROR, mirrored=True),
     )
 
 
@@ -170,6 +182,7 @@ class _Search:
     templates: tuple[Template, ...]
     windows: Windows
     settings: PoseSearchSettings
+    ends: Floats
 
     def pose_of(self, vertices: Floats, faces: Ints) -> RoughPose:
         """The pose of a mesh with its leg, searched more finely if a doubt is left.
@@ -180,7 +193,7 @@ class _Search:
         corners = vertices[faces].reshape(-1, 3)
         # About the middle of the box float32 loses nothing, wherever the origin is.
         centre = 0.5 * (corners.min(axis=0) + corners.max(axis=0))
-        clouds = _clouds(vertices - centre, faces, settings)
+        clouds = _clouds(vertices - centre, faces, self.ends, settings)
         least = 1.001 * FIT.least_length * size_of(clouds[0].few)
         limits = tuple((max(low, least), high) for low, high in self.windows or ((0.0, np.inf),))
         limited = replace(self, windows=limits)
@@ -253,7 +266,7 @@ class _Search:
             cloud = best.cloud
             poses = turned_about(best.pose, _turns(), template.middle_y, settings.middle)
             poses = icp_steps(poses, cloud.few, cloud.few_normals, template, settings.rival_steps)
-            costs = self._costs(poses, cloud.few, cloud.few_normals, template)
+            costs = self._costs(poses, cloud, template)
             cheapest = np.argsort(costs, kind="stable")[: settings.rivals_finished]
             result += [self._finished(poses.at(np.array([i])), cloud, template) for i in cheapest]
         return result
@@ -265,10 +278,11 @@ class _Search:
         return [self._finished(best.pose, best.cloud, template) for template in boot]
 
     def _costs(
-        self, poses: Poses, points: Singles, normals: Singles, template: Template
+        self, poses: Poses, cloud: _Cloud, template: Template, few: int | None = None
     ) -> Singles:
-        """The cost of each pose, (k,); a pose with an implausible length pays for it."""
-        costs = forward_costs(poses, points, normals, template)
+        """The cost of each pose, (k,), by a few points; an implausible length or turn adds to it."""
+        costs = forward_costs(poses, cloud.few[:few], cloud.few_normals[:few], template)
+        costs += cloud.implausible(poses, self.settings.upright)
         lengths = 1 / poses.scale
         plausible = np.any([(low < lengths) & (lengths < high) for low, high in self.windows], 0)
         costs += np.where(plausible, 0.0, FIT.implausible_cost)
@@ -281,7 +295,7 @@ class _Search:
         """
         few = self.settings.coarse_points
         poses = levelled_poses(rotations, cloud.few, template.middle_y)
-        costs = self._costs(poses, cloud.few[:few], cloud.few_normals[:few], template)
+        costs = self._costs(poses, cloud, template, few)
         return poses.at(np.argsort(costs, kind="stable")[: self.settings.kept_coarse])
 
     def _fitted(self, cloud: _Cloud, template: Template, poses: Poses) -> list[tuple[float, Poses]]:
@@ -290,7 +304,7 @@ class _Search:
         costs = np.zeros(len(poses.scale), dtype=np.float32)
         for steps, kept in self.settings.icp_rounds:
             poses = icp_steps(poses, points, normals, template, steps)
-            costs = self._costs(poses, points, normals, template)
+            costs = self._costs(poses, cloud, template)
             best = np.argsort(costs, kind="stable")[:kept]
             poses, costs = poses.at(best), costs[best]
         return [(float(costs[i]), poses.at(np.array([i]))) for i in self._apart(poses, costs)]
@@ -316,7 +330,8 @@ class _Search:
         low = low[np.linspace(0, len(low) - 1, settings.reverse_points).astype(int)]
         sparse = template.points[low], template.normals[low]
         back = reverse_cost(pose, points, normals, sparse, settings.reverse_share)
-        return _Candidate(pose, template, cloud, forward + back)
+        implausible = float(cloud.implausible(pose, settings.upright)[0])
+        return _Candidate(pose, template, cloud, forward + back + implausible)
 
 
 def _turns() -> Singles:

@@ -82,8 +82,10 @@ def rim_plane(sample: SurfaceSample, length: float) -> Plane:
     """The plane of the lowest rim, for a shape without a sole.
 
     The lowest points in stations along x, on either side, are averaged; the plane through them
-    is fitted with Cauchy weights, so that a gap or a spike does not tilt it.
+    is fitted with Cauchy weights, so that a gap or a spike does not tilt it. A leg that stands over
+    the heel's back is no rim.
     """
+    low = sample.points[:, 2] < sample.points[:, 2].min() + FLOOR.reach * length
     x, y = sample.points[:, 0], sample.points[:, 1]
     station = np.clip(
         ((x - x.min()) / length * FLOOR.rim_stations).astype(int), 0, FLOOR.rim_stations - 1
@@ -93,7 +95,7 @@ def rim_plane(sample: SurfaceSample, length: float) -> Plane:
         _lowest_mean(sample, (station == s) & (side == half), FLOOR.rim_share)
         for s in range(FLOOR.rim_stations)
         for half in (False, True)
-        if np.any((station == s) & (side == half))
+        if np.any(low & (station == s) & (side == half))
     ]
     scale = FLOOR.rim_scale * length
     return robust_plane(np.array(rim), np.ones(len(rim)), scale, FLOOR.rim_rounds)

@@ -13,6 +13,7 @@ from footfit.geometry.mesh.topology import boundary_loops, is_closed
 from footfit.geometry.numeric.arrays import Floats, Ints
 from footfit.geometry.pose.facing import Facing, facing, lacks_its_sole
 from footfit.geometry.pose.floor_plate import is_flat, without_plate
+from footfit.geometry.pose.openings import Openings
 from footfit.geometry.pose.pieces import (
     PIECES,
     Piece,
@@ -217,5 +218,22 @@ def _wound(
             pose = soleless
             if pose.cost > PIECES.soleless_last:
                 pose = replace(pose, kind="foot")
+    pose = _by_openings(vertices, faces, windows, pose)
     sheet = looks.one_way > PIECES.sheet and not lacks_its_sole(looks, pose.rotation[2])
     return PosedShape(vertices, faces, pose, sheet, notices)
+
+
+def _by_openings(vertices: Floats, faces: Ints, windows: Windows, pose: RoughPose) -> RoughPose:
+    """The pose, or a better one of a shape that is open where a pose has no end.
+
+    A foot without its sole below a long leg is a tube with two open ends: lying down it passes for
+    a foot itself. With a lid on each end it is whole, and is searched again.
+    """
+    openings = Openings.of(vertices, faces)
+    if not openings.rims or (pose.accepted and openings.look_up_and_down(pose.rotation[2])):
+        return pose
+    closed = openings.closed(vertices, faces)
+    whole = rough_pose(*closed, shipped_templates(), windows, ends=openings.directions)
+    up = whole.rotation[2]
+    likely = openings.look_up_and_down(up) and openings.lack_a_sole(up)
+    return whole if whole.accepted and likely else pose
