@@ -34,9 +34,7 @@ class Openings:
         """The wide openings of a mesh whose faces look outward."""
         size = float(np.ptp(vertices, axis=0).max())
         rims = [
-            rim
-            for rim in boundary_loops(faces)
-            if extent_of(vertices[rim]) > OPENINGS.wide * size
+            rim for rim in boundary_loops(faces) if extent_of(vertices[rim]) > OPENINGS.wide * size
         ]
         areas = [_area_vector(vertices[rim]) for rim in rims]
         return cls(rims, np.array([area / np.linalg.norm(area) for area in areas]).reshape(-1, 3))

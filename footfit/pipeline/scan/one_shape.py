@@ -206,34 +206,46 @@ def _posed(
 def _wound(
     vertices: Floats, faces: Ints, windows: Windows, looks: Facing, notices: tuple[Notice, ...]
 ) -> PosedShape:
-    """One mesh, wound as it is; tried as one without its sole, if it fits badly or as a last.
-
-    Without its sole a foot is as near to a last as to a foot. It is a last only if it fits well.
-    """
-    templates = shipped_templates()
-    pose = rough_pose(vertices, faces, templates, windows)
-    if looks.one_way > PIECES.shell and not (pose.accepted and pose.kind == "foot"):
-        soleless = rough_pose(vertices, faces, templates, windows, SOLELESS)
-        if soleless.accepted and lacks_its_sole(looks, soleless.rotation[2]):
-            pose = soleless
-            if pose.cost > PIECES.soleless_last:
-                pose = replace(pose, kind="foot")
-    pose = _by_openings(vertices, faces, windows, pose)
+    """One mesh, wound as it is, with its pose; first with lids on it if its sole seems missing."""
+    openings = Openings.of(vertices, faces)
+    pose = None
+    if looks.one_way > PIECES.shell:
+        pose = _pose_with_lids(vertices, faces, windows, openings)
+    if pose is None:
+        pose = rough_pose(vertices, faces, shipped_templates(), windows)
+        if not (pose.accepted and openings.look_up_and_down(pose.rotation[2])):
+            pose = _pose_with_lids(vertices, faces, windows, openings) or pose
+        if looks.one_way > PIECES.shell and not (pose.accepted and pose.kind == "foot"):
+            pose = _pose_without_sole(vertices, faces, windows, looks) or pose
     sheet = looks.one_way > PIECES.sheet and not lacks_its_sole(looks, pose.rotation[2])
     return PosedShape(vertices, faces, pose, sheet, notices)
 
 
-def _by_openings(vertices: Floats, faces: Ints, windows: Windows, pose: RoughPose) -> RoughPose:
-    """The pose, or a better one of a shape that is open where a pose has no end.
+def _pose_without_sole(
+    vertices: Floats, faces: Ints, windows: Windows, looks: Facing
+) -> RoughPose | None:
+    """The pose of a shape in which the template's sole is not looked for, if its sole is missing.
 
-    A foot without its sole below a long leg is a tube with two open ends: lying down it passes for
-    a foot itself. With a lid on each end it is whole, and is searched again.
+    Without its sole a foot is as near to a last as to a foot. It is a last only if it fits well.
     """
-    openings = Openings.of(vertices, faces)
-    if not openings.rims or (pose.accepted and openings.look_up_and_down(pose.rotation[2])):
-        return pose
+    pose = rough_pose(vertices, faces, shipped_templates(), windows, SOLELESS)
+    if not (pose.accepted and lacks_its_sole(looks, pose.rotation[2])):
+        return None
+    return replace(pose, kind="foot") if pose.cost > PIECES.soleless_last else pose
+
+
+def _pose_with_lids(
+    vertices: Floats, faces: Ints, windows: Windows, openings: Openings
+) -> RoughPose | None:
+    """The pose of a shape with a lid on each opening, if that shows that it lacks its sole.
+
+    Without lids a foot without its sole may fit a last better, and below a long leg it is a tube
+    with two open ends, which passes for a foot when it lies down.
+    """
+    if not openings.rims:
+        return None
     closed = openings.closed(vertices, faces)
-    whole = rough_pose(*closed, shipped_templates(), windows, ends=openings.directions)
-    up = whole.rotation[2]
+    pose = rough_pose(*closed, shipped_templates(), windows, ends=openings.directions)
+    up = pose.rotation[2]
     likely = openings.look_up_and_down(up) and openings.lack_a_sole(up)
-    return whole if whole.accepted and likely else pose
+    return pose if pose.accepted and likely else None
