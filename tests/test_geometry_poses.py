@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 
 from footfit.geometry.mesh.samples import even_sample
 from footfit.geometry.numeric.rotations import rotations_about
-from footfit.geometry.pose.icp import (
+from footfit.geometry.search.icp import (
     Poses,
     _plane_part,
     _point_part,
@@ -19,7 +19,7 @@ from footfit.geometry.pose.icp import (
     levelled_poses,
     posed_points,
 )
-from footfit.geometry.pose.pose_search import (
+from footfit.geometry.search.pose_search import (
     POSE_SEARCH,
     _turns,
     is_accepted,

@@ -12,7 +12,7 @@ if TYPE_CHECKING:
 
     from footfit.geometry.fit.named_sections import NamedSection
     from footfit.geometry.numeric.arrays import Floats, Ints
-    from footfit.geometry.pose.pose_search import RoughPose
+    from footfit.geometry.search.pose_search import RoughPose
     from footfit.results.values import Notice
 
 

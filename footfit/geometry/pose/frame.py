@@ -96,7 +96,7 @@ def turned_sample(sample: SurfaceSample, rotation: Floats) -> SurfaceSample:
 
 
 def length_of(points: Floats, ground: float, length: float, back_height: float) -> float:
-    """The extent along x of points (n, 3) where there is no leg: the heel's below ``back_height``."""
+    """The extent along x of points (n, 3) below the leg; the heel's back below ``back_height``."""
     x, height = points[:, 0], points[:, 2] - ground
     low, back = x[height < FRAME.length_height * length], x[height < back_height * length]
     return float(low.max() - back.min()) if len(back) else 0.0

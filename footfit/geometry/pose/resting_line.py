@@ -33,7 +33,8 @@ class RestingSettings:
         How near the ground the points lie that level the last across.
     heeled : (2,)
         The rise of the bottom over the resting line from which, and up to which, the resting line
-        takes the place of the sole plane: lasts with a heel to 20 mm rise .010-.020, 60 mm .034-.058.
+        takes the place of the sole plane. Lasts with a heel of 0-20 mm rise .010-.020, those with
+        60 mm .034-.058.
     """
 
     reach: float = 0.25
@@ -86,7 +87,7 @@ def resting_line(bottom: SurfaceSample) -> RestingLine | None:
 
 
 def heeled_share(line: RestingLine | None, length: float) -> float:
-    """How far the resting line takes the place of the sole plane: 0 for a low last, 1 for a heel."""
+    """How much of the plane is the resting plane: 0 for a low last, 1 for one with a heel."""
     if line is None:
         return 0.0
     low, high = RESTING.heeled

@@ -23,7 +23,7 @@ from footfit.geometry.pose.pieces import (
     pieces,
     stand_apart,
 )
-from footfit.geometry.pose.pose_search import SOLELESS, RoughPose, Windows, rough_pose
+from footfit.geometry.search.pose_search import SOLELESS, RoughPose, Windows, rough_pose
 from footfit.pipeline.scan.cleaning import PLATE_REMOVED, turned_notices
 from footfit.pipeline.scan.shipped_templates import shipped_templates
 from footfit.results import Notice, Scan

@@ -167,8 +167,8 @@ class _Frame:
     """The canonical frame in provisional mm: points = rotation @ vertices + shift, caps included.
 
     ``surface`` is the whole surface as points with areas, ``extent`` how far the mesh reaches along
-    X below the leg (the heel's below ``back_height``, over the extent), ``length`` the measured length, whether or not its ends were scanned, ``top``
-    the height of the highest scanned point.
+    X below the leg, its heel below ``back_height`` over the extent, ``length`` the measured length,
+    whether or not its ends were scanned, ``top`` the height of the highest scanned point.
     """
 
     points: Floats

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 
 from footfit.errors import ImplausibleSize, UnknownUnits
-from footfit.geometry.pose.pose_search import Windows
+from footfit.geometry.search.pose_search import Windows
 from footfit.meshes.units import UNIT_NAMES, UNIT_SCALES, UNIT_SETTINGS
 from footfit.results import MeshInfo, Notice, Scan
 

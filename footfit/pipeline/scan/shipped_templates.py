@@ -7,7 +7,7 @@ from pathlib import Path
 
 import numpy as np
 
-from footfit.geometry.pose.templates import Template
+from footfit.geometry.search.templates import Template
 
 FILE = Path(__file__).with_name("templates.npz")
 # Stored as integers, since a tenth of a millimetre is far below what the fit can tell.

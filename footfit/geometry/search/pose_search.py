@@ -10,10 +10,10 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from footfit.geometry.mesh.samples import even_sample, farthest_points
 from footfit.geometry.numeric.arrays import Floats, Ints
 from footfit.geometry.numeric.rotations import nearest_rotation, rotations_about, super_fibonacci
-from footfit.geometry.pose.icp import (
+from footfit.geometry.search.clouds import MIRROR, Cloud, both_clouds
+from footfit.geometry.search.icp import (
     FIT,
     Poses,
     forward_costs,
@@ -22,10 +22,9 @@ from footfit.geometry.pose.icp import (
     reverse_cost,
     size_of,
 )
-from footfit.geometry.pose.templates import Singles, Template
+from footfit.geometry.search.templates import Singles, Template
 
 Windows = tuple[tuple[float, float], ...]
-MIRROR = np.diag([1.0, -1.0, 1.0])
 
 
 @dataclass(frozen=True, slots=True)
@@ -128,29 +127,12 @@ def rough_pose(
 
 
 @dataclass(frozen=True, slots=True)
-class _Cloud:
-    """The mesh as the fit sees it: few points, then more; float32."""
-
-    few: Singles
-    few_normals: Singles
-    many: Singles
-    many_normals: Singles
-    ends: Floats
-    mirrored: bool
-
-    def implausible(self, poses: Poses, upright: float) -> Singles:
-        """What each pose (k,) pays for turning an end sideways."""
-        steep = np.abs(poses.rotation[:, 2] @ self.ends.T)
-        return np.asarray(FIT.implausible_cost * (steep < upright).any(axis=1), dtype=np.float32)
-
-
-@dataclass(frozen=True, slots=True)
 class _Candidate:
     """One pose (a batch of one) of a cloud on a template, and its cost."""
 
     pose: Poses
     template: Template
-    cloud: _Cloud
+    cloud: Cloud
     cost: float
 
     @property
@@ -158,21 +140,6 @@ class _Candidate:
         """The rotation for the mesh as it is: mirrored before and after, if at all."""
         rotation = self.pose.rotation[0].astype(np.float64)
         return np.asarray(MIRROR @ rotation @ MIRROR) if self.cloud.mirrored else rotation
-
-
-def _clouds(
-    vertices: Floats, faces: Ints, ends: Floats, settings: PoseSearchSettings
-) -> tuple[_Cloud, _Cloud]:
-    """A mesh about its middle, as it is and mirrored."""
-    sample = even_sample(vertices, faces, settings.sample_points)
-    few = farthest_points(sample.points, settings.few_points)
-    points, normals = sample.points.astype(np.float32), sample.normals.astype(np.float32)
-    flip = MIRROR.astype(np.float32)
-    mirrored, looking = points @ flip, normals @ flip
-    return (
-        _Cloud(points[few], normals[few], points, normals, ends, mirrored=False),
-        _Cloud(mirrored[few], looking[few], mirrored, looking, ends @ MIRROR, mirrored=True),
-    )
 
 
 @dataclass(frozen=True, slots=True)
@@ -193,7 +160,9 @@ class _Search:
         corners = vertices[faces].reshape(-1, 3)
         # About the middle of the box float32 loses nothing, wherever the origin is.
         centre = 0.5 * (corners.min(axis=0) + corners.max(axis=0))
-        clouds = _clouds(vertices - centre, faces, self.ends, settings)
+        clouds = both_clouds(
+            vertices - centre, faces, self.ends, settings.sample_points, settings.few_points
+        )
         least = 1.001 * FIT.least_length * size_of(clouds[0].few)
         limits = tuple((max(low, least), high) for low, high in self.windows or ((0.0, np.inf),))
         limited = replace(self, windows=limits)
@@ -233,7 +202,7 @@ class _Search:
         )
 
     def candidates(
-        self, clouds: tuple[_Cloud, _Cloud], templates: tuple[Template, ...], count: int
+        self, clouds: tuple[Cloud, Cloud], templates: tuple[Template, ...], count: int
     ) -> list[_Candidate]:
         """The best few poses per template over both mirrors, fitted with all points."""
         rotations = super_fibonacci(count).astype(np.float32)
@@ -278,9 +247,9 @@ class _Search:
         return [self._finished(best.pose, best.cloud, template) for template in boot]
 
     def _costs(
-        self, poses: Poses, cloud: _Cloud, template: Template, few: int | None = None
+        self, poses: Poses, cloud: Cloud, template: Template, few: int | None = None
     ) -> Singles:
-        """The cost of each pose, (k,), by a few points; an implausible length or turn adds to it."""
+        """The cost of each pose, (k,). An implausible length or an end turned aside adds to it."""
         costs = forward_costs(poses, cloud.few[:few], cloud.few_normals[:few], template)
         costs += cloud.implausible(poses, self.settings.upright)
         lengths = 1 / poses.scale
@@ -288,7 +257,7 @@ class _Search:
         costs += np.where(plausible, 0.0, FIT.implausible_cost)
         return costs
 
-    def _coarse(self, cloud: _Cloud, template: Template, rotations: Singles) -> Poses:
+    def _coarse(self, cloud: Cloud, template: Template, rotations: Singles) -> Poses:
         """The cheapest of all rotations, length and shift taken from the mesh's low part.
 
         Of the mesh as it is only: a left foot lies on a right template well enough to start from.
@@ -298,7 +267,7 @@ class _Search:
         costs = self._costs(poses, cloud, template, few)
         return poses.at(np.argsort(costs, kind="stable")[: self.settings.kept_coarse])
 
-    def _fitted(self, cloud: _Cloud, template: Template, poses: Poses) -> list[tuple[float, Poses]]:
+    def _fitted(self, cloud: Cloud, template: Template, poses: Poses) -> list[tuple[float, Poses]]:
         """The best poses of one cloud on one template after ICP in two halves, with their costs."""
         points, normals = cloud.few, cloud.few_normals
         costs = np.zeros(len(poses.scale), dtype=np.float32)
@@ -319,7 +288,7 @@ class _Search:
                 kept.append(int(place))
         return kept
 
-    def _finished(self, pose: Poses, cloud: _Cloud, template: Template) -> _Candidate:
+    def _finished(self, pose: Poses, cloud: Cloud, template: Template) -> _Candidate:
         """One pose fitted with all points, and its cost both ways."""
         settings, points, normals = self.settings, cloud.many, cloud.many_normals
         some = slice(None, None, settings.final_stride)

@@ -12,7 +12,7 @@ import numpy as np
 
 from footfit.geometry.numeric.arrays import Bools, Floats, Ints
 from footfit.geometry.numeric.rotations import rotations_about
-from footfit.geometry.pose.templates import Singles, Template
+from footfit.geometry.search.templates import Singles, Template
 
 
 @dataclass(frozen=True, slots=True)
