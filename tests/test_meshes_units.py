@@ -40,10 +40,15 @@ def test_a_long_leg_is_taken_too(unit):
     assert plausible_unit(700.0 / UNIT_SCALES[unit])[0] == unit
 
 
-@pytest.mark.parametrize("extent", [0.0, 1e-12, 0.05, 3.0, 100.0, 1e4, 1e12, float("inf")])
+@pytest.mark.parametrize("extent", [0.0, 1e-12, 0.05, 3.0, 95.0, 1e4, 1e12, float("inf")])
 def test_no_plausible_unit_is_an_error_that_says_what_to_type(extent):
     with pytest.raises(UnknownUnits, match="--units, or --known-length"):
         plausible_unit(extent)
+
+
+@pytest.mark.parametrize(("extent", "unit"), [(112.0, "mm"), (178.0, "mm"), (0.112, "m")])
+def test_a_small_childs_length_has_a_unit(extent, unit):
+    assert plausible_unit(extent)[0] == unit
 
 
 def test_what_is_declared_wins_over_what_is_plausible():
@@ -70,7 +75,15 @@ def test_a_known_length_scales_the_longest_extent_in_any_pose():
 
 @pytest.mark.parametrize(
     ("wanted", "known"),
-    [("ft", None), ("auto", 0.0), ("auto", -3.0), ("auto", float("nan")), ("mm", 255.0)],
+    [
+        ("ft", None),
+        ("auto", 0.0),
+        ("auto", 109.0),
+        ("auto", 371.0),
+        ("auto", -3.0),
+        ("auto", float("nan")),
+        ("mm", 255.0),
+    ],
 )
 def test_options_that_cannot_be_carried_out_are_refused(wanted, known):
     with pytest.raises(BadOption):

@@ -165,7 +165,21 @@ def test_a_provisional_unit_is_corrected_by_the_length(last, taken_for, truly):
 def test_no_unit_fits(last):
     vertices, faces = last
     with pytest.raises(UnknownUnits, match="--units"):
-        aligned(scan_of(vertices * 0.5, faces))
+        aligned(scan_of(vertices * 0.3, faces))
+
+
+def test_a_small_childs_last_has_a_unit(last):
+    """No unit makes 134 mm usual; a single one makes it possible."""
+    found = aligned(scan_of(last[0] * 0.5, last[1])).alignment
+    assert found.info.units == "mm"
+    assert "length_unusual" in codes(found)
+
+
+def test_cm_and_inches_that_both_fit_are_asked_for(last):
+    """A length of 13.6 is 136 mm in cm and 345 mm in inches: neither is usual."""
+    vertices = last[0] * (136.0 / LENGTH_MM)
+    with pytest.raises(UnknownUnits, match=r"--units cm\) or 34\d mm \(--units in\): give --units"):
+        aligned(scan_of(vertices, last[1], units="cm"))
 
 
 @pytest.mark.parametrize("factor", [0.1, 0.4, 1.5, 25.4, 1000.0])

@@ -55,18 +55,18 @@ class Outcome:
 
 
 def outcome(case: Case, rng: np.random.Generator) -> Outcome:
-    """A case aligned in a random pose, side and unit; the unit is detected where it can be."""
+    """A case aligned in a random pose, side and unit; the unit is detected if it can be."""
     vertices, faces, side = case.vertices, case.faces, "right"
     if rng.random() < 0.5:
         vertices, faces = distortions.mirrored(vertices, faces)
         side = "left"
     pose = distortions.random_pose(rng)
     unit = str(rng.choice(sorted(UNIT_SCALES)))
-    usual = USUAL_MM[0] < case.length_mm < USUAL_MM[1]
+    detectable = USUAL_MM[0] < case.length_mm < USUAL_MM[1] or unit in ("mm", "m")
     posed = distortions.moved(vertices, pose) / UNIT_SCALES[unit]
     started = time.process_time()
     try:
-        aligned = footfit.align((posed, faces), units="auto" if usual else unit)
+        aligned = footfit.align((posed, faces), units="auto" if detectable else unit)
     except FootfitError as error:
         return Outcome(error.code, str(error), seconds=time.process_time() - started)
     answer = aligned.alignment

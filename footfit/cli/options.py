@@ -108,7 +108,7 @@ class Scale:
 
     units: UnitName = member(
         "--units",
-        "Set the unit of the file; auto takes the one that makes the length 180-340 mm.",
+        "Set the unit of the file; auto takes the one that makes the length 180-340 or 110-370 mm.",
         default="auto",
         panel=READING,
     )
@@ -117,7 +117,7 @@ class Scale:
         "Scale a scan without a true scale to this heel-to-toe length in mm.",
         "MM",
         panel=READING,
-        min=115,
+        min=110,
         max=370,
     )
     format: FormatName | None = member(

@@ -15,20 +15,23 @@ UNIT_NAMES = {"mm": "millimetres", "cm": "centimetres", "in": "inches", "m": "me
 
 @dataclass(frozen=True, slots=True)
 class UnitSettings:
-    """The range of the longest extent of a foot or last.
+    """The ranges of the longest extent of a foot or last, in the order in which they are tried.
 
     Attributes
     ----------
     length_mm : tuple of float
-        A foot or last. The range is so narrow that no two units fit one number (cm and inches are
-        the closest pair).
+        A usual foot or last. The range is so narrow that no two units fit one number (cm and inches
+        are the closest pair).
     with_leg_mm : tuple of float
         A foot with so much leg that the leg is the longest extent. The alignment finds the foot's
         length and confirms or corrects the unit.
+    possible_mm : tuple of float
+        From the foot of a small child to the largest last. Cm and inches can both fit.
     """
 
     length_mm: tuple[float, float] = (180.0, 340.0)
     with_leg_mm: tuple[float, float] = (340.0, 900.0)
+    possible_mm: tuple[float, float] = (110.0, 370.0)
 
 
 UNIT_SETTINGS = UnitSettings()
@@ -56,7 +59,8 @@ def plausible_unit(extent: float, settings: UnitSettings = UNIT_SETTINGS) -> tup
     Returns
     -------
     (str, float)
-        Such as ``("m", 1000.0)``; the smaller unit where a long leg fits two.
+        Such as ``("m", 1000.0)``; the smaller unit if two fit. The alignment looks at the unit
+        again.
 
     Raises
     ------
@@ -65,14 +69,14 @@ def plausible_unit(extent: float, settings: UnitSettings = UNIT_SETTINGS) -> tup
 
     Examples
     --------
-    >>> plausible_unit(0.262), plausible_unit(10.3), plausible_unit(410.0)
-    (('m', 1000.0), ('in', 25.4), ('mm', 1.0))
+    >>> plausible_unit(0.262), plausible_unit(10.3), plausible_unit(410.0), plausible_unit(134.0)
+    (('m', 1000.0), ('in', 25.4), ('mm', 1.0), ('mm', 1.0))
     """
-    for shortest, longest in (settings.length_mm, settings.with_leg_mm):
+    for shortest, longest in (settings.length_mm, settings.with_leg_mm, settings.possible_mm):
         for name, scale in UNIT_SCALES.items():
             if shortest <= extent * scale <= longest:
                 return name, scale
-    low, high = settings.length_mm
+    low, high = settings.possible_mm
     raise UnknownUnits(
         f"the longest extent is {extent:.4g}, and in no unit ({', '.join(UNIT_SCALES)}) is that a"
         f" foot or last of {low:.0f}-{high:.0f} mm: add --units, or --known-length MM"
@@ -124,13 +128,14 @@ def check_unit_options(wanted: str, known_length_mm: float | None) -> None:
     Raises
     ------
     BadOption
-        The unit is unknown, the known length is not a positive number, or both are given.
+        The unit is unknown, the known length is not one of a foot or last, or both are given.
     """
     if wanted != "auto" and wanted not in UNIT_SCALES:
         raise BadOption(f"no unit is called {wanted!a}: use {', '.join(UNIT_SCALES)} or auto")
     if known_length_mm is None:
         return
-    if not 0.0 < known_length_mm < float("inf"):
-        raise BadOption("the known length must be a positive number of mm")
+    low, high = UNIT_SETTINGS.possible_mm
+    if not low <= known_length_mm <= high:
+        raise BadOption(f"the known length must be {low:.0f}-{high:.0f} mm")
     if wanted != "auto":
         raise BadOption("--units and --known-length exclude each other: give only one of them")

@@ -108,7 +108,7 @@ def prepared_scan(
         *open_end,
         *_frame_notices(frame, factor),
         *_side_notices(verdict),
-        *settled_unit.length_notices(info, factor * frame.length),
+        *settled_unit.length_notices(factor * frame.length),
     )
     return PreparedScan(
         info=info,

@@ -18,7 +18,7 @@ class LengthSettings:
     """
 
     usual_mm: tuple[float, float] = UNIT_SETTINGS.length_mm
-    possible_mm: tuple[float, float] = (115.0, 370.0)
+    possible_mm: tuple[float, float] = UNIT_SETTINGS.possible_mm
     window_slack: float = 0.15
 
 
@@ -29,13 +29,14 @@ def length_windows(info: MeshInfo, known_length_mm: float | None) -> Windows:
     """Plausible lengths, in the scan's provisional mm; none if the scale is unknown."""
     if known_length_mm is not None or info.units_source == "known-length":
         return ()
-    low, high = LENGTHS.possible_mm
-    scales = [info.unit_scale]
+    ranges = [(*LENGTHS.possible_mm, info.unit_scale)]
     if info.units_source == "detected":
-        low, high = LENGTHS.usual_mm
-        scales = list(UNIT_SCALES.values())
-    low, high = low * (1 - LENGTHS.window_slack), high * (1 + LENGTHS.window_slack)
-    return tuple((low * info.unit_scale / s, high * info.unit_scale / s) for s in scales)
+        ranges += [(*LENGTHS.usual_mm, scale) for scale in UNIT_SCALES.values()]
+    less, more = 1 - LENGTHS.window_slack, 1 + LENGTHS.window_slack
+    return tuple(
+        (less * low * info.unit_scale / scale, more * high * info.unit_scale / scale)
+        for low, high, scale in ranges
+    )
 
 
 def info_with_unit(
@@ -53,15 +54,9 @@ def info_with_unit(
     if known_length_mm is not None:
         scale = info.unit_scale * known_length_mm / length
         return replace(info, units="scaled", units_source="known-length", unit_scale=scale)
-    low, high = LENGTHS.usual_mm
     if info.units_source == "detected":
-        for name, scale in UNIT_SCALES.items():
-            if low <= extent * scale / info.unit_scale <= high:
-                return replace(info, units=name, unit_scale=scale)
-        raise UnknownUnits(
-            f"no unit makes the length ({extent / info.unit_scale:.4g} in the file) {low:.0f}-"
-            f"{high:.0f} mm: give --units or --known-length MM"
-        )
+        name = detected_unit(extent / info.unit_scale)
+        return replace(info, units=name, unit_scale=UNIT_SCALES[name])
     least, most = LENGTHS.possible_mm
     if info.units_source == "declared" and not least <= extent <= most:
         raise ImplausibleSize(
@@ -69,6 +64,33 @@ def info_with_unit(
             f" has {least:.0f}-{most:.0f} mm: check --units, or give --known-length MM"
         )
     return info
+
+
+def detected_unit(length: float) -> str:
+    """The unit that makes a length in the file's numbers usual; else the only possible one.
+
+    Raises
+    ------
+    UnknownUnits
+        No unit makes it a possible length, or two do.
+
+    Examples
+    --------
+    >>> detected_unit(25.0), detected_unit(10.0), detected_unit(125.0)
+    ('cm', 'in', 'mm')
+    """
+    for low, high in (LENGTHS.usual_mm, LENGTHS.possible_mm):
+        names = [name for name, scale in UNIT_SCALES.items() if low <= length * scale <= high]
+        if len(names) == 1:
+            return names[0]
+    low, high = LENGTHS.possible_mm
+    if not names:
+        raise UnknownUnits(
+            f"no unit makes the length ({length:.4g} in the file) {low:.0f}-{high:.0f} mm:"
+            " give --units or --known-length MM"
+        )
+    lengths = " or ".join(f"{length * UNIT_SCALES[n]:.0f} mm (--units {n})" for n in names)
+    raise UnknownUnits(f"the length {length:.4g} in the file is {lengths}: give --units")
 
 
 def read_notices(scan: Scan, info: MeshInfo, length_mm: float | None) -> list[Notice]:
@@ -89,10 +111,10 @@ def unit_notes(info: MeshInfo, length_mm: float | None = None) -> tuple[Notice, 
     return (_detected(info, length_mm),)
 
 
-def length_notices(info: MeshInfo, length_mm: float) -> list[Notice]:
-    """A length that is possible, as declared, but unusual."""
+def length_notices(length_mm: float) -> list[Notice]:
+    """A length that is possible, but unusual."""
     low, high = LENGTHS.usual_mm
-    if info.units_source == "detected" or low <= length_mm <= high:
+    if low <= length_mm <= high:
         return []
     words = f"the length is {length_mm:.1f} mm, outside the usual {low:.0f}-{high:.0f} mm"
     return [Notice("length_unusual", words)]
