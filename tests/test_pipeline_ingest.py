@@ -11,10 +11,7 @@ from footfit.errors import BadOption, NameTaken
 from footfit.pipeline.batch.sources import ReadingOptions, Source
 from footfit.pipeline.library.ingest import Entry, Holdings, entries, unused_rows
 from footfit.pipeline.library.manifest import manifest_rows
-from footfit.pipeline.scan.measure import last_record
-from footfit.pipeline.scan.reading import profiled_source
-from footfit.results import LastLabels, Measure, Measured
-from tests.conftest import SAMPLES
+from footfit.results import LastLabels
 from tests.records import last
 
 NOTHING = LastLabels("")
@@ -97,14 +94,3 @@ def test_what_cannot_be_meant_is_refused() -> None:
         entries([Source(None, b"x", "stl")], [], NOTHING, PLAIN)
     with pytest.raises(BadOption, match="nothing to ingest"):
         entries([], [], NOTHING, PLAIN)
-
-
-def test_a_steep_heel_is_said_when_the_last_is_stored():
-    """Steeper than the frame was tried on: the last may have come to rest on its shank."""
-    shape = profiled_source(Source(str(SAMPLES / "lasts" / "derby-40.stl")), ReadingOptions())
-    flat = last_record(shape, LastLabels("flat"))
-    rows = [m for m in shape.measures if m.name != "heel_height"]
-    heel = Measure("heel_height", Measured(0.32 * flat.length_mm, 1.0), "heel_height/1")
-    steep = last_record(replace(shape, measures=(*rows, heel)), LastLabels("steep"))
-    assert "steep_heel" not in [notice.code for notice in flat.warnings]
-    assert [notice.code for notice in steep.warnings][-1] == "steep_heel"

@@ -25,8 +25,6 @@ from footfit.results import (
 
 END_MEASURES = frozenset({"length", "functional_length", "tape_length", "ball_length"})
 """What is counted from the pternion or to the toes."""
-STEEPEST_HEEL = 0.30
-"""Heel height over length: a last steeper than this may come to rest on its shank."""
 
 
 def measured_scan(aligned: AlignedScan) -> MeasuredScan:
@@ -96,15 +94,12 @@ def shape_measures(vertices_mm: Floats, faces: Ints, kind: str = "foot") -> tupl
 def unusual_measures(measures: Iterable[Measure], kind: str) -> tuple[Notice, ...]:
     """A warning for each value of a foot that is outside the range of a survey's people.
 
-    The value stays, because a foot may be unusual. Of a last only the heel is looked at: the frame
-    was not tried on a steeper one.
+    The value stays, because a foot may be unusual. Of a last there is no such range.
     """
     values = {row.name: row.measured.value for row in measures}
     length_mm = values.get("length")
-    if length_mm is None:
+    if length_mm is None or kind != "foot":
         return ()
-    if kind != "foot":
-        return _steep_heel(values.get("heel_height"), length_mm)
     known = ((entry, values.get(entry.name)) for entry in measure_table.MEASURES)
     words = (
         measure_table.unusual(entry, value, length_mm)
@@ -114,34 +109,12 @@ def unusual_measures(measures: Iterable[Measure], kind: str) -> tuple[Notice, ..
     return tuple(Notice("suspect_measure", message) for message in words if message is not None)
 
 
-def _steep_heel(heel_mm: float | None, length_mm: float) -> tuple[Notice, ...]:
-    """What to say of a last that may rest on its shank instead of on its ball and its seat.
-
-    Examples
-    --------
-    >>> _steep_heel(50.0, 250.0)
-    ()
-    >>> print(_steep_heel(80.0, 250.0)[0].message)
-    heel height 80.0 mm is 0.32 of the length, above 0.30: check length and flare on the last itself
-    """
-    share = 0.0 if heel_mm is None else heel_mm / length_mm
-    if heel_mm is None or share <= STEEPEST_HEEL:
-        return ()
-    words = (
-        f"heel height {heel_mm:.1f} mm is {share:.2f} of the length, above {STEEPEST_HEEL:.2f}:"
-        " check length and flare on the last itself"
-    )
-    return (Notice("steep_heel", words),)
-
-
 def last_record(shape: Profiled, labels: LastLabels) -> LastRecord:
     """The record of a profiled shape; the catalogue will keep its file's name, but no folder."""
     alignment = shape.aligned.alignment
     kind = alignment.pose.kind
     flare = shape.flare
     notices = (*alignment.warnings, *shape.unusual)
-    if kind == "last":
-        notices = (*notices, *unusual_measures(shape.measures, kind))
     if kind == "foot":
         looks = Notice("looks_like_a_foot", "its shape is nearer to a foot's than to a last's")
         notices = (*notices, looks)
