@@ -139,7 +139,7 @@ class BadManifest(InputError):
 
 
 class BadProfile(InputError):
-    """The fit profile's TOML cannot be understood."""
+    """The TOML of a fit profile or a heel model cannot be understood."""
 
 
 class NotInCatalogue(FootfitError):

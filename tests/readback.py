@@ -21,6 +21,7 @@ from footfit.geometry.fit.sizes import foot_size, foot_sizes, system_named
 from footfit.results import (
     Candidate,
     Comparison,
+    HeelChange,
     Match,
     Measured,
     Profiled,
@@ -315,9 +316,24 @@ def match_csv_facts(
         measured = clearances.get(name, Measured(None))
         cells[f"clearance_{name}_mm"] = mm(measured.value)
         cells[f"clearance_{name}_sd_mm"] = mm(measured.sd)
+    cells |= heel_cells(None if fit is None else fit.heel)
     for column, value in cells.items():
         text = "" if value is None else value
         yield fact(f"foot {number + 1} last {candidate.rank} {column}", text, CSV)
+
+
+def heel_cells(heel: HeelChange | None) -> dict[str, object]:
+    """What the heel of a last changes of a foot, as a row of a CSV."""
+    changes = {} if heel is None else dict(heel.changes)
+    cells: dict[str, object] = {
+        "drop_mm": mm(None if heel is None else heel.drop_mm),
+        "scanned_at_drop_mm": mm(None if heel is None else heel.scanned_at_drop_mm),
+        "heel_model": None if heel is None else heel.model,
+    }
+    for name in FIT_NAMES:
+        cells[f"heel_change_{name}_mm"] = mm(changes.get(name, Measured(None)).value)
+    turn_deg = changes.get("flare_angle", Measured(None)).value
+    return cells | {"heel_change_flare_deg": csv_number(turn_deg, 3)}
 
 
 def _labels(candidate: Candidate) -> list[str]:

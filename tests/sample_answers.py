@@ -47,6 +47,9 @@ COMMANDS: dict[str, str] = {
     "curvature": f"curvature {FOOT}",
     "curvature by one ring": f"curvature {FOOT} --radius 0",
     "match": f"match {FOOT} --catalogue {CATALOGUE} --top 99",
+    "match as scanned": f"match {FOOT} --catalogue {CATALOGUE} --top 99 --as-scanned",
+    "match a foot scanned in the heel": f"match {FOOT} --catalogue {CATALOGUE} "
+    "--scanned-at-drop 25",
     "match with clearance": f"match {OTHER} --catalogue {CATALOGUE} --top 2 --clearance",
     "match a pair": f"match {OTHER} feet/mh007_R.stl --pair --catalogue {CATALOGUE}",
     "match by flare": f"match {FOOT} --catalogue {CATALOGUE} --by flare --top 99",

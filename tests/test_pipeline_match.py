@@ -20,7 +20,7 @@ from footfit.pipeline.fit.compare import best_comparison
 from footfit.pipeline.fit.fit_profile import fit_profile
 from footfit.pipeline.fit.match import Question, matched, meets
 from footfit.pipeline.fit.scoring import rescan_spread
-from footfit.pipeline.fit.zones import BALL_SHARE, ball_line, last_shape, pitch_gain_mm
+from footfit.pipeline.fit.zones import BALL_SHARE, ball_line_mm, last_shape, pitch_gain_mm
 from footfit.pipeline.scan.reading import profiled_source
 from footfit.report.page.match_page import match_page
 from footfit.report.terminal.match_tables import match_table
@@ -148,13 +148,15 @@ def test_the_length_comes_first_whatever_the_other_zones_say() -> None:
 @given(st.floats(-10, 10), st.floats(-15, 15))
 @settings(deadline=None, max_examples=50)
 def test_the_ball_line_is_what_the_length_does_not_explain(excess: float, ball: float) -> None:
-    shape = last_shape(last("a", 273.0 + excess, ball_length=188.0 + ball, heel_height_mm=None))
-    one = last_shape(last("foot", 260.0, heel_height_mm=None))
-    found = ball_line(one, shape, 13.0)
+    found = ball_line_mm(np.array([ball]), np.array([13.0 + excess]), 13.0)
     carried = BALL_SHARE * excess
     inside = min(carried, 0.0) <= ball <= max(carried, 0.0)
     off = 0.0 if inside else min(abs(ball), abs(ball - carried))
-    assert abs(found.value) == pytest.approx(100.0 * off / one.extent_mm, abs=ROUNDING)
+    assert np.abs(found) == pytest.approx([off], abs=ROUNDING)
+    shape = last("a", 273.0 + excess, ball_length=188.0 + ball)
+    (near,) = answer(shape, by="flare").candidates
+    percent = 100.0 * found[0] / (260.0 + answers.NOISE_MM)
+    assert zone(near, "ball_line").clearance.value == pytest.approx(percent, abs=ROUNDING)
 
 
 def test_a_better_verdict_ranks_before_a_nearer_distance() -> None:

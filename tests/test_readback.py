@@ -29,6 +29,7 @@ from footfit.report.terminal.scan_tables import terminal_text
 from footfit.results import (
     Comparison,
     FootFit,
+    HeelChange,
     Match,
     Measure,
     Measured,
@@ -108,8 +109,23 @@ def planted_fits(number: int, feet: int) -> tuple[FootFit, ...]:
             verdict = None if lacking else VERDICTS[(place + number + foot) % 4]
             counts = not (foot and zone == "heel_width")
             zones.append(ZoneFit(zone, unit, known, -4.5 + 1.5 * place, value / 7, verdict, counts))
-        fits.append(FootFit(side, VERDICTS[(number + foot) % 4], tuple(zones)))
+        heel = planted_heel(number, foot)
+        fits.append(FootFit(side, VERDICTS[(number + foot) % 4], tuple(zones), heel))
     return tuple(fits)
+
+
+def planted_heel(number: int, foot: int) -> HeelChange | None:
+    """What the heel of a last changes of a foot; of one last its drop is not known, and one foot is
+    taken as it was scanned.
+    """
+    if number == 3:
+        return None
+    names = ("length", "ball_width", "ball_girth", "heel_width", "flare_angle")[number % 2 :]
+    step = 0.37 * number + 0.19 * foot
+    changes = [(name, Measured(step - 1.7 * i - 0.61, 0.5)) for i, name in enumerate(names)]
+    drop_mm = None if number == 2 else 41.3 + 7.1 * number
+    share = 0.517 + 0.1 * number
+    return HeelChange(drop_mm, 3.3, "footfit/1", share, True, False, tuple(changes))
 
 
 def planted_surfaces(number: int, feet: int) -> tuple[SurfaceClearance, ...]:

@@ -16,6 +16,7 @@ from footfit.api.inputs import (
     Meshes,
     ReadingKeywords,
     Shape,
+    heel_options,
     reading_options,
 )
 from footfit.api.scans import profiled_shape, sources
@@ -143,6 +144,7 @@ class Catalogue:
             profile=fit_profile(question.get("profile", "walking")),
             size_system=question.get("size_system"),
             surfaces_in=self.path if question.get("clearance") else None,
+            heel=heel_options(question),
         )
 
     def _choice(self, question: MatchKeywords) -> results.Library:

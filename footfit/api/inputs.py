@@ -7,7 +7,7 @@ from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any, Literal, Protocol, TypedDict, Union, runtime_checkable
 
 from footfit.pipeline.batch.sources import ReadingOptions, Source
-from footfit.results import AlignedScan, Profiled, Scan, SearchBy
+from footfit.results import AlignedScan, HeelQuestion, Profiled, Scan, SearchBy
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike
@@ -42,7 +42,22 @@ class ReadingKeywords(ScaleKeywords, total=False):
     side: Literal["auto", "left", "right"]
 
 
-class MatchKeywords(ReadingKeywords, total=False):
+class HeelKeywords(TypedDict, total=False):
+    """How feet are compared with lasts that have a heel; without these as they would be in it.
+
+    ``as_scanned`` compares them as they were scanned. ``scanned_at_drop_mm`` is the drop of what
+    the feet stood on in the scanner.
+    """
+
+    as_scanned: bool
+    scanned_at_drop_mm: float | None
+
+
+class CompareKeywords(ReadingKeywords, HeelKeywords, total=False):
+    """How a foot is to be understood, and how it is compared with a last that has a heel."""
+
+
+class MatchKeywords(CompareKeywords, total=False):
     """What is asked of a catalogue, and how the feet are to be understood.
 
     ``profile`` is the name or the file of a fit profile, ``top`` how many lasts to show (0: all).
@@ -101,6 +116,20 @@ def source_of(mesh: Mesh, scale: Mapping[str, Any]) -> Source:
         case bytes():
             return Source(None, mesh, scale.get("format"))
     return Source(os.fspath(mesh), None, scale.get("format"))
+
+
+def heel_options(options: Mapping[str, Any]) -> HeelQuestion:
+    """The keywords of `HeelKeywords`, without any others.
+
+    Raises
+    ------
+    BadOption
+        Both are given, or the drop is out of range.
+    """
+    from footfit.pipeline.fit.heel_model import heel_question
+
+    names = ("as_scanned", "scanned_at_drop_mm")
+    return heel_question(**{name: options[name] for name in names if name in options})
 
 
 def reading_options(options: Mapping[str, Any]) -> ReadingOptions:

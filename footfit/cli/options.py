@@ -146,6 +146,32 @@ class Reading(Scale):
 
 
 @dataclass(frozen=True, slots=True)
+class FootReading(Reading):
+    """How a foot is to be understood, and how it is compared with a last that has a heel."""
+
+    as_scanned: bool = member(
+        "--as-scanned",
+        "Compare the foot as it was scanned. Without it, footfit takes the foot as it would be in "
+        "the heel of the last.",
+        **SWITCH,
+        panel=READING,
+    )
+    scanned_at_drop: float | None = member(
+        "--scanned-at-drop",
+        "Say by how many mm the heel stood higher than the forepart in the scanner; 0 is flat.",
+        "MM",
+        panel=READING,
+        min=0,
+        max=120,
+    )
+
+    def keywords(self) -> dict[str, Any]:
+        """The options as the functions of `footfit.api` take them."""
+        heel = {"as_scanned": self.as_scanned, "scanned_at_drop_mm": self.scanned_at_drop}
+        return {**Reading.keywords(self), **heel}
+
+
+@dataclass(frozen=True, slots=True)
 class Batch:
     """How many meshes are worked on."""
 

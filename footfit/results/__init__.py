@@ -19,6 +19,10 @@ from footfit.results.fit import FitProfile as FitProfile
 from footfit.results.fit import FootFit as FootFit
 from footfit.results.fit import ZoneFit as ZoneFit
 from footfit.results.fit import ZoneRule as ZoneRule
+from footfit.results.heel import HeelChange as HeelChange
+from footfit.results.heel import HeelModel as HeelModel
+from footfit.results.heel import HeelQuestion as HeelQuestion
+from footfit.results.heel import HeelRule as HeelRule
 from footfit.results.last_record import LastLabels as LastLabels
 from footfit.results.last_record import LastRecord as LastRecord
 from footfit.results.last_record import StoredLast as StoredLast

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+from footfit.results.heel import HeelChange
 from footfit.results.values import Json, Measured, Part, SideName, Verdict, exact, fields, part
 
 
@@ -76,11 +77,15 @@ class ZoneFit(Part):
 
 @dataclass(frozen=True, slots=True)
 class FootFit(Part):
-    """One foot of the customer in one last; ``verdict`` is the worst of the zones that count."""
+    """One foot of the customer in one last; ``verdict`` is the worst of the zones that count.
+
+    ``heel`` is what the last's heel changes of the foot; None for a foot that is taken as scanned.
+    """
 
     side: SideName | None
     verdict: Verdict
     zones: tuple[ZoneFit, ...]
+    heel: HeelChange | None = None
 
     def _keys(self) -> Json:
         return fields(self) | {"zones": part({zone.zone: zone for zone in self.zones})}

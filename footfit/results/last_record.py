@@ -74,6 +74,14 @@ class LastRecord:
         return self.length.value
 
     @property
+    def drop_mm(self) -> float | None:
+        """How much higher the heel stands than the forepart: as labelled, else as measured."""
+        if self.labels.heel_height_mm is not None:
+            return self.labels.heel_height_mm - (self.labels.platform_mm or 0.0)
+        rows = (row.measured.value for row in self.measures if row.name == "heel_height")
+        return next(rows, None)
+
+    @property
     def label_check(self) -> sizes.LabelCheck | None:
         """The label compared with the length; None if the label gives no number."""
         return sizes.label_check(self.labels.size, self.labels.size_system, self.length_mm)

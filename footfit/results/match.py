@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from footfit.geometry.fit.sizes import SYSTEMS, foot_sizes
+from footfit.results.heel import AS_SCANNED, FLARE, HeelChange, HeelQuestion
 from footfit.results.profile import flare_part
 from footfit.results.values import (
     FIT_NAMES,
@@ -31,6 +32,11 @@ if TYPE_CHECKING:
 CANDIDATE_COLUMNS = (
     *("rank", "last", *LABELS),
     *("side", "mirrored", "distance", "distance_sd"),
+)
+HEEL_COLUMNS = (
+    *("drop_mm", "scanned_at_drop_mm", "heel_model"),
+    *(f"heel_change_{name}_mm" for name in FIT_NAMES),
+    "heel_change_flare_deg",
 )
 
 
@@ -97,12 +103,13 @@ class Match(Document):
     nearest: tuple[Candidate, ...] = ()
     size_system: str | None = None
     best_verdict: Verdict | None = None
+    heel: HeelQuestion = AS_SCANNED
 
     columns = (
         *("path", "foot_side", "by", *CANDIDATE_COLUMNS, "flare_distance", "flare_delta_deg"),
         *(f"clearance_{name}_{end}" for name in FIT_NAMES for end in ("mm", "sd_mm")),
         *("foot_verdict", "verdict", "why", "tied_with", "not_judged"),
-        *("profile", "profile_sha256"),
+        *("profile", "profile_sha256", *HEEL_COLUMNS),
     )
 
     schema = "match/1"
@@ -110,7 +117,8 @@ class Match(Document):
     def _keys(self) -> Json:
         count = sum(count for _, count in self.rejected)
         return {
-            **fields(self, "catalogue_lasts", "reference"),
+            **fields(self, "catalogue_lasts", "reference", "heel"),
+            "heel_model": self.heel.model,
             "feet": [foot_part(foot) for foot in self.feet],
             "catalogue": {"lasts": self.catalogue_lasts, "reference": self.reference},
             "rejected": {"count": count, "by_reason": dict(self.rejected)},
@@ -143,7 +151,17 @@ class Match(Document):
             " ".join(candidate.not_judged),
             self.profile,
             None if self.fit_profile is None else self.fit_profile.sha256,
+            *heel_cells(None if fit is None else fit.heel),
         )
+
+
+def heel_cells(heel: HeelChange | None) -> tuple[object, ...]:
+    """What the heel of a last changes of a foot, as `HEEL_COLUMNS` name it."""
+    if heel is None:
+        return (None,) * len(HEEL_COLUMNS)
+    changes = [heel.change_of(name) for name in (*FIT_NAMES, FLARE)]
+    values = (None if known is None else known.value for known in changes)
+    return heel.drop_mm, heel.scanned_at_drop_mm, heel.model, *values
 
 
 def foot_part(foot: Profiled) -> Json:

@@ -54,7 +54,7 @@ def match(
     *,
     lasts: options.Lasts,
     force: bool = options.FORCE,
-    reading: options.Reading,
+    reading: options.FootReading,
     batch: options.Batch,
     mode: options.OutputMode,
 ) -> None:

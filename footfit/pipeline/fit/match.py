@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import partial
 from pathlib import Path
 
@@ -16,12 +16,20 @@ from footfit.pipeline.batch.runs import Outcome, outcomes
 from footfit.pipeline.batch.sources import ReadingOptions, Source
 from footfit.pipeline.fit import ranking, reasons
 from footfit.pipeline.fit.fit_profile import fit_profile
+from footfit.pipeline.fit.heel_model import heel_question
 from footfit.pipeline.fit.scoring import UNKNOWN_SCORE, VERDICTS
 from footfit.pipeline.scan.measure import unusual_measures
 from footfit.pipeline.scan.reading import profiled_source
+from footfit.results.heel import FLARE, heel_words
 
 NEAREST_NAMED = 3
 """How many lasts are shown if none fits."""
+HEEL_WORDS: dict[results.SearchBy, tuple[str, ...]] = {
+    "fit": ("length", "ball_girth"),
+    "flare": (FLARE,),
+    "shape": (),
+}
+"""The changes of the foot in the heel that the sentence of a last names."""
 WORSE_VERDICT = 1e6
 """More than any zone can add to a distance."""
 
@@ -30,6 +38,7 @@ WORSE_VERDICT = 1e6
 class Question:
     """What is asked of the catalogue. ``top`` 0 asks for all lasts; the default ``profile`` is
     walking. ``surfaces_in`` is the catalogue whose meshes the feet are placed in, if that is asked.
+    ``heel`` says how the feet are compared with lasts that have a heel.
     """
 
     by: results.SearchBy = "fit"
@@ -37,10 +46,11 @@ class Question:
     profile: results.FitProfile | None = None
     size_system: str | None = None
     surfaces_in: Path | None = None
+    heel: results.HeelQuestion = field(default_factory=heel_question)
 
 
 def matched(
-    feet: Sequence[results.Profiled], library: results.Library, question: Question = Question()
+    feet: Sequence[results.Profiled], library: results.Library, question: Question | None = None
 ) -> results.Match:
     """Rank the library for one customer: one foot, or two whose larger governs the length.
 
@@ -51,13 +61,14 @@ def matched(
     HalfScan
         By fit: a foot's length is not known, for example if its toes were not scanned.
     """
+    question = question or Question()
     if not library.lasts:
         nothing = "no last passes these filters; see footfit list-lasts"
         raise NoCandidate(next((notice.message for notice in library.warnings), nothing))
     if question.by == "fit":
         _refuse_unknown_length(feet)
     profile = question.profile or fit_profile()
-    judged = ranking.judged_lasts(feet, library.lasts, profile, question.by)
+    judged = ranking.judged_lasts(feet, library.lasts, profile, question.by, question.heel)
     ranked = ranking.ranking(judged, profile.tie_sds)
     shown = range(len(ranked.rows))[: question.top or None]
     near = [] if ranked.rows else ranking.nearest(judged, NEAREST_NAMED)
@@ -76,6 +87,7 @@ def matched(
         nearest=missed,
         size_system=question.size_system,
         best_verdict=_best_verdict(judged, ranked),
+        heel=judged.heels.question,
     )
 
 
@@ -182,6 +194,7 @@ def _candidate(
 ) -> results.Candidate:
     last, by_shape = judged.lasts[row], judged.by == "shape"
     labels, governed = last.labels, fits[judged.longer]
+    heel = heel_words(governed.heel, HEEL_WORDS[judged.by])
     return results.Candidate(
         rank=rank,
         last=labels.name,
@@ -195,7 +208,7 @@ def _candidate(
         flare=judged.flare[row],
         clearance_mm=tuple((z.zone, z.clearance) for z in governed.zones if z.unit == "mm"),
         verdict=None if by_shape else VERDICTS[judged.level[row]],
-        why=why,
+        why="; ".join(words for words in (why, heel) if words),
         tied_with=tied,
         record=last,
         distance_sd=float(judged.spread.alone()[row]) if judged.by == "fit" else None,

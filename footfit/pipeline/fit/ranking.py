@@ -10,6 +10,7 @@ import numpy as np
 
 from footfit.geometry.flare.profile_distance import profile_distances
 from footfit.geometry.numeric.arrays import Bools, Floats, Ints
+from footfit.pipeline.fit.heels import Heels, full_change, heel_change, heels_of
 from footfit.pipeline.fit.scoring import (
     NOT_JUDGED,
     REJECT,
@@ -24,16 +25,18 @@ from footfit.pipeline.fit.scoring import (
     tiers,
     worst_levels,
 )
-from footfit.pipeline.fit.zones import LENGTH_SD_MM, ZONES, Clearance, clearances
+from footfit.pipeline.fit.zones import LENGTH_SD_MM, ZONES, Clearances, clearances
 from footfit.results import (
     FitProfile,
     FlareDifference,
     FootFit,
+    HeelQuestion,
     LastRecord,
     Profiled,
     SearchBy,
     ZoneFit,
 )
+from footfit.results.heel import AS_SCANNED, FLARE
 
 TWIN_LENGTH_MM = 2.0
 """Two lasts with the same labels and opposite sides are one pair if their lengths differ less."""
@@ -47,15 +50,16 @@ GOVERNED = frozenset({"length", "ball_line"})
 class JudgedLasts:
     """n lasts, judged for one customer in z columns: the zones of each foot.
 
-    ``clearances`` has a row for each last. ``level`` (n,) indexes VERDICTS; ``distance`` (n,) is
-    what the search goes by, and ``spread`` how sure it is: by flare or shape that of a rescan.
+    ``level`` (n,) indexes VERDICTS; ``distance`` (n,) is what the search goes by, and ``spread``
+    how sure it is: by flare or shape that of a rescan. ``heels`` are those of the lasts.
     """
 
     feet: tuple[Profiled, ...]
     lasts: tuple[LastRecord, ...]
     by: SearchBy
     columns: tuple[Column, ...]
-    clearances: tuple[tuple[Clearance, ...], ...]
+    heels: Heels
+    clearances: Clearances
     scores: Scores
     level: Ints
     flare: tuple[FlareDifference, ...]
@@ -92,7 +96,11 @@ class Ranking:
 
 
 def judged_lasts(
-    feet: Sequence[Profiled], lasts: Sequence[LastRecord], profile: FitProfile, by: SearchBy
+    feet: Sequence[Profiled],
+    lasts: Sequence[LastRecord],
+    profile: FitProfile,
+    by: SearchBy,
+    heel: HeelQuestion = AS_SCANNED,
 ) -> JudgedLasts:
     """Every last, judged for one customer; of two feet the longer governs the length."""
     longer = governing(feet)
@@ -102,17 +110,17 @@ def judged_lasts(
         for index in range(len(feet))
         for rule in profile.zones
     )
-    rows = clearances(feet, chosen, columns)
-    numbers = np.array([[(c.value, c.foot_sd, c.last_sd) for c in row] for row in rows])
-    value, foot_sd, last_sd = np.moveaxis(numbers.reshape(len(chosen), len(columns), 3), 2, 0)
-    judged = scores(value, foot_sd, last_sd, columns)
-    flare = flare_differences(feet, chosen)
+    heels = heels_of(AS_SCANNED if by == "shape" else heel, chosen)
+    room = clearances(feet, chosen, columns, heels)
+    judged = scores(room.value, room.foot_sd, room.last_sd, columns, room.heel_sd)
+    flare = flare_differences(feet, chosen, heels)
     return JudgedLasts(
         feet=tuple(feet),
         lasts=tuple(chosen),
         by=by,
         columns=columns,
-        clearances=rows,
+        heels=heels,
+        clearances=room,
         scores=judged,
         level=worst_levels(judged.level, columns),
         flare=tuple(flare),
@@ -127,16 +135,22 @@ def governing(feet: Sequence[Profiled]) -> int:
 
 
 def flare_differences(
-    feet: Sequence[Profiled], lasts: Sequence[LastRecord]
+    feet: Sequence[Profiled], lasts: Sequence[LastRecord], heels: Heels
 ) -> list[FlareDifference]:
-    """The profile distance of each last; two feet count by their root mean square."""
+    """The profile distance of each last, and the difference of the flare angles; two feet count by
+    their root mean square, and by their mean.
+
+    The heel changes the foot's angle. The profiles are compared as they were scanned: the heel
+    model has no profile.
+    """
     each = [profile_distances(foot.flare, [last.flare for last in lasts]) for foot in feet]
     total = np.sqrt(np.mean([np.square(distances.total) for distances in each], axis=0))
     angle = sum(foot.flare.angle_deg for foot in feet) / len(feet)
+    turn_deg = heels.share * full_change(heels.question.model, feet[0], FLARE)[0]
     return [
         FlareDifference(
             float(total[i]),
-            last.flare.angle_deg - angle,
+            last.flare.angle_deg - angle - float(turn_deg[i]),
             tuple((name, float(values[i])) for name, values in each[0].parts.items()),
         )
         for i, last in enumerate(lasts)
@@ -278,7 +292,8 @@ def foot_fits(judged: JudgedLasts, row: int) -> tuple[FootFit, ...]:
         level = judged.scores.level[row : row + 1, places]
         verdict = VERDICTS[worst_levels(level, [judged.columns[i] for i in places])[0]]
         zones = tuple(_zone_fit(judged, row, place) for place in places)
-        fits.append(FootFit(foot.aligned.alignment.side.side, verdict, zones))
+        side, heel = foot.aligned.alignment.side.side, heel_change(judged.heels, row, foot)
+        fits.append(FootFit(side, verdict, zones, heel))
     return tuple(fits)
 
 
@@ -287,7 +302,7 @@ def _zone_fit(judged: JudgedLasts, row: int, place: int) -> ZoneFit:
     return ZoneFit(
         zone=column.rule.zone,
         unit=ZONES[column.rule.zone].unit,
-        clearance=judged.clearances[row][place].measured,
+        clearance=judged.clearances.measured(row, place),
         target=column.rule.target,
         score=float(judged.scores.score[row, place]) if level != NOT_JUDGED else None,
         verdict=VERDICTS[level] if level != NOT_JUDGED else None,

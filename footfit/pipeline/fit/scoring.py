@@ -37,29 +37,39 @@ class Scores:
 
     ``score`` (n, z) is 0 at the target and 1 at the edge of good, - tight, + loose; NaN where it
     is not measured. ``level`` (n, z) indexes VERDICTS, NOT_JUDGED where it is not measured.
-    ``foot_sd`` and ``last_sd`` (n, z) are the score's, from the foot's and the last's measures.
+    ``foot_sd`` and ``last_sd`` (n, z) are the score's, from the foot's and the last's measures,
+    ``heel_sd`` (n, z) from the heel model.
     """
 
     score: Floats
     level: Ints
     foot_sd: Floats
     last_sd: Floats
+    heel_sd: Floats
     weight: Floats
 
 
 def scores(
-    clearance: Floats, foot_sd: Floats, last_sd: Floats, columns: Sequence[Column]
+    clearance: Floats,
+    foot_sd: Floats,
+    last_sd: Floats,
+    columns: Sequence[Column],
+    heel_sd: Floats | None = None,
 ) -> Scores:
     """The scores of clearances (n, z) with their spreads (n, z), by the columns' rules."""
     scale = np.array([scales(column.rule) for column in columns]).reshape(-1, 2)
     target = np.array([column.rule.target for column in columns])
     over = clearance >= target
     width = np.where(over, scale[:, 1], scale[:, 0])
+    model_sd = np.zeros_like(clearance) if heel_sd is None else heel_sd
+    spreads = np.stack([foot_sd, last_sd, model_sd])
+    foot, last, heel = np.where(np.isnan(clearance), 0.0, spreads / width)
     return Scores(
         score=(clearance - target) / width,
-        level=levels(clearance, [c.rule for c in columns], np.hypot(foot_sd, last_sd)),
-        foot_sd=np.where(np.isnan(clearance), 0.0, foot_sd / width),
-        last_sd=np.where(np.isnan(clearance), 0.0, last_sd / width),
+        level=levels(clearance, [c.rule for c in columns], np.sqrt(np.square(spreads).sum(axis=0))),
+        foot_sd=foot,
+        last_sd=last,
+        heel_sd=heel,
         weight=np.array([column.rule.weight if column.counts else 0.0 for column in columns]),
     )
 
@@ -139,36 +149,41 @@ class Spread:
     """How sure n distances are.
 
     ``slope`` (n, z) is the distance's derivative by each score. ``foot_sd`` (n, z) is the scores'
-    spread from the foot's measures, which is common to all lasts. ``own`` (n,) is the distance's
-    variance from the last's own measures. ``common`` (n,) is what the foot's measures leave at the
-    target, where the slopes vanish.
+    spread from the foot's measures, which is common to all lasts. ``heel_sd`` (n, z) is that from
+    the heel model, common too, but larger for a last with a higher heel. ``own`` (n,) is the
+    distance's variance from the last's own measures. ``common`` (n,) is what the foot's measures
+    and the heel model leave at the target, where the slopes vanish.
     """
 
     slope: Floats
     foot_sd: Floats
+    heel_sd: Floats
     own: Floats
     common: Floats
 
     def alone(self) -> Floats:
         """The standard deviation (n,) of each distance."""
         foot = np.square(self.slope * self.foot_sd).sum(axis=1)
-        sd: Floats = np.sqrt(foot + self.common + self.own)
+        heel = np.square(self.slope * self.heel_sd).sum(axis=1)
+        sd: Floats = np.sqrt(foot + heel + self.common + self.own)
         return sd
 
     def difference(self, i: int, j: int) -> float:
         """The standard deviation of the difference of two distances.
 
-        An error of the foot's measures moves both, and counts only by how differently.
+        An error of the foot's measures, or of the heel model, moves both, and counts only by how
+        differently.
         """
         sd = 0.5 * (self.foot_sd[i] + self.foot_sd[j])
         foot = np.square((self.slope[i] - self.slope[j]) * sd).sum()
-        return float(np.sqrt(foot + self.own[i] + self.own[j]))
+        moved = self.slope[i] * self.heel_sd[i] - self.slope[j] * self.heel_sd[j]
+        return float(np.sqrt(foot + np.square(moved).sum() + self.own[i] + self.own[j]))
 
 
 def rescan_spread(count: int) -> Spread:
     """The spread of distances in units of what two scans of one shape are apart."""
     nothing = np.zeros((count, 1))
-    return Spread(nothing, nothing, np.ones(count), np.zeros(count))
+    return Spread(nothing, nothing, nothing, np.ones(count), np.zeros(count))
 
 
 def distance_spread(scores: Scores) -> Spread:
@@ -179,13 +194,15 @@ def distance_spread(scores: Scores) -> Spread:
     """
     weight = _carried(scores)
     share = weight / weight.sum()
-    foot, last = np.square(scores.foot_sd), np.square(scores.last_sd)
+    foot = np.square(scores.foot_sd) + np.square(scores.heel_sd)
+    last = np.square(scores.last_sd)
     score = _known_scores(scores)
     base = np.maximum(np.square(score) @ share + (foot + last) @ share, 1e-18)[:, None]
     slope = share * score / np.sqrt(base)
     quarter = np.square(share) / (2.0 * base)
     own = np.square(slope) * last + quarter * last * (last + 2.0 * foot)
-    return Spread(slope, scores.foot_sd, own.sum(axis=1), (quarter * foot**2).sum(axis=1))
+    common = (quarter * foot**2).sum(axis=1)
+    return Spread(slope, scores.foot_sd, scores.heel_sd, own.sum(axis=1), common)
 
 
 def tiers(

@@ -15,8 +15,11 @@ import numpy as np
 
 from footfit.geometry.flare.definition import CHANNELS, FlareProfile
 from footfit.geometry.flare.profile_distance import DISTANCE
+from footfit.geometry.numeric.arrays import Floats
+from footfit.pipeline.fit.heels import Heels, full_change
 from footfit.pipeline.fit.scoring import Column
-from footfit.results import LastRecord, Measure, Measured, Profiled, ZoneRule
+from footfit.results import LastRecord, Measure, Measured, Profiled
+from footfit.results.heel import FLARE
 
 LENGTH_SD_MM = 0.5
 """Repeatability of an aligned length between two scans of one shape (docs/alignment.md)."""
@@ -27,6 +30,10 @@ BALL_SHARE = 0.72
 """Where the ball lies, over the length, if it was not measured."""
 STEEPEST = 0.6
 """The sine of the steepest pitch that counts: a heel of 110 mm."""
+
+
+HEEL_RULES = {"ball_line": "ball_length", "flare": FLARE}
+"""Zones whose rule of the heel model has another name than the zone."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -64,6 +71,10 @@ ZONES: dict[str, Zone] = {
 }
 
 
+Reasons = tuple[tuple[str | None, ...], ...]
+"""Why clearances are not measured, or None where they are: a row for each last."""
+
+
 @dataclass(frozen=True, slots=True)
 class Clearance:
     """The last minus the foot in one zone, with the spread that each of the two brings.
@@ -76,22 +87,86 @@ class Clearance:
     last_sd: float = 0.0
     reason: str | None = None
 
-    @property
-    def measured(self) -> Measured:
-        """The clearance as a result."""
-        if self.reason is not None:
-            return Measured(None, reason=self.reason)
-        return Measured(self.value, math.hypot(self.foot_sd, self.last_sd))
+
+@dataclass(frozen=True, slots=True)
+class Clearances:
+    """The clearances of n lasts in z columns: the last minus the foot as it is in the last's heel.
+
+    ``value`` (n, z) is NaN where it is not measured; ``reasons`` (n rows) then say why. The spreads
+    (n, z) are of the foot's scan, of the last, and of the heel model. The model's is - where the
+    model is applied backwards: one error of the model moves all lasts at once.
+    """
+
+    value: Floats
+    foot_sd: Floats
+    last_sd: Floats
+    heel_sd: Floats
+    reasons: Reasons
+
+    def measured(self, row: int, place: int) -> Measured:
+        """One clearance as a result."""
+        reason = self.reasons[row][place]
+        if reason is not None:
+            return Measured(None, reason=reason)
+        spreads = (self.foot_sd, self.last_sd, self.heel_sd)
+        sd = math.hypot(*(float(spread[row, place]) for spread in spreads))
+        return Measured(float(self.value[row, place]), sd)
 
 
 def clearances(
-    feet: Sequence[Profiled], lasts: Sequence[LastRecord], columns: Sequence[Column]
-) -> tuple[tuple[Clearance, ...], ...]:
-    """The clearance of each foot in each last: a row for each last, a clearance for each column."""
+    feet: Sequence[Profiled], lasts: Sequence[LastRecord], columns: Sequence[Column], heels: Heels
+) -> Clearances:
+    """The clearance of each foot in each last: a row for each last, a column for each zone.
+
+    The shapes are compared as they were measured. Then each column gets what the heels of the lasts
+    change of the foot.
+    """
     ours, theirs = [foot_shape(foot) for foot in feet], [last_shape(last) for last in lasts]
-    asked_mm = next((c.rule.target for c in columns if c.rule.zone == "length"), 0.0)
+    zones = [(ours[column.foot], column.rule.zone) for column in columns]
+    rows = [[_clearance(foot, last, zone) for foot, zone in zones] for last in theirs]
+    numbers = np.array([[(c.value, c.foot_sd, c.last_sd) for c in row] for row in rows])
+    value, foot_sd, last_sd = np.moveaxis(numbers.reshape(len(rows), len(columns), 3), 2, 0)
+    heel_sd = np.zeros_like(value)
+    for place, column in enumerate(columns):
+        measure = HEEL_RULES.get(column.rule.zone, column.rule.zone)
+        change, sd = full_change(heels.question.model, feet[column.foot], measure)
+        value[:, place] -= heels.share * change
+        heel_sd[:, place] = heels.share * sd
+    lengths = {column.foot: i for i, column in enumerate(columns) if is_length(column)}
+    rooms_mm = {foot: value[:, place].copy() for foot, place in lengths.items()}
+    for place, column in enumerate(columns):
+        if column.rule.zone == "ball_line":
+            asked_mm = columns[lengths[column.foot]].rule.target
+            scale = 100.0 / ours[column.foot].extent_mm
+            off_mm = ball_line_mm(value[:, place], rooms_mm[column.foot], asked_mm)
+            value[:, place] = scale * off_mm
+            for spread in (foot_sd, last_sd, heel_sd):
+                spread[:, place] *= scale
+        if not is_length(column):
+            value[heels.length_only, place] = np.nan
+    value -= np.array([column.rule.cavity for column in columns])
+    needed = [lengths[c.foot] if c.rule.zone == "ball_line" else i for i, c in enumerate(columns)]
+    reasons = tuple(
+        tuple(row[i].reason or row[j].reason for i, j in enumerate(needed)) for row in rows
+    )
+    return Clearances(value, foot_sd, last_sd, heel_sd, _with_length_only(reasons, columns, heels))
+
+
+def is_length(column: Column) -> bool:
+    """Is this the column of a toe room?"""
+    return column.rule.zone == "length"
+
+
+def _with_length_only(reasons: Reasons, columns: Sequence[Column], heels: Heels) -> Reasons:
+    """The reasons, with those of lasts whose heel is higher than the heel model knows."""
+    model = heels.question.model
+    if model is None or not heels.length_only.any():
+        return reasons
+    words = f"over {model.largest_drop_mm:g} mm of drop only the length is judged"
+    only = tuple(None if is_length(column) else words for column in columns)
     return tuple(
-        tuple(_clearance(ours[c.foot], last, c.rule, asked_mm) for c in columns) for last in theirs
+        tuple(first or second for first, second in zip(row, only, strict=True)) if over else row
+        for row, over in zip(reasons, heels.length_only.tolist(), strict=True)
     )
 
 
@@ -127,15 +202,11 @@ def last_shape(last: LastRecord) -> ZoneShape:
     return ZoneShape(last.extent_mm, last.flare, measures, last.labels.heel_height_mm)
 
 
-def _clearance(foot: ZoneShape, last: ZoneShape, rule: ZoneRule, asked_mm: float) -> Clearance:
-    """The clearance in the zone of a rule, without what the rule's cavity takes."""
-    if rule.zone == "ball_line":
-        clearance = ball_line(foot, last, asked_mm)
-    elif rule.zone in _SPECIAL:
-        clearance = _SPECIAL[rule.zone](foot, last)
-    else:
-        clearance = _difference(foot, last, rule.zone)
-    return replace(clearance, value=clearance.value - rule.cavity) if rule.cavity else clearance
+def _clearance(foot: ZoneShape, last: ZoneShape, zone: str) -> Clearance:
+    """The clearance in a zone, as both were measured; of the ball line that of the balls, in mm."""
+    if zone in _SPECIAL:
+        return _SPECIAL[zone](foot, last)
+    return _difference(foot, last, "ball_length" if zone == "ball_line" else zone)
 
 
 def _missing(reason: str) -> Clearance:
@@ -188,20 +259,17 @@ def pitch_gain_mm(last: ZoneShape) -> float:
     return (last.extent_mm - chord) * (1.0 / math.sqrt(1.0 - sine * sine) - 1.0)
 
 
-def ball_line(foot: ZoneShape, last: ZoneShape, asked_mm: float) -> Clearance:
-    """How much further forward the last's ball is than the foot's, in % of the foot's length.
+def ball_line_mm(ball_mm: Floats, room_mm: Floats, asked_mm: float) -> Floats:
+    """How much further forward the last's ball is than the foot's, as far as the length does not
+    explain it.
 
-    What the length explains is left out: a last that is longer than the toe room asked for has its
-    ball further forward in proportion, and that is judged as length. A long toe with the ball in
-    place is in place.
+    A last that is longer than the toe room asked for has its ball further forward in proportion,
+    and that is judged as length. A long toe with the ball in place is in place.
     """
-    ball, room = _difference(foot, last, "ball_length"), _length(foot, last)
-    if ball.reason is not None or room.reason is not None:
-        return ball if ball.reason is not None else room
-    carried = BALL_SHARE * (room.value - asked_mm)
-    explained = min(max(ball.value, min(carried, 0.0)), max(carried, 0.0))
-    scale = 100.0 / foot.extent_mm
-    return Clearance((ball.value - explained) * scale, ball.foot_sd * scale, ball.last_sd * scale)
+    carried_mm = BALL_SHARE * (room_mm - asked_mm)
+    explained_mm = np.clip(ball_mm, np.minimum(carried_mm, 0.0), np.maximum(carried_mm, 0.0))
+    off_mm: Floats = ball_mm - explained_mm
+    return off_mm
 
 
 def _flare(foot: ZoneShape, last: ZoneShape) -> Clearance:

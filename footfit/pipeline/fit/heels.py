@@ -1,0 +1,86 @@
+"""What the heels of lasts change of a foot: by one heel model, for all lasts at once."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from footfit.geometry.numeric.arrays import Bools, Floats
+from footfit.results import HeelChange, HeelModel, HeelQuestion, LastRecord, Measured, Profiled
+from footfit.results.heel import FLARE
+
+SAME_DROP_MM = 5.0
+"""Two drops that differ by less are one: a foot that was scanned at it needs no model."""
+
+
+@dataclass(frozen=True, slots=True)
+class Heels:
+    """The heels of n lasts, for feet that are compared as ``question`` says.
+
+    ``drop_mm`` (n,) is NaN where it is not known. ``share`` (n,) of the model's full change is
+    applied. Where ``length_only`` (n,) holds, the model says nothing of girths.
+    """
+
+    question: HeelQuestion
+    drop_mm: Floats
+    share: Floats
+    length_only: Bools
+
+
+def heels_of(question: HeelQuestion, lasts: Sequence[LastRecord]) -> Heels:
+    """The heels of lasts: how much of the model's full change each of them asks for.
+
+    A share is the drop over the full drop, up to the model's largest drop, minus that of the drop
+    that the foot was scanned at. It is 0 where the drop is not known.
+    """
+    drop_mm = np.array([np.nan if mm is None else mm for mm in (last.drop_mm for last in lasts)])
+    model = question.model
+    if model is None:
+        nothing = np.zeros(len(lasts))
+        return Heels(question, drop_mm, nothing, nothing > 0.0)
+    scanned_mm, largest_mm = question.scanned_at_drop_mm, model.largest_drop_mm
+    known_mm = np.where(np.isnan(drop_mm), scanned_mm, drop_mm)
+    share = (np.clip(known_mm, 0.0, largest_mm) - min(scanned_mm, largest_mm)) / model.full_drop_mm
+    apart = np.abs(known_mm - scanned_mm) > SAME_DROP_MM
+    return Heels(question, drop_mm, share, apart & (np.maximum(known_mm, scanned_mm) > largest_mm))
+
+
+def full_change(model: HeelModel | None, foot: Profiled, measure: str) -> tuple[float, float]:
+    """How a foot's measure changes at the model's full drop, and the standard deviation of that:
+    in mm, or in degrees for the flare angle. It is 0 where the model has no rule.
+    """
+    rule = None if model is None else model.rule_of(measure)
+    if rule is None:
+        return 0.0, 0.0
+    size = 1.0 if measure == FLARE else _value_mm(foot, measure)
+    return rule.change * size, rule.sd * size
+
+
+def heel_change(heels: Heels, row: int, foot: Profiled) -> HeelChange | None:
+    """What the heel of one last changes of one foot; None for a foot that is taken as scanned."""
+    model, scanned_mm = heels.question.model, heels.question.scanned_at_drop_mm
+    if model is None:
+        return None
+    drop_mm, share = float(heels.drop_mm[row]), float(heels.share[row])
+    changes = []
+    for rule in model.rules:
+        if rule.measure == FLARE or _value_mm(foot, rule.measure):
+            change, sd = full_change(model, foot, rule.measure)
+            changes.append((rule.measure, Measured(share * change, abs(share) * sd)))
+    return HeelChange(
+        drop_mm=None if np.isnan(drop_mm) else drop_mm,
+        scanned_at_drop_mm=scanned_mm,
+        model=model.model_id,
+        share=share,
+        unproven=abs(drop_mm - scanned_mm) >= model.unproven_from_mm,
+        length_only=bool(heels.length_only[row]),
+        changes=tuple(changes),
+    )
+
+
+def _value_mm(foot: Profiled, measure: str) -> float:
+    """A measure of a foot; 0 if it has none."""
+    values = (row.measured.value for row in foot.measures if row.name == measure)
+    return next(values, None) or 0.0
