@@ -274,16 +274,16 @@ def test_one_error_of_the_model_moves_all_lasts() -> None:
 
 def test_the_document_has_the_model_and_what_it_changed() -> None:
     found = answer(heeled("a", 60.0), heel=heel_question(scanned_at_drop_mm=20.0)).to_dict()
-    assert found["heel_model"]["name"] == "footfit"
+    assert found["heel_model"]["name"] == "flat-to-heel"
     assert found["heel_model"]["sha256"] == heel_model().sha256
     assert found["heel_model"]["rules"]["ball_girth"]["change"] == pytest.approx(0.005)
     heel = found["candidates"][0]["fits"][0]["heel"]
     assert (heel["drop_mm"], heel["scanned_at_drop_mm"], heel["share"]) == (60.0, 20.0, 0.5)
-    assert heel["model"] == f"footfit/{heel_model().version}"
+    assert heel["model"] == f"flat-to-heel/{heel_model().version}"
     assert heel["changes_mm"]["length"] == {"value": -1.95, "sd": 1.3, "reason": None}
     assert heel["flare_change_deg"]["value"] == 1.0
     (row,) = answer(heeled("a", 60.0)).rows()
-    assert (row["drop_mm"], row["heel_model"]) == (60.0, "footfit/1")
+    assert (row["drop_mm"], row["heel_model"]) == (60.0, "flat-to-heel/1")
     assert row["heel_change_length_mm"] == pytest.approx(-2.925)
     assert row["heel_change_flare_deg"] == pytest.approx(1.5)
     assert row["heel_change_instep_girth_mm"] is None

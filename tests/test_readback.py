@@ -125,7 +125,7 @@ def planted_heel(number: int, foot: int) -> HeelChange | None:
     changes = [(name, Measured(step - 1.7 * i - 0.61, 0.5)) for i, name in enumerate(names)]
     drop_mm = None if number == 2 else 41.3 + 7.1 * number
     share = 0.517 + 0.1 * number
-    return HeelChange(drop_mm, 3.3, "footfit/1", share, True, False, tuple(changes))
+    return HeelChange(drop_mm, 3.3, "flat-to-heel/1", share, True, False, tuple(changes))
 
 
 def planted_surfaces(number: int, feet: int) -> tuple[SurfaceClearance, ...]:

@@ -118,7 +118,7 @@ def heel_words(heel: HeelChange | None, measures: tuple[str, ...]) -> str:
     --------
     >>> from footfit.results import Measured
     >>> changes = (("length", Measured(-1.17, 0.8)), ("ball_girth", Measured(0.4, 1.1)))
-    >>> heel = HeelChange(25.0, 0.0, "footfit/1", 0.31, False, False, changes)
+    >>> heel = HeelChange(25.0, 0.0, "flat-to-heel/1", 0.31, False, False, changes)
     >>> heel_words(heel, ("length",))
     'at a drop of 25 mm the foot counts as 1.2 mm shorter'
     """
