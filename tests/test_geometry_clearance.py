@@ -24,6 +24,7 @@ from footfit.geometry.fit.placement import Placement, placed, placement
 from footfit.geometry.fit.stations import STATIONS
 from footfit.geometry.measures.landmarks import Shape
 from footfit.geometry.mesh.nearest import nearest_on_surface, part_middles
+from footfit.geometry.mesh.surface import area_vectors, unit
 from tests import shapes
 from tests.bounds import ROUNDING
 from tools.lasts import LastSpec, last_mesh
@@ -74,6 +75,17 @@ def test_the_distance_to_a_cube_is_the_formula_inside_and_outside(point):
     found = signed_clearance(np.array([point]), vertices, faces)[0]
     # In the very middle six faces are as near, and another than the nearest may be tried: 2.2e-7.
     assert found == pytest.approx(truth, abs=3e-7)
+
+
+def test_the_side_of_a_sharp_edge_is_known_all_around_it():
+    """Two faces of a tetrahedron look 109 degrees apart: one of them alone names a wrong side."""
+    vertices, faces = shapes.tetrahedron(100.0)
+    points = np.random.default_rng(5).uniform(-70.0, 70.0, (500, 3))
+    outward = unit(area_vectors(vertices, faces))
+    ahead = np.einsum("pfx,fx->pf", points[:, None] - vertices[faces[:, 0]], outward)
+    assert np.array_equal(
+        signed_clearance(points, vertices, faces) > 0.0, (ahead < 0.0).all(axis=1)
+    )
 
 
 def test_large_and_small_triangles_give_the_same_distance():

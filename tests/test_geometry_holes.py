@@ -7,7 +7,7 @@ import pytest
 from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
-from footfit.geometry.mesh.caps import extent_of
+from footfit.geometry.mesh.caps import Facets, cap, extent_of
 from footfit.geometry.mesh.holes import HOLES, closed_mesh
 from footfit.geometry.mesh.surface import area_vectors
 from footfit.geometry.mesh.topology import boundary_loops, is_closed
@@ -148,3 +148,23 @@ def _moments(vertices, faces):
     areas = np.linalg.norm(area_vectors(vertices, faces), axis=1)
     middles = vertices[faces].mean(axis=1)
     return [areas.sum(), *(areas @ middles / areas.sum()), *(areas @ middles**2 / areas.sum())]
+
+
+@pytest.mark.parametrize("waves", range(1, 9))
+def test_a_cap_follows_six_waves_of_its_rim_and_no_finer_ones(waves):
+    turn = _turn(96)
+    rim = np.stack([50.0 * np.cos(turn), 50.0 * np.sin(turn), np.cos(waves * turn)], axis=1)
+    around, away = np.meshgrid(turn, np.linspace(51.0, 65.0, 8))
+    flat = np.stack([away * np.cos(around), away * np.sin(around), 0.0 * away], axis=-1)
+    middles = flat.reshape(-1, 3)
+    capped = cap(rim, Facets(middles, np.tile([0.0, 0.0, 1.0], (len(middles), 1))), 5.0)
+    assert capped is not None
+    highest = np.abs(capped[0][:, 2]).max()
+    if waves <= 6:
+        assert highest > 0.5  # of 1 at the rim; measured: 0.82 or more
+    else:
+        assert highest < 3.9e-5  # of the rim's even samples; measured: 2.0e-5
+
+
+def _turn(count):
+    return 2.0 * np.pi * np.arange(count) / count

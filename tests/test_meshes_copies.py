@@ -60,7 +60,7 @@ def test_a_decimated_copy_is_small_and_as_near_as_it_says():
         nearest(inside[::4], vertices, faces).max(),
     )
     assert sampled <= copy.error_mm * 1.15  # between samples it may be a little more
-    assert copy.error_mm <= 2.5 * sampled
+    assert copy.error_mm <= 2.0 * sampled  # measured 1.04
 
 
 def test_a_target_that_deviates_too_far_is_raised(monkeypatch):
@@ -114,8 +114,9 @@ def test_point_to_triangle_is_the_nearest_of_many_points(point, corners):
     dense = np.linalg.norm(grid @ corners - point, axis=1).min()
     found = np.sqrt(nearest_on_triangles(point[None], corners[None])[2][0])
     longest = np.linalg.norm(corners - np.roll(corners, 1, axis=0), axis=1).max()
-    assert found <= dense + 1e-6
-    assert found >= dense - 0.03 * longest - 1e-6
+    assert found <= dense + ROUNDING
+    # no point of a triangle is farther from all corners than its longest side over sqrt(3)
+    assert found >= dense - longest / 40.0 / np.sqrt(3.0) - ROUNDING
 
 
 COPY = compact_copy(*shapes.ellipsoid(subdivisions=2)).data
