@@ -126,8 +126,9 @@ def test_only_the_tests_that_reach_a_line_are_planned(tree: Path) -> None:
         fixtures={"through": ["fixture x"], "quick": []},
     )
     known.lines["footfit/sums.py"][4] |= {"slow", "quick", "fixture x"}
-    assert known.plan(total) == {"quick": 0.1, "through": 1.5, "slow": 2.0}
-    assert known.plan(product) == {}
+    assert known.plan(total, 9.0) == {"quick": 0.1, "through": 1.5, "slow": 2.0}
+    assert known.plan(total, 1.6) == {"quick": 0.1, "through": 1.5}
+    assert known.plan(product, 9.0) == {}
 
 
 def test_a_mutant_is_caught_by_a_test_that_passes_without_it(tree: Path, tmp_path: Path) -> None:

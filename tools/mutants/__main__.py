@@ -32,6 +32,9 @@ def main() -> None:
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--count", type=int, default=200, help="how many mutants to try")
     parser.add_argument("--workers", type=int, default=2, help="how many at the same time")
+    parser.add_argument(
+        "--seconds", type=float, default=60.0, help="of tests for each mutant, the fastest first"
+    )
     parser.add_argument("--tests", nargs="*", default=[], help="only these files of tests")
     parser.add_argument("--only-list", action="store_true", help="print the mutants, run nothing")
     options = parser.parse_args()
@@ -84,16 +87,18 @@ def _tried(
         folders.put(tree.parent.parent / f"worker-{worker}")
     with processes.workers(options.workers) as pool:
         outcomes = []
-        for outcome in pool.map(partial(_try_one, known, tree, folders), mutants):
+        for outcome in pool.map(partial(_try_one, known, tree, folders, options.seconds), mutants):
             outcomes.append(outcome)
             print(f"{len(outcomes):>4} {summary.line_of(outcome)}", flush=True)
         return outcomes
 
 
-def _try_one(known: Reach, tree: Path, folders: SimpleQueue[Path], mutant: Mutant) -> Outcome:
+def _try_one(
+    known: Reach, tree: Path, folders: SimpleQueue[Path], seconds: float, mutant: Mutant
+) -> Outcome:
     folder = folders.get()
     try:
-        return tried(mutant, known.plan(mutant), tree, folder)
+        return tried(mutant, known.plan(mutant, seconds), tree, folder)
     finally:
         folders.put(folder)
 

@@ -11,6 +11,7 @@ import tempfile
 from collections import defaultdict
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field
+from itertools import accumulate
 from pathlib import Path
 
 from tools.mutants import processes, watch
@@ -47,13 +48,22 @@ class Reach:
     )
     uses: dict[str, set[tuple[str, int]]] = field(default_factory=lambda: defaultdict(set))
 
-    def plan(self, mutant: Mutant) -> dict[str, float]:
-        """The tests that reach a mutant, the fastest first, with the seconds that each takes."""
+    def plan(self, mutant: Mutant, seconds: float) -> dict[str, float]:
+        """The tests that reach a mutant, the fastest first, with the seconds that each takes.
+
+        Tests beyond ``seconds`` in all are left out: a mutant that only they catch survives.
+        """
         names = self._names(mutant)
         asked = {test for test, needs in self.fixtures.items() if names.intersection(needs)}
         tests = (names | asked) & self.seconds.keys()
         costs = {test: self._cost(test) for test in tests if not test.startswith(watch.FIXTURE)}
-        return dict(sorted(costs.items(), key=lambda item: (item[1], item[0])))
+        ordered = sorted(costs.items(), key=lambda item: (item[1], item[0]))
+        spent = accumulate(cost for _, cost in ordered)
+        return {
+            test: cost
+            for number, ((test, cost), total) in enumerate(zip(ordered, spent, strict=True))
+            if total <= seconds or number == 0
+        }
 
     def _cost(self, test: str) -> float:
         shared = self.fixtures.get(test, [])
