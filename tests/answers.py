@@ -141,6 +141,8 @@ def alignment(path="feet/anna.stl", left=False, length_mm=260.0, warnings=(), re
         reference=reference,
         length=Measured(length_mm, 0.25),
         extent_mm=length_mm + NOISE_MM,
+        stance=None,
+        standing_transform=np.eye(4),
         warnings=tuple(warnings),
     )
 

@@ -6,6 +6,7 @@ from dataclasses import replace
 from typing import Literal
 
 from footfit.geometry.numeric.arrays import Floats, Ints
+from footfit.geometry.stance.stance import stance_of
 from footfit.meshes.clean.triangles import welded_mesh
 from footfit.meshes.read import FileMesh
 from footfit.pipeline.scan.align import aligned_scan
@@ -41,9 +42,12 @@ def aligned_of(alignment: Alignment, vertices_mm: Floats, faces: Ints) -> Aligne
         canonical_transform=alignment.canonical_transform,
         length=alignment.length,
         extent_mm=alignment.extent_mm,
+        stance=alignment.stance,
+        standing_transform=alignment.standing_transform,
         file_vertices_mm=vertices_mm,
         vertices_mm=right_mm,
         faces=right_faces,
+        standing=stance_of(right_mm, right_faces, "foot"),
         warnings=alignment.warnings,
     )
     return AlignedScan(alignment, prepared)

@@ -37,9 +37,17 @@ class ScaleKeywords(TypedDict, total=False):
 
 
 class ReadingKeywords(ScaleKeywords, total=False):
-    """How a foot or a last is to be understood; the shape decides "auto"."""
+    """How a foot or a last is to be understood; the shape decides "auto".
+
+    ``heel_height_mm`` and ``toe_spring_mm`` are what is known of how a last stands: they decide its
+    stance. ``platform_mm`` is the height of its forepart over the ground that the heel is given
+    over.
+    """
 
     side: Literal["auto", "left", "right"]
+    heel_height_mm: float | None
+    toe_spring_mm: float | None
+    platform_mm: float | None
 
 
 class HeelKeywords(TypedDict, total=False):
@@ -134,5 +142,5 @@ def heel_options(options: Mapping[str, Any]) -> HeelQuestion:
 
 def reading_options(options: Mapping[str, Any]) -> ReadingOptions:
     """The keywords of `ReadingKeywords`, without any others."""
-    names = ("units", "known_length_mm", "side")
+    names = ReadingOptions.__dataclass_fields__
     return ReadingOptions(**{name: options[name] for name in names if name in options})

@@ -24,6 +24,7 @@ STDOUT = Path("-")
 ANSWER = "Answer"
 READING = "Reading the scan"
 OUTPUT = "Files written"
+STANDING = "How the last stands"
 SWITCH: dict[str, Any] = {"metavar": "", "default": False}
 """An option without a value; the help shows no type, which a reader would try to give."""
 
@@ -169,6 +170,44 @@ class FootReading(Reading):
         """The options as the functions of `footfit.api` take them."""
         heel = {"as_scanned": self.as_scanned, "scanned_at_drop_mm": self.scanned_at_drop}
         return {**Reading.keywords(self), **heel}
+
+
+@dataclass(frozen=True, slots=True)
+class Standing:
+    """What is known of how a last stands; without it the shape decides."""
+
+    heel_height: float | None = member(
+        "--heel-height",
+        "Set the last's heel height in mm, if you know it. It decides how the last stands.",
+        "MM",
+        panel=STANDING,
+        min=0,
+        max=200,
+    )
+    toe_spring: float | None = member(
+        "--toe-spring",
+        "Set the toe spring at the tip in mm, if you know it. It decides how the last stands.",
+        "MM",
+        panel=STANDING,
+        min=0,
+        max=80,
+    )
+    platform: float | None = member(
+        "--platform",
+        "Set how many mm of the heel height are under the forepart too, as of a shoe with a sole.",
+        "MM",
+        panel=STANDING,
+        min=0,
+        max=100,
+    )
+
+    def keywords(self) -> dict[str, Any]:
+        """The options as the functions of `footfit.api` take them."""
+        return {
+            "heel_height_mm": self.heel_height,
+            "toe_spring_mm": self.toe_spring,
+            "platform_mm": self.platform,
+        }
 
 
 @dataclass(frozen=True, slots=True)

@@ -26,6 +26,8 @@ from footfit.results.heel import HeelRule as HeelRule
 from footfit.results.last_record import LastLabels as LastLabels
 from footfit.results.last_record import LastRecord as LastRecord
 from footfit.results.last_record import StoredLast as StoredLast
+from footfit.results.last_stance import GroundCue as GroundCue
+from footfit.results.last_stance import LastStance as LastStance
 from footfit.results.library import BackupOutcome as BackupOutcome
 from footfit.results.library import CatalogueFacts as CatalogueFacts
 from footfit.results.library import CheckOutcome as CheckOutcome

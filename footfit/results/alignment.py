@@ -11,6 +11,8 @@ from footfit.results.values import Document, Json, Part, fields, part
 
 if TYPE_CHECKING:
     from footfit.geometry.numeric.arrays import Floats, Ints
+    from footfit.geometry.stance.stance import Stance
+    from footfit.results.last_stance import LastStance
     from footfit.results.meshes import MeshInfo
     from footfit.results.values import Confidence, Measured, Method, Notice, SideName
 
@@ -105,6 +107,11 @@ class SettledShape:
     extent_mm : float
         How far the mesh reaches along X below the leg, vertex to vertex: definitions are scaled
         by it.
+    stance : LastStance or None
+        How a last stands; None of a foot, and if the last's ground is not known.
+    standing_transform : (4, 4) float64 or None
+        From the canonical frame to the frame in which the shape stands on its ground, in mm: z = 0
+        is the ground, x = 0 the rearmost point along it. Of a foot the identity.
     warnings : tuple of Notice
         What was done, and what should be known.
     """
@@ -115,6 +122,8 @@ class SettledShape:
     canonical_transform: Floats
     length: Measured
     extent_mm: float
+    stance: LastStance | None
+    standing_transform: Floats | None
     warnings: tuple[Notice, ...]
 
     @property
@@ -137,11 +146,14 @@ class PreparedScan(SettledShape):
     vertices_mm, faces : (n, 3) float64, (m, 3) int64
         The right-side copy in the canonical frame: a left shape is mirrored. What was scanned
         comes first, the caps that close its holes come last.
+    standing : Stance or None
+        How it stands, as measures and flare take it.
     """
 
     file_vertices_mm: Floats
     vertices_mm: Floats
     faces: Ints
+    standing: Stance | None
 
     @property
     def scanned(self) -> tuple[Floats, Ints]:
@@ -189,6 +201,8 @@ class Alignment(SettledShape, Document):
             "pose": self.pose,
             "length_mm": self.length_mm,
             "extent_mm": self.extent_mm,
+            "stance": self.stance,
+            "standing_transform": self.standing_transform,
             "warnings": self.warnings,
         }
 

@@ -31,6 +31,7 @@ def align(
     lasts: options.Lasts,
     force: bool = options.FORCE,
     reading: options.Reading,
+    standing: options.Standing,
     batch: options.Batch,
     mode: options.OutputMode,
 ) -> None:
@@ -46,4 +47,6 @@ def align(
     mesh, picture = (output, MESH_KINDS, files.mesh_file), (plot, PICTURE_KINDS, files.picture)
     outputs = Outputs((OutputFile(*mesh), OutputFile(*picture)), force=force)
     chosen = {"method": method, "reference": lasts.open().reference(to, method)}
-    answer_scans(scans.align, meshes, reading, batch, mode, outputs, **chosen)
+    answer_scans(
+        scans.align, meshes, reading, batch, mode, outputs, **chosen, **standing.keywords()
+    )

@@ -16,6 +16,7 @@ def flare(
     force: bool = options.FORCE,
     *,
     reading: options.Reading,
+    standing: options.Standing,
     batch: options.Batch,
     mode: options.OutputMode,
 ) -> None:
@@ -31,4 +32,4 @@ def flare(
 
     picture = OutputFile(plot, PICTURE_KINDS, files.picture)
     outputs = Outputs((picture,), Profiled, csv, force)
-    answer_scans(scans.flare, meshes, reading, batch, mode, outputs)
+    answer_scans(scans.flare, meshes, reading, batch, mode, outputs, **standing.keywords())

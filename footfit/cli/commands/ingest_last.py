@@ -39,15 +39,6 @@ def ingest_last(
         "--size-system", "eu", "Set the system of the size, such as eu or uk."
     ),
     width_label: str | None = _label("--width-label", "G", "Set the width as it is marked."),
-    heel_height: float | None = _label(
-        "--heel-height", "MM", "Set the heel height in mm: the seat over the ground."
-    ),
-    toe_spring: float | None = _label(
-        "--toe-spring", "MM", "Set the toe spring in mm: the tip over the ground."
-    ),
-    platform: float | None = _label(
-        "--platform", "MM", "Set the height of the forepart over the ground in mm."
-    ),
     replace: bool = options.switch("--replace", "Replace a stored last of the same name."),
     dry_run: bool = options.switch("--dry-run", "Store nothing; say what would be stored."),
     keep_mesh: KeepMesh = options.option(
@@ -59,6 +50,7 @@ def ingest_last(
     *,
     lasts: options.Lasts,
     reading: options.Reading,
+    standing: options.Standing,
     mode: options.OutputMode,
 ) -> None:
     """Read, align, measure and store lasts. A printed line means that the last is stored.
@@ -78,18 +70,15 @@ def ingest_last(
     from footfit.pipeline.library.ingest import entries, unused_rows
     from footfit.results import LastLabels
 
-    heights = {
-        "heel_height_mm": heel_height,
-        "toe_spring_mm": toe_spring,
-        "platform_mm": platform,
-    }
     given: dict[str, Any] = {
-        label: manifests.label_mm(value, label) for label, value in heights.items()
+        label: manifests.label_mm(value, label) for label, value in standing.keywords().items()
     }
     labels = LastLabels(name or "", style, size, size_system, width_label, **given)
     rows = manifests.read_manifest(manifest) if manifest else []
     sources = sources_of(paths or [], reading) if paths else []
-    batch = entries(sources, rows, labels, ReadingOptions(**reading.keywords()))
+    batch = entries(
+        sources, rows, labels, ReadingOptions(**reading.keywords(), **standing.keywords())
+    )
     mode = changed(mode, total=len(batch))
     say_notices(unused_rows(batch, rows), str(manifest), quiet=mode.quiet)
     refused: list[int] = []

@@ -13,6 +13,7 @@ def measure(
     force: bool = options.FORCE,
     *,
     reading: options.Reading,
+    standing: options.Standing,
     batch: options.Batch,
     mode: options.OutputMode,
 ) -> None:
@@ -26,4 +27,4 @@ def measure(
     from footfit.results import MeasuredScan
 
     outputs = Outputs(table=MeasuredScan, csv=csv, force=force)
-    answer_scans(scans.measure, meshes, reading, batch, mode, outputs)
+    answer_scans(scans.measure, meshes, reading, batch, mode, outputs, **standing.keywords())

@@ -62,7 +62,9 @@ def toe_spring(shape: Shape) -> MeasureValue:
     if shape.unscanned(section, below_mm=middle_mm):
         return MeasureValue(None, UNSCANNED)
     x_mm, z_mm = shape.x_mm(HEIGHTS.toe_spring), float(section.points[:, 1].min())
-    return MeasureValue(shape.stance.over_ground_mm(x_mm, z_mm))
+    place_mm = shape.stance.along_ground_mm(x_mm, z_mm)
+    height_mm = shape.stance.over_ground_mm(x_mm, z_mm)
+    return MeasureValue(height_mm, convention_sd=shape.stance.height_sd_mm(place_mm))
 
 
 def heel_height(shape: Shape) -> MeasureValue:
@@ -72,5 +74,6 @@ def heel_height(shape: Shape) -> MeasureValue:
     if shape.kind == "foot":
         return MeasureValue(None, FLAT)
     heel_mm = None if shape.stance is None else shape.stance.heel_mm()
-    reason = NO_SOLE.format(place="heel or the ball") if heel_mm is None else None
-    return MeasureValue(heel_mm, reason)
+    if shape.stance is None or heel_mm is None:
+        return MeasureValue(None, NO_SOLE.format(place="heel or the ball"))
+    return MeasureValue(heel_mm, convention_sd=shape.stance.height_sd_mm(0.0))

@@ -65,12 +65,14 @@ class Crown(NamedTuple):
 class Shape:
     """A canonical right shape; each landmark is found when it is first read, and kept.
 
-    ``vertices_mm`` (n, 3), ``faces`` (m, 3) wound outward, ``kind`` "foot" or "last".
+    ``vertices_mm`` (n, 3), ``faces`` (m, 3) wound outward, ``kind`` "foot" or "last",
+    ``known_stance`` how it stands, if that is known already.
     """
 
     vertices_mm: Floats
     faces: Ints
     kind: str = "foot"
+    known_stance: Stance | None = None
 
     # ------------------------------------------------------------ the ends
 
@@ -123,7 +125,7 @@ class Shape:
     @cached_property
     def stance(self) -> Stance | None:
         """How it stands; None if a last's bottom is open or has no tread."""
-        return stance_of(self.vertices_mm, self.faces, self.kind)
+        return self.known_stance or stance_of(self.vertices_mm, self.faces, self.kind)
 
     # ------------------------------------------------------------ the ball
 

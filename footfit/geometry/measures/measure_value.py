@@ -18,10 +18,15 @@ SAWN = "the last is sawn off below the {place}"
 
 
 class MeasureValue(NamedTuple):
-    """A value in mm, or the reason why there is none."""
+    """A value in mm, or the reason why there is none.
+
+    ``convention_sd`` is how much the value would vary with what this very shape leaves open, such
+    as the ground that a last stands on. It is no repeatability.
+    """
 
     value: float | None
     reason: str | None = None
+    convention_sd: float = 0.0
 
 
 def no_ball(shape: Shape) -> MeasureValue:

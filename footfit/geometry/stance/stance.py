@@ -82,7 +82,7 @@ class Stance:
         The extent along the ground of what lies low: without leg, shaft or cone.
     middle_mm : (k, 2)
         The middle line of the bottom in the standing frame, from heel to toe: x from the rearmost
-        point along the ground, z over the ground. Empty if a foot's sole is open.
+        point along the ground, z over the ground. Empty of a foot, which stands as it lies.
     decided_by : {"contact", "shape", "label"}
         What the ground is by: a foot's contact plane, a last's shape, or its label.
     cues : tuple of Cue
@@ -112,20 +112,22 @@ class Stance:
         result[0, 3], result[2, 3] = -self.rear_mm, sine * x_mm - cosine * z_mm
         return result
 
-    @property
-    def heel_sd_mm(self) -> float:
-        """The standard deviation of a height at the rearmost point, by that of the ground."""
-        return float(np.hypot(self.touching_x_mm * self.ground_sd, LINE_SD_MM))
+    def height_sd_mm(self, place_mm: float) -> float:
+        """The standard deviation of a height at a place along the ground, by that of the ground.
 
-    @property
-    def tip_sd_mm(self) -> float:
-        """The standard deviation of a height at the tip, by that of the ground."""
-        return float(np.hypot((self.length_mm - self.touching_x_mm) * self.ground_sd, LINE_SD_MM))
+        It is 0 of a foot, which stands on the ground that it was scanned on.
+        """
+        if self.decided_by == "contact":
+            return 0.0
+        return float(np.hypot((place_mm - self.touching_x_mm) * self.ground_sd, LINE_SD_MM))
 
     @property
     def touching_x_mm(self) -> float:
         """Where the ground touches, along the ground from the rearmost point."""
-        x_mm, z_mm = self.touching_mm
+        return self.along_ground_mm(*self.touching_mm)
+
+    def along_ground_mm(self, x_mm: float, z_mm: float) -> float:
+        """Where a place of the resting frame's side view lies, from the rearmost point."""
         return float(x_mm * np.cos(self.ground) + z_mm * np.sin(self.ground)) - self.rear_mm
 
     def over_ground_mm(self, x_mm: float, z_mm: float) -> float:
@@ -195,7 +197,8 @@ def stance_of(
         None if a last's bottom is open or has no tread. A foot always stands.
     """
     if kind == "foot":
-        return _foot_stance(vertices_mm, faces)
+        low_mm = vertices_mm[low_points(vertices_mm)]
+        return Stance(0.0, 0.0, (0.0, 0.0), 0.0, float(np.ptp(low_mm[:, 0])), np.empty((0, 2)))
     bottom = bottom_cues(vertices_mm, faces)
     if bottom is None:
         return None
@@ -205,14 +208,6 @@ def stance_of(
     if label is None:
         return last.on(cues[-1], "shape", cues)
     return last.on(label, "label", (*cues, label))
-
-
-def _foot_stance(vertices_mm: Floats, faces: Ints) -> Stance:
-    """A foot on the contact plane of its frame."""
-    line = middle_line(vertices_mm, faces, 0.0)
-    points_mm = np.empty((0, 2)) if line is None else line.points_mm
-    low_mm = vertices_mm[low_points(vertices_mm)]
-    return Stance(0.0, 0.0, (0.0, 0.0), 0.0, float(np.ptp(low_mm[:, 0])), points_mm)
 
 
 @dataclass

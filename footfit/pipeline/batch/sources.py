@@ -5,10 +5,13 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import BinaryIO
+from typing import TYPE_CHECKING, BinaryIO
 
 from footfit.errors import BadOption, UnreadableFile
 from footfit.results import Scan
+
+if TYPE_CHECKING:
+    from footfit.geometry.stance.cues import StanceLabels
 
 MESH_SUFFIXES = (".stl", ".obj", ".ply", ".off", ".glb", ".3mf")
 GLOB_CHARACTERS = frozenset("*?[")
@@ -29,11 +32,25 @@ class Source:
 
 @dataclass(frozen=True, slots=True)
 class ReadingOptions:
-    """How to read a scan; "auto" is decided by its shape and reported."""
+    """How to read a scan; "auto" is decided by its shape and reported.
+
+    ``heel_height_mm``, ``toe_spring_mm`` and ``platform_mm`` are what people say of how a last
+    stands.
+    """
 
     units: str = "auto"
     known_length_mm: float | None = None
     side: str = "auto"
+    heel_height_mm: float | None = None
+    toe_spring_mm: float | None = None
+    platform_mm: float | None = None
+
+    @property
+    def stance_labels(self) -> StanceLabels:
+        """What people say of how a last stands."""
+        from footfit.geometry.stance.cues import StanceLabels
+
+        return StanceLabels(self.heel_height_mm, self.toe_spring_mm, self.platform_mm or 0.0)
 
 
 def mesh_sources(arguments: Sequence[str]) -> list[Source]:

@@ -15,7 +15,7 @@ from footfit.catalogue.store import Catalogue, open_catalogue
 from footfit.errors import BadOption, ExitCode, FootfitError, NameTaken, NoCatalogue
 from footfit.pipeline.batch.runs import HERE, Outcome, outcomes
 from footfit.pipeline.batch.sources import ReadingOptions, Source
-from footfit.pipeline.library.manifest import ManifestRow
+from footfit.pipeline.library.manifest import LABEL_HEIGHTS, ManifestRow
 from footfit.pipeline.scan.kept_sections import kept_sections
 from footfit.pipeline.scan.measure import last_record
 from footfit.pipeline.scan.reading import content_hash, profiled_source
@@ -111,7 +111,9 @@ def _entry(
     if row is not None:
         units = row.reading.units if row.reading.units != "auto" else reading.units
         side = row.reading.side if row.reading.side != "auto" else reading.side
-        reading = ReadingOptions(units, reading.known_length_mm, side)
+        reading = dataclasses.replace(reading, units=units, side=side)
+    said = {name: getattr(labels, name) for name in LABEL_HEIGHTS}
+    reading = dataclasses.replace(reading, **said)
     return Entry(source, labels, reading)
 
 

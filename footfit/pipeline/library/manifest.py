@@ -11,6 +11,7 @@ from typing import Any
 from footfit.errors import BadManifest, BadOption
 from footfit.meshes.units import UNIT_SCALES
 from footfit.pipeline.batch.sources import ReadingOptions
+from footfit.pipeline.scan.standing import LABELLED_MM
 from footfit.results import LastLabels
 
 LABEL_TEXTS = ("name", "style", "size", "size_system", "width_label")
@@ -18,7 +19,6 @@ LABEL_HEIGHTS = ("heel_height_mm", "toe_spring_mm", "platform_mm")
 COLUMNS = ("path", *LABEL_TEXTS, "side", "units", *LABEL_HEIGHTS)
 CHOICES = {"side": ("auto", "left", "right"), "units": ("auto", *UNIT_SCALES)}
 LARGEST_BYTES = 16_000_000
-LIMITS_MM = {"heel_height_mm": (0, 200), "toe_spring_mm": (0, 80), "platform_mm": (0, 100)}
 """What a label can say of how high a last stands."""
 
 
@@ -110,7 +110,7 @@ def _height(value: str | None, column: str, where: str) -> float | None:
     try:
         return None if value is None else label_mm(float(value), column)
     except (ValueError, BadOption) as error:
-        low, high = LIMITS_MM[column]
+        low, high = LABELLED_MM[column]
         words = f"{column} is {value!r}; it must be a number of mm from {low} to {high}"
         raise BadManifest(words, where) from error
 
@@ -128,7 +128,7 @@ def label_mm(value: float | None, name: str) -> float | None:
     >>> label_mm(25.0, "heel_height_mm"), label_mm(None, "platform_mm")
     (25.0, None)
     """
-    low, high = LIMITS_MM[name]
+    low, high = LABELLED_MM[name]
     if value is not None and not low <= value <= high:
         noun = name.removesuffix("_mm").replace("_", " ")
         raise BadOption(f"a {noun} is from {low} to {high} mm, not {value}")

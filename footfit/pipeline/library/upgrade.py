@@ -8,12 +8,14 @@ from pathlib import Path
 
 from footfit.catalogue.store import Catalogue, open_catalogue
 from footfit.geometry.flare.definition import FlareDefinition, FlareProfile
+from footfit.geometry.stance.stance import stance_of
 from footfit.pipeline.batch.runs import HERE, outcomes
 from footfit.pipeline.library.lasts import has_other_measures
 from footfit.pipeline.scan.flare import shape_flare
 from footfit.pipeline.scan.kept_sections import kept_sections
 from footfit.pipeline.scan.measure import shape_measures
 from footfit.pipeline.scan.preparation import stored_shape
+from footfit.pipeline.scan.standing import stance_labels
 from footfit.results import LastRecord, Measure, Notice, ShapeSections, UpgradeOutcome
 
 AT_A_TIME = 256
@@ -114,5 +116,7 @@ def _measured_again(mesh: StoredMesh) -> MeasuredAgain:
     """The slow part of an upgrade. It does not use the catalogue, and runs in a worker."""
     kind = mesh.record.pose.kind
     right = stored_shape(mesh.data, mesh.record.side.side)
-    flare = shape_flare(*right, kind) if mesh.reprofile else None
-    return MeasuredAgain(shape_measures(*right, kind), flare, kept_sections(*right, kind))
+    stance = stance_of(*right, kind, stance_labels(mesh.record.labels))
+    flare = shape_flare(*right, kind, stance) if mesh.reprofile else None
+    measures = shape_measures(*right, kind, stance)
+    return MeasuredAgain(measures, flare, kept_sections(*right, kind))

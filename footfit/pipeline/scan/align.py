@@ -34,7 +34,7 @@ def aligned_scan(
         )
     own, printed = _eigenframes(prepared, method)
     alignment = Alignment(
-        **fields(prepared, "file_vertices_mm", "vertices_mm", "faces"),
+        **fields(prepared, "file_vertices_mm", "vertices_mm", "faces", "standing"),
         method=method,
         transform=_transform(prepared, method, own, reference),
         eigenframe=own,

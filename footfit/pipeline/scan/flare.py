@@ -9,7 +9,7 @@ import numpy as np
 from footfit.geometry.flare.definition import FlareProfile
 from footfit.geometry.flare.flare_profile import flare_profile
 from footfit.geometry.numeric.arrays import Floats, Ints
-from footfit.geometry.stance.stance import stance_of
+from footfit.geometry.stance.stance import Stance
 from footfit.pipeline.scan.measure import check_side, scan_measures
 from footfit.results import AlignedScan, Notice, Profiled
 
@@ -35,13 +35,13 @@ def profiled_scan(aligned: AlignedScan) -> Profiled:
     check_side(aligned.alignment)
     prepared = aligned.prepared
     kind = prepared.pose.kind
-    flare = shape_flare(prepared.vertices_mm, prepared.faces, kind)
+    flare = shape_flare(prepared.vertices_mm, prepared.faces, kind, prepared.standing)
     sd_deg = angle_sd_deg(flare.angle_sd_deg, kind, sole=prepared.pose.sole)
     flare = replace(flare, angle_sd_deg=sd_deg)
     return Profiled(aligned, flare, scan_measures(prepared), unusual_flare(flare.angle_deg, kind))
 
 
-def shape_flare(vertices_mm: Floats, faces: Ints, kind: str) -> FlareProfile:
+def shape_flare(vertices_mm: Floats, faces: Ints, kind: str, stance: Stance | None) -> FlareProfile:
     """The flare profile of a canonical right shape; a last is read as it stands on its heel.
 
     A last whose stance cannot be read is profiled as it rests.
@@ -51,8 +51,8 @@ def shape_flare(vertices_mm: Floats, faces: Ints, kind: str) -> FlareProfile:
     HalfScan
         The shape does not show enough of the bottom's length.
     """
-    stance = stance_of(vertices_mm, faces, kind) if kind == "last" else None
-    return flare_profile(vertices_mm, faces, stance=stance, kind=kind)
+    unrolled = stance if kind == "last" else None
+    return flare_profile(vertices_mm, faces, stance=unrolled, kind=kind)
 
 
 def angle_sd_deg(scatter_sd_deg: float, kind: str, *, sole: bool) -> float:

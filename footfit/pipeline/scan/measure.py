@@ -10,6 +10,7 @@ from footfit.geometry.flare.definition import flare_class
 from footfit.geometry.measures import measure_table
 from footfit.geometry.measures.landmarks import Shape
 from footfit.geometry.numeric.arrays import Floats, Ints
+from footfit.geometry.stance.stance import Stance
 from footfit.results import (
     AlignedScan,
     Alignment,
@@ -61,7 +62,9 @@ def scan_measures(prepared: PreparedScan) -> tuple[Measure, ...]:
     If an end was not scanned, the measures that end there have the reason instead of a value that
     would be too short.
     """
-    rows = shape_measures(prepared.vertices_mm, prepared.faces, prepared.pose.kind)
+    rows = shape_measures(
+        prepared.vertices_mm, prepared.faces, prepared.pose.kind, prepared.standing
+    )
     if prepared.length.value is not None:
         return rows
     return tuple(
@@ -69,7 +72,9 @@ def scan_measures(prepared: PreparedScan) -> tuple[Measure, ...]:
     )
 
 
-def shape_measures(vertices_mm: Floats, faces: Ints, kind: str = "foot") -> tuple[Measure, ...]:
+def shape_measures(
+    vertices_mm: Floats, faces: Ints, kind: str = "foot", stance: Stance | None = None
+) -> tuple[Measure, ...]:
     """Every measure of the table that a kind of shape has, on a canonical right shape.
 
     Parameters
@@ -77,15 +82,17 @@ def shape_measures(vertices_mm: Floats, faces: Ints, kind: str = "foot") -> tupl
     vertices_mm : (n, 3)
     faces : (m, 3)
     kind : {"foot", "last"}
+    stance : Stance, optional
+        How it stands; else its shape decides.
 
     Returns
     -------
     tuple of Measure
         In the table's order; one that cannot be taken has a reason instead of a value.
     """
-    shape, measures = Shape(vertices_mm, faces, kind), []
+    shape, measures = Shape(vertices_mm, faces, kind, stance), []
     for entry in measure_table.of_kind(kind):
-        value, reason = entry.value_of(shape)
+        value, reason, _ = entry.value_of(shape)
         measured = Measured(value, None if value is None else entry.sd, reason)
         measures.append(Measure(entry.name, measured, entry.definition_id))
     return tuple(measures)

@@ -19,10 +19,13 @@ from footfit.geometry.numeric.rotations import moved_points, nearest_rotation, t
 from footfit.geometry.pose.frame import FRAME, canonical_frame, length_of, turned_sample
 from footfit.geometry.pose.missing_parts import doubtful_end, missing_part
 from footfit.geometry.pose.side import confidence, side_score
+from footfit.geometry.stance.cues import NO_LABELS, StanceLabels
+from footfit.geometry.stance.stance import stance_of
 from footfit.meshes.copies.compact_copy import expanded_mesh
 from footfit.meshes.resolution import check_resolution, resolution_notices
 from footfit.pipeline.scan import settled_unit
 from footfit.pipeline.scan.one_shape import PosedShape, shape_in
+from footfit.pipeline.scan.standing import last_stance, stance_notices
 from footfit.results import (
     Confidence,
     Measured,
@@ -61,6 +64,7 @@ def prepared_scan(
     scan: Scan,
     side: Literal["auto", "left", "right"] = "auto",
     known_length_mm: float | None = None,
+    labels: StanceLabels = NO_LABELS,
 ) -> PreparedScan:
     """The one foot or last of a scan, as every method takes it.
 
@@ -73,6 +77,8 @@ def prepared_scan(
         A side given wins; a contradiction is a notice.
     known_length_mm : float, optional
         The measured length that the shape is scaled to: a stick measures the foot, not its mesh.
+    labels : StanceLabels
+        What people say of how a last stands.
 
     Raises
     ------
@@ -97,6 +103,8 @@ def prepared_scan(
     verdict = _verdict(frame, side)
     vertices_mm, faces = right_copy(factor * frame.points, closed.faces, verdict.side)
     length = Measured(factor * frame.length, measure_named("length").sd)
+    kind = frame.quality.kind
+    standing = stance_of(vertices_mm, faces, kind, labels)
     open_end = _open_end(frame, rims)
     if open_end:  # what was not scanned is not known
         length = Measured(None, reason=open_end[0].message)
@@ -108,6 +116,7 @@ def prepared_scan(
         *open_end,
         *_frame_notices(frame, factor),
         *_side_notices(verdict),
+        *stance_notices(standing, labels, kind),
         *settled_unit.length_notices(factor * frame.length),
     )
     return PreparedScan(
@@ -117,9 +126,12 @@ def prepared_scan(
         canonical_transform=transform(frame.rotation, factor * frame.shift, info.unit_scale),
         length=length,
         extent_mm=factor * frame.extent,
+        stance=last_stance(Shape(vertices_mm, faces, kind, standing)),
+        standing_transform=None if standing is None else standing.standing_transform,
         file_vertices_mm=factor * shape.vertices,
         vertices_mm=vertices_mm,
         faces=faces,
+        standing=standing,
         warnings=tuple(dict.fromkeys(notices)),
     )
 

@@ -20,6 +20,7 @@ from footfit.pipeline.scan.flare import profiled_scan
 from footfit.pipeline.scan.one_shape import scans_in
 from footfit.pipeline.scan.preparation import prepared_scan
 from footfit.pipeline.scan.settled_unit import length_windows
+from footfit.pipeline.scan.standing import check_stance_labels
 
 AS_FOUND = ReadingOptions()
 ANY_LENGTH_MM = 250.0
@@ -49,6 +50,7 @@ def read(source: Source, reading: ReadingOptions = AS_FOUND) -> results.Scan:
         The options contradict each other, or the source's format.
     """
     check_unit_options(reading.units, reading.known_length_mm)
+    check_stance_labels(reading.stance_labels)
     if source.scan is not None:
         return source.scan
     file = file_mesh(source_bytes(source), source.path, source.format)
@@ -67,7 +69,7 @@ def prepared_source(source: Source, reading: ReadingOptions) -> results.Prepared
         prepared_scan(read(source, replace(reading, known_length_mm=ANY_LENGTH_MM)))
         raise
     side = cast(Literal["auto", "left", "right"], reading.side)
-    return prepared_scan(scan, side, reading.known_length_mm)
+    return prepared_scan(scan, side, reading.known_length_mm, reading.stance_labels)
 
 
 def aligned_source(

@@ -1,0 +1,102 @@
+"""How a last stands: by its shape, by its labels, and what is said where they contradict."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from footfit.errors import BadOption
+from footfit.geometry.stance.cues import NO_LABELS, StanceLabels
+from footfit.pipeline.scan.align import aligned_scan
+from footfit.pipeline.scan.preparation import prepared_scan
+from footfit.pipeline.scan.standing import check_stance_labels
+from tests.conftest import SAMPLES
+from tests.reading import read_scan
+from tests.scans import cleaned
+from tools.lasts import LastSpec, last_mesh, standing
+
+SPEC = LastSpec(length_mm=262.0, heel_height_mm=45.0, level_tread=True, rings=90, segments=64)
+SOLVED_MM = 0.02  # of a label that decides; measured: .002
+SEAT_MM = 3.0  # of the shape's heel against the drafted one, two standard deviations
+
+
+def stands(labels=NO_LABELS, side="right"):
+    """The alignment of one last with labels."""
+    vertices, faces = last_mesh(SPEC)
+    if side == "left":
+        vertices, faces = vertices * [1.0, -1.0, 1.0], faces[:, ::-1]
+    return aligned_scan(prepared_scan(cleaned(vertices, faces), side, None, labels)).alignment
+
+
+def codes(alignment):
+    return {notice.code for notice in alignment.warnings}
+
+
+def test_the_shape_decides_where_nothing_is_said():
+    stance = stands().stance
+    drafted = standing(SPEC)
+    heel_mm = drafted.height_mm(0.0) - drafted.middle_mm[:, 1].min()
+    assert stance.decided_by == "shape"
+    assert stance.heel_height_mm == pytest.approx(heel_mm, abs=SEAT_MM)
+    assert stance.heel_height_sd_mm == pytest.approx(1.5, abs=0.5)  # half a degree; measured: 1.6
+    assert -0.6 < stance.spring_per_heel < -0.3
+    assert [cue.name for cue in stance.cues] == ["tread", "bottom", "seat", "shape"]
+
+
+@pytest.mark.parametrize(
+    ("labels", "heel_mm"),
+    [
+        (StanceLabels(44.0), 44.0),
+        (StanceLabels(60.0, platform_mm=15.0), 45.0),
+        (StanceLabels(5.0), 5.0),
+    ],
+)
+def test_a_labelled_heel_decides(labels, heel_mm):
+    alignment = stands(labels)
+    assert alignment.stance.decided_by == "label"
+    assert alignment.stance.heel_height_mm == pytest.approx(heel_mm, abs=SOLVED_MM)
+    assert ("stance_label_contradicted" in codes(alignment)) == (heel_mm == 5.0)
+
+
+def test_heel_and_spring_go_together_as_it_is_said():
+    low, high = stands(StanceLabels(43.0)).stance, stands(StanceLabels(47.0)).stance
+    change = high.toe_spring_mm - low.toe_spring_mm
+    slope = 0.5 * (low.spring_per_heel + high.spring_per_heel)  # the last touches further forward
+    assert change == pytest.approx(4.0 * slope, abs=0.3)
+
+
+def test_a_labelled_toe_spring_decides_too():
+    one, other = (stands(StanceLabels(None, spring)).stance for spring in (6.0, 8.0))
+    assert one.decided_by == "label"
+    assert other.heel_height_mm < one.heel_height_mm
+
+
+def test_the_standing_transform_puts_the_ground_under_the_last():
+    for side in ("right", "left"):
+        vertices, faces = last_mesh(SPEC)
+        if side == "left":
+            vertices, faces = vertices * [1.0, -1.0, 1.0], faces[:, ::-1]
+        scan = aligned_scan(prepared_scan(cleaned(vertices, faces), side))
+        transform = scan.alignment.standing_transform
+        np.testing.assert_allclose(transform[:3, :3] @ transform[:3, :3].T, np.eye(3), atol=1e-12)
+        points = scan.vertices_mm @ transform[:3, :3].T + transform[:3, 3]
+        low = points[:, 2] < 60.0
+        assert points[low, 0].min() == pytest.approx(0.0, abs=0.5)
+        assert points[:, 2].min() == pytest.approx(0.0, abs=0.8)  # the crown of the tread
+
+
+def test_a_foot_stands_as_it_lies_whatever_is_said():
+    scan = read_scan(SAMPLES / "feet" / "mh007_R.stl")
+    alignment = aligned_scan(prepared_scan(scan, "right", None, StanceLabels(60.0))).alignment
+    assert alignment.stance is None
+    assert np.array_equal(alignment.standing_transform, np.eye(4))
+    assert "stance_label_unused" in codes(alignment)
+
+
+@pytest.mark.parametrize(
+    "labels",
+    [StanceLabels(-1.0), StanceLabels(None, np.nan), StanceLabels(30.0, platform_mm=500.0)],
+)
+def test_a_label_that_no_last_has_is_refused(labels):
+    with pytest.raises(BadOption, match="is from 0 to"):
+        check_stance_labels(labels)
