@@ -19,7 +19,6 @@ LABEL_HEIGHTS = ("heel_height_mm", "toe_spring_mm", "platform_mm")
 COLUMNS = ("path", *LABEL_TEXTS, "side", "units", *LABEL_HEIGHTS)
 CHOICES = {"side": ("auto", "left", "right"), "units": ("auto", *UNIT_SCALES)}
 LARGEST_BYTES = 16_000_000
-"""What a label can say of how high a last stands."""
 
 
 @dataclass(frozen=True, slots=True)
