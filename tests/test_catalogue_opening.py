@@ -12,6 +12,7 @@ from pathlib import Path
 
 import pytest
 
+from footfit.catalogue.file import opening
 from footfit.catalogue.file.engine import connect
 from footfit.catalogue.store import open_catalogue
 from footfit.errors import (
@@ -263,3 +264,14 @@ def test_a_new_catalogue_in_a_read_only_folder_is_refused(path: Path) -> None:
 def test_a_file_that_may_not_be_read_is_said(path: Path) -> None:
     path.chmod(0)
     assert without_rights(lambda: read(path)).startswith("CatalogueNotWritable: cannot be read")
+
+
+def test_a_catalogue_that_cannot_be_made_says_why(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def fail(*_: object) -> None:
+        raise RuntimeError("planted")
+
+    monkeypatch.setattr(opening, "create", fail)
+    with pytest.raises(RuntimeError, match="planted"), open_catalogue(tmp_path / "c", write=True):
+        pass

@@ -7,10 +7,10 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from footfit.geometry.mesh.samples import quadrature
+from footfit.geometry.mesh.samples import SurfaceSample, quadrature
 from footfit.geometry.numeric.quantiles import area_quantile
 from footfit.geometry.numeric.rotations import angle_deg, rotations_about
-from footfit.geometry.pose.frame import about_z, canonical_frame, levelling
+from footfit.geometry.pose.frame import about_z, canonical_frame, levelling, plan_axis
 from tests import distortions, shapes
 from tests.bounds import ROUNDING
 from tools.lasts import LastSpec, last_mesh
@@ -41,6 +41,18 @@ def test_a_box_stands_on_its_side_with_its_long_axis_along_x():
     assert frame.length == pytest.approx(260.0, abs=0.0016)  # of the triangles' middles
     # the bottom, in full: 260 x 90 over the length squared
     assert frame.support == pytest.approx(260 * 90 / frame.length**2, rel=ROUNDING)
+
+
+@pytest.mark.parametrize(("height", "counts"), [(0.05, True), (0.12, True), (0.2, False)])
+def test_the_plan_axis_is_that_of_the_low_part_whatever_stands_on_it(height, counts):
+    """A leg that leans to one side does not turn the axis; a part of the foot does."""
+    rng = np.random.default_rng(2)
+    low = rng.uniform([0.0, -40.0, 0.0], [260.0, 40.0, 10.0], (4000, 3))
+    leg = rng.uniform([150.0, 60.0, 260.0 * height], [250.0, 90.0, 260.0 * height + 5.0], (1500, 3))
+    points = np.concatenate([low, leg])
+    sample = SurfaceSample(points, np.tile([0.0, 0.0, 1.0], (len(points), 1)), np.ones(len(points)))
+    turn = np.degrees(np.arctan2(*plan_axis(sample, 0.0, 260.0)[::-1]))
+    assert (turn > 8.0) if counts else abs(turn) < 0.37  # measured: 13 and 0.19 deg
 
 
 @settings(max_examples=10, deadline=None)

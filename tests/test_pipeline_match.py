@@ -14,6 +14,7 @@ from hypothesis import strategies as st
 
 from footfit.catalogue.store import open_catalogue
 from footfit.errors import BadOption, NoCandidate
+from footfit.geometry.measures.measure_table import measure_named
 from footfit.pipeline.batch.sources import ReadingOptions, Source
 from footfit.pipeline.fit.candidates import choice
 from footfit.pipeline.fit.compare import best_comparison
@@ -93,6 +94,11 @@ def test_no_confidence_switches_the_gate_off(room_mm: float, word: str) -> None:
     unsure = replace(shape, aligned=replace(shape.aligned, alignment=alignment))
     found = answer(last("a", 260.0 + room_mm), feet=(unsure,))
     assert bool(found.candidates) == (8.0 <= 260.0 + room_mm - 260.0 <= 20.0)
+
+
+def test_a_ball_that_was_not_found_is_taken_where_balls_lie() -> None:
+    least, most = measure_named("ball_length").usual_share or (0.0, 0.0)
+    assert least < BALL_SHARE < most
 
 
 def test_a_ball_line_over_four_percent_off_is_a_reject() -> None:
