@@ -26,6 +26,8 @@ class FillingSettings:
     crease_deg : float
         And if the surface bends where they begin: by so much, times how much larger they are. Where
         it hardly bends, they hardly differ from it.
+    wall : float
+        Walls of a cut meet at an edge whose cosine is less.
     area, plane_area, plane_faces : float, float, int
         The least area of large facets, and of facets in a plane, and how many of these there are
         at least: of a decimated mesh a few facets may lie in a plane.
@@ -44,6 +46,7 @@ class FillingSettings:
     longer: float = 3.0
     larger: float = 4.0
     crease_deg: float = 60.0
+    wall: float = 0.8
     area: float = 0.004
     plane_area: float = 0.008
     plane_faces: int = 30
@@ -88,7 +91,7 @@ def filled_faces(
         plane are no filling.
     """
     filled = np.zeros(len(faces), dtype=bool)
-    patches = [_large_facets(vertices, faces, length)]
+    patches = [_large_facets(vertices, faces, length, apart=plane_is_shape)]
     if not plane_is_shape:
         patches.append(_planes(vertices, faces, length, known))
     for each in patches:
@@ -115,8 +118,11 @@ def _lie_in_planes(vertices: Floats, faces: Ints, patches: _Patches, length: flo
 # ---------------------------------------------------------------- large facets
 
 
-def _large_facets(vertices: Floats, faces: Ints, length: float) -> _Patches:
-    """Patches of facets much larger than the edges around them, with a crease around them."""
+def _large_facets(vertices: Floats, faces: Ints, length: float, *, apart: bool) -> _Patches:
+    """Patches of facets much larger than the edges around them, with a crease around them.
+
+    ``apart``: walls that meet in an edge are patches of their own.
+    """
     columns = [np.ascontiguousarray(column)[faces.T] for column in vertices.T]
     x, y, z = (np.square(column[[1, 2, 0]] - column) for column in columns)
     squares = x + y + z  # (3, m): the edge from each corner on
@@ -132,15 +138,17 @@ def _large_facets(vertices: Floats, faces: Ints, length: float) -> _Patches:
     order, starts, counts = edge_groups(faces[near])
     edge = sides.ravel()[order[starts]]
     pair = order[np.stack([starts, np.minimum(starts + 1, len(order) - 1)], axis=1)] // 3
-    inside = (counts == 2) & (edge**2 > least)
-    label = np.unique(lowest_connected(pair[inside], len(near)), return_inverse=True)[1].ravel()
     vectors = area_vectors(vertices, faces[near])
     areas, normals = row_lengths(vectors), unit(vectors)
+    bend = row_dots(normals[pair[:, 0]], normals[pair[:, 1]]).clip(-1.0, 1.0)
+    inside = (counts == 2) & (edge**2 > least)
+    if apart:
+        inside &= bend > FILLING.wall
+    label = np.unique(lowest_connected(pair[inside], len(near)), return_inverse=True)[1].ravel()
     patches = _Patches(near, label)
     size = patches.sums(areas * sides.max(axis=1)) / patches.sums(areas)
     around, crease = np.zeros((2, len(size)))
-    bend = row_dots(normals[pair[:, 0]], normals[pair[:, 1]]).clip(-1.0, 1.0)
-    outer = (counts == 2) & (label[pair[:, 0]] != label[pair[:, 1]])
+    outer = (counts == 2) & (edge**2 <= least) & (label[pair[:, 0]] != label[pair[:, 1]])
     total = np.zeros(len(size))
     for side in (0, 1):
         of = label[pair[outer, side]]
