@@ -21,6 +21,7 @@ class BottomSettings:
     band: float = 0.10  # over the section's lowest point: the places are shares of its width
     reach: float = 0.30  # higher faces are not underside
     bandwidth: float = 0.03
+    gap_rise: float = 0.01  # a section so much higher than those before and after is in a gap
     whole: tuple[float, float] = (0.04, 0.96)
     arch: tuple[float, float] = (0.28, 0.62)
     arch_places: tuple[float, ...] = (0.70, 0.75, 0.80)
@@ -63,7 +64,8 @@ def underside(
     Returns
     -------
     Underside or None
-        None if a section has no surface that looks down at one of the places.
+        None if a section has no surface that looks down at one of the places. A gap of up to two
+        sections, as an open hinge has, is bridged.
     """
     count = 1 + round((window[1] - window[0]) / BOTTOM.step)
     x = shape.x_mm(0.0) + np.linspace(*window, count) * shape.length_mm
@@ -73,4 +75,21 @@ def underside(
     bottom = soles(segments, BOTTOM.band * shape.length_mm, places, down)
     if not np.all(bottom.depth <= bottom.limit):
         return None
-    return Underside(x, bottom.depth.mean(axis=0))
+    bridged = [_over_gaps(heights, BOTTOM.gap_rise * shape.length_mm) for heights in bottom.depth]
+    return Underside(x, np.mean(bridged, axis=0))
+
+
+def _over_gaps(heights: Floats, rise: float) -> Floats:
+    """Heights (k,) without those in a gap: higher than the least of two on either side by ``rise``.
+
+    Examples
+    --------
+    >>> _over_gaps(np.array([3.0, 2, 9, 8, 2, 1, 0]), 2.0).tolist()
+    [3.0, 2.0, 2.0, 2.0, 2.0, 1.0, 0.0]
+    """
+    padded = np.pad(heights, 2, constant_values=np.inf)
+    before = np.minimum(padded[:-4], padded[1:-3])
+    after = np.minimum(padded[3:-1], padded[4:])
+    sound = heights <= np.maximum(before, after) + rise
+    places = np.arange(len(heights))
+    return np.interp(places, places[sound], heights[sound])
