@@ -7,6 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from footfit.geometry.mesh.caps import extent_of
+from footfit.geometry.mesh.surface import unit
 from footfit.geometry.mesh.topology import boundary_loops
 from footfit.geometry.numeric.arrays import Floats, Ints
 
@@ -36,8 +37,8 @@ class Openings:
         rims = [
             rim for rim in boundary_loops(faces) if extent_of(vertices[rim]) > OPENINGS.wide * size
         ]
-        areas = [_area_vector(vertices[rim]) for rim in rims]
-        return cls(rims, np.array([area / np.linalg.norm(area) for area in areas]).reshape(-1, 3))
+        areas = np.array([_area_vector(vertices[rim]) for rim in rims]).reshape(-1, 3)
+        return cls(rims, unit(areas))  # a rim that runs there and back looks nowhere
 
     def look_up_and_down(self, up: Floats) -> bool:
         """Whether each opening is that of a leg or a sole, if ``up`` (3,) is up."""
