@@ -211,6 +211,10 @@ def _wound(
     pose = None
     if looks.one_way > PIECES.shell:
         pose = _pose_with_lids(vertices, faces, windows, openings)
+    if pose is not None and pose.kind == "last":
+        # A lid at 15 mm makes a foot as flat below as a last. It is one only if both fits say so.
+        kind = rough_pose(vertices, faces, shipped_templates(), windows, SOLELESS).kind
+        pose = replace(pose, kind=kind)
     if pose is None:
         pose = rough_pose(vertices, faces, shipped_templates(), windows)
         if not (pose.accepted and openings.look_up_and_down(pose.rotation[2])):
