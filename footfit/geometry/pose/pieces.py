@@ -39,6 +39,7 @@ class PieceSettings:
     shell: float = 0.20  # from here on, by the same ratio, a foot may lack its sole
     flat_shell: float = 0.60  # the most that a foot without sole has; a sheet has more
     soleless_last: float = 0.34  # the most that a last without sole costs; feet cost .36-.46
+    lidded_last: float = 0.46  # and with a lid for its sole: lasts cost .32-.45, feet .39-.49
     upward: float = 0.80  # cosine with Z of where the faces of such a foot look on the whole
 
 

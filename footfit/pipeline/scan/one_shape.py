@@ -213,8 +213,9 @@ def _wound(
         pose = _pose_with_lids(vertices, faces, windows, openings)
     if pose is not None and pose.kind == "last":
         # A lid at 15 mm makes a foot as flat below as a last. It is one only if both fits say so.
-        kind = rough_pose(vertices, faces, shipped_templates(), windows, SOLELESS).kind
-        pose = replace(pose, kind=kind)
+        other = rough_pose(vertices, faces, shipped_templates(), windows, SOLELESS)
+        fits = pose.cost <= PIECES.lidded_last
+        pose = replace(pose, kind=other.kind if fits else "foot")
     if pose is None:
         pose = rough_pose(vertices, faces, shipped_templates(), windows)
         if not (pose.accepted and openings.look_up_and_down(pose.rotation[2])):
