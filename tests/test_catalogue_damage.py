@@ -36,6 +36,17 @@ def path(sound: Path, tmp_path: Path) -> Path:
     return Path(shutil.copy(sound, tmp_path / "lasts.footfit"))
 
 
+def test_a_schema_number_that_does_not_fit_the_schema_is_found(path: Path) -> None:
+    with sqlite3.connect(path) as connection:
+        connection.execute("PRAGMA user_version = 1")
+    connection.close()
+    with open_catalogue(path) as catalogue:
+        (finding,) = catalogue.findings()
+    assert finding.code == "schema_mirror"
+    assert finding.message.startswith("user_version is 1 and the schema is ")
+    assert finding.damage
+
+
 def test_a_sound_catalogue_has_no_findings(sound: Path) -> None:
     with open_catalogue(sound) as catalogue:
         assert catalogue.findings() == []
