@@ -36,8 +36,9 @@ def shapes(count: int, seed: int) -> Iterator[tuple[str, str, Shape]]:
         rng = np.random.default_rng(seed)
         for band in HEEL_BANDS_MM:
             for number in range(count):
-                vertices, faces, _ = draw(rng, band, number)
-                yield family, f"{band[0]:.0f}-{band[1]:.0f}", Shape(vertices, faces, "last")
+                case = draw(rng, band, number)
+                shape = Shape(case.vertices_mm, case.faces, "last")
+                yield family, f"{band[0]:.0f}-{band[1]:.0f}", shape
     feet = [case for case in cases(np.random.default_rng(seed), 0) if case.kind == "foot"]
     for case in feet[:: max(1, len(feet) // (2 * count))]:
         scan = aligned(scan_of(case.vertices, case.faces), side=case.side)

@@ -68,12 +68,12 @@ def _leaning_planes() -> Iterable[np.ndarray]:
 def least_girths(shape) -> dict[str, float]:
     """The four girths by brute force, at the places of a shape."""
     vertices, edges = shape.vertices_mm, edges_of(shape.faces)
-    up, across = np.array([0.0, 0.0, 1.0]), np.array([0.0, 1.0, 0.0])
+    across = np.array([0.0, 1.0, 0.0])
     crown, base = shape.instep_crown.place, shape.heel_base
     along = (crown - base) / np.linalg.norm(crown - base)
     farthest = (along, crown @ along + 0.1 * shape.length_mm)
     return {
-        "ball_girth_least": least_about(vertices, edges, *shape.joints, up),
+        "ball_girth_least": least_about(vertices, edges, *shape.joints, shape.upright),
         "waist_girth_least": least_over(vertices, edges, shape.waist_crown.place),
         "instep_girth_least": least_over(vertices, edges, crown),
         "heel_girth_instep": least_about(vertices, edges, base, crown, across, farthest),

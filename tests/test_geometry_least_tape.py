@@ -9,8 +9,8 @@ import pytest
 from hypothesis import given, settings
 from scipy.spatial import ConvexHull
 
-from footfit.geometry.measures.landmarks import AXES, Shape
-from footfit.geometry.measures.least_tape import tape_about, tape_over
+from footfit.geometry.measures.landmarks import Shape
+from footfit.geometry.measures.least_tape import heel_tape, tape_over
 from footfit.geometry.measures.measure_table import measure_named
 from footfit.geometry.measures.tape import hull_girth
 from tests import shapes
@@ -134,9 +134,9 @@ def test_a_leg_cut_at_the_instep_has_no_girth_over_it(closed: bool) -> None:
         vertices, faces = capped(vertices, faces)
     cut = Shape(vertices, faces, "foot")
     for name in ("instep_girth_least", "heel_girth_instep"):
-        value, reason = measure_named(name).value_of(cut)
-        assert value is None, name
-        assert "instep" in (reason or "")
+        taken = measure_named(name).value_of(cut)
+        assert taken.value is None, name
+        assert "instep" in (taken.reason or "")
     near = ("ball_girth_least", "waist_girth_least")
     assert girths(cut, near) == pytest.approx(girths(whole, near), abs=0.01)
 
@@ -146,9 +146,9 @@ def test_an_open_sole_gives_reasons() -> None:
     low = whole.vertices_mm[whole.faces].mean(axis=1)[:, 2] < 8.0
     soleless = Shape(whole.vertices_mm, whole.faces[~low], "foot")
     for name in LEAST:
-        value, reason = measure_named(name).value_of(soleless)
-        assert value is None, name
-        assert "open" in (reason or ""), name
+        taken = measure_named(name).value_of(soleless)
+        assert taken.value is None, name
+        assert "open" in (taken.reason or ""), name
 
 
 def test_a_last_that_is_sawn_off_low_has_no_instep() -> None:
@@ -168,7 +168,7 @@ def test_a_toe_that_rises_over_the_instep_is_not_within_the_tape() -> None:
     low, high = (
         Shape(at_rest(bent(flat, SPEC.length_mm, heel_mm)), faces, "last") for heel_mm in (60, 90)
     )
-    tape = tape_about(high, high.heel_base, high.instep_crown.place, AXES[1])
+    tape = heel_tape(high)
     assert girths(high)["heel_girth_instep"] == pytest.approx(
         girths(low)["heel_girth_instep"], rel=0.05
     )

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from footfit.geometry.measures.landmarks import AXES, Shape
-from footfit.geometry.measures.least_tape import Tape, tape_about, tape_over
+from footfit.geometry.measures.landmarks import Shape
+from footfit.geometry.measures.least_tape import Tape, heel_tape, tape_about, tape_over
 from footfit.geometry.measures.tape import convex_hull, hull_girth
 from footfit.geometry.numeric.arrays import Floats
 from footfit.report.pictures.drawn_outlines import SHADOW, ring, side_outline, sole_outline
@@ -24,7 +24,6 @@ from tools.last_specs import LastSpec
 from tools.lasts import last_mesh
 
 if TYPE_CHECKING:
-    from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
 SPEC = LastSpec(heel_height_mm=60.0, toe_spring_mm=6.0, level_tread=True)
@@ -38,13 +37,13 @@ def tapes(shape: Shape) -> dict[str, tuple[Tape, dict[str, Floats]]]:
     waist, instep, base = shape.waist_crown.place, shape.instep_crown.place, shape.heel_base
     return {
         "ball_girth_least": (
-            tape_about(shape, outer, inner, AXES[2]),
+            tape_about(shape, outer, inner, shape.upright),
             {"outer joint": outer, "inner joint": inner},
         ),
         "waist_girth_least": (tape_over(shape, waist), {"waist's crown": waist}),
         "instep_girth_least": (tape_over(shape, instep), {"instep's crown": instep}),
         "heel_girth_instep": (
-            tape_about(shape, base, instep, AXES[1]),
+            heel_tape(shape),
             {"heel's base": base, "instep's crown": instep},
         ),
     }
@@ -76,7 +75,9 @@ def _tape_figure(shape: Shape, measure: str, tape: Tape, places: dict[str, Float
             axes.plot(*around[:, [0, up]].T, color=SERIES[0], linewidth=1.5)
             axes.set_title(title)
             for name, place in places.items():
-                _mark(axes, place[[0, up]], name)
+                axes.plot(*place[[0, up]], "o", color=INK, markersize=4)
+                if axes is plan:
+                    axes.annotate(name, place[:2], (6, 6), textcoords="offset points", fontsize=8)
         section.fill(*loop.T, facecolor=FILL, edgecolor=INK, linewidth=1.2)
         section.plot(*hull.T, color=SERIES[0], linewidth=1.5)
         section.set_title(f"The tape: {hull_girth(loop):.1f} mm")
@@ -85,9 +86,3 @@ def _tape_figure(shape: Shape, measure: str, tape: Tape, places: dict[str, Float
         draw_scale_bar(plan)
         write_title(figure, f"{measure}, turned by {tape.tilt_deg:.0f} degrees")
     return figure
-
-
-def _mark(axes: Axes, place: Floats, name: str) -> None:
-    """Mark a place (2,) by a dot and its name."""
-    axes.plot(*place, "o", color=INK, markersize=4)
-    axes.annotate(name, place, (6, 6), textcoords="offset points", fontsize=8)

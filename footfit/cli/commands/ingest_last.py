@@ -34,7 +34,9 @@ def ingest_last(
         "Give a CSV with labels for each file: path, name, style, size, size_system, ...",
     ),
     style: str | None = _label("--style", "S", "Set the style, such as derby."),
-    size: str | None = _label("--size", "42", "Set the size as it is marked on the last."),
+    size: str | None = _label(
+        "--size", "42", "Set the size as it is marked. footfit compares it with the length."
+    ),
     size_system: str | None = _label(
         "--size-system", "eu", "Set the system of the size, such as eu or uk."
     ),

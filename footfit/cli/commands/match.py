@@ -60,6 +60,8 @@ def match(
 ) -> None:
     """Rank the lasts of the catalogue for a foot, with reasons.
 
+    The toe room comes first: the last's functional length less the foot's.
+
     Example: footfit match left.stl right.stl --pair --html report.html
     """
     from dataclasses import replace

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from footfit.geometry.measures.heel_girths import angle_to_deg, around_heel, shortest_around_heel
-from footfit.geometry.measures.landmarks import AXES, LANDMARKS, Crown, Shape
-from footfit.geometry.measures.least_tape import tape_about, tape_over
+from footfit.geometry.measures.landmarks import LANDMARKS, Crown, Shape
+from footfit.geometry.measures.least_tape import heel_tape, tape_about, tape_over
 from footfit.geometry.measures.measure_value import (
     BLOCKED,
     CUT,
@@ -70,7 +70,7 @@ def ball_girth_least(shape: Shape) -> MeasureValue:
     """
     if shape.joints is None:
         return no_ball(shape)
-    section = tape_about(shape, *shape.joints, AXES[2]).section(shape)
+    section = tape_about(shape, *shape.joints, shape.upright).section(shape)
     return section_value(shape, section, "ball", hull_girth)
 
 
@@ -97,7 +97,7 @@ def heel_girth_instep(shape: Shape) -> MeasureValue:
     missing = lacking(shape, shape.instep_crown.section, "instep")
     if missing is not None:
         return MeasureValue(None, missing)
-    tape = tape_about(shape, shape.heel_base, shape.instep_crown.place, AXES[1])
+    tape = heel_tape(shape)
     section = tape.section(shape)
     if tape.goes_on(section, shape.length_mm):
         return MeasureValue(None, BLOCKED)

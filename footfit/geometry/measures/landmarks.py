@@ -271,6 +271,11 @@ class Shape:
         """The arc along which a tape's places are counted; None of a foot or an open bottom."""
         return None if self.kind == "foot" or self.stance is None else bottom_arc(self.stance)
 
+    @property
+    def upright(self) -> Floats:
+        """What is up when the shape stands, (3,): a last's tread lies level then."""
+        return AXES[2] if self.bottom_arc is None else self.bottom_arc.stands[2, :3]
+
     @cached_property
     def joints(self) -> tuple[Floats, Floats] | None:
         """Where a tape lies at the ball: the outer and the inner joint, (3,) each.

@@ -7,13 +7,15 @@ convex hull.
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
+from functools import cache
 
 import numpy as np
 
 from footfit.geometry.measures.landmarks import AXES, Shape
 from footfit.geometry.mesh.outlines import TAPE_OUTLINES, Outline, outline
+from footfit.geometry.mesh.surface import cross
 from footfit.geometry.numeric.arrays import Floats
 
 
@@ -27,6 +29,8 @@ class TapeSettings:
         The plane tilts no farther than this from upright, and turns no farther in plan.
     step_deg : float
         From plane to plane, until the girth grows on both sides; then a parabola gives the least.
+    heel_starts_deg : tuple of float
+        The search for the heel's tape begins at the best of these tilts.
     directions : int
         In how many directions a section's width is taken for its rough girth.
     beyond : float
@@ -35,6 +39,7 @@ class TapeSettings:
 
     most_deg: float = 45.0
     step_deg: float = 10.0
+    heel_starts_deg: tuple[float, ...] = (0.0, -20.0, 20.0)
     directions: int = 90
     beyond: float = 0.1
 
@@ -51,7 +56,8 @@ class Tape:
     origin, axes : (3,), (2, 3)
         A point of the plane, and unit vectors in it: across and up.
     tilt_deg : float
-        How far the plane's upper part leans towards the toe.
+        How far the plane is turned from upright, + where its upper part leans towards the toe; of a
+        heel's tape, from level across, + where its medial part is higher.
     turn_deg : float
         How far its medial part is turned towards the toe, in plan.
     reach_mm : float
@@ -81,7 +87,12 @@ class Tape:
 
 
 def tape_about(
-    shape: Shape, start: Floats, end: Floats, upright: Floats, settings: TapeSettings = TAPE
+    shape: Shape,
+    start: Floats,
+    end: Floats,
+    upright: Floats,
+    starts_deg: Sequence[float] = (0.0,),
+    settings: TapeSettings = TAPE,
 ) -> Tape:
     """The shortest tape through two places; its plane turns about the line between them.
 
@@ -90,21 +101,28 @@ def tape_about(
     start, end : (3,)
         The places.
     upright : (3,)
-        The plane without a tilt contains this direction; the tilt is from it towards ``end - start
-        x upright``.
+        The plane without a tilt contains this direction.
+    starts_deg : sequence of float
+        Tilts that the search begins with: a girth can have more than one least.
     """
     half_mm = 0.5 * float(np.linalg.norm(end - start))
     across = 0.5 * (end - start) / half_mm
     reach_mm = half_mm + settings.beyond * shape.length_mm
     girths = RoughGirths(shape, 0.5 * (start + end), settings.directions, reach_mm)
     tilt_deg = least_near(
-        lambda deg: girths.at(tilted(across, upright, deg)),
-        0.0,
+        cache(lambda deg: girths.at(tilted(across, upright, deg))),
+        starts_deg,
         (-settings.most_deg, settings.most_deg),
         settings.step_deg,
     )
     axes = tilted(across, upright, tilt_deg)
     return Tape(girths.origin, axes, tilt_deg, reach_mm=half_mm)
+
+
+def heel_tape(shape: Shape, settings: TapeSettings = TAPE) -> Tape:
+    """The shortest tape through the heel's base and the instep's crown."""
+    places = shape.heel_base, shape.instep_crown.place
+    return tape_about(shape, *places, AXES[1], settings.heel_starts_deg, settings)
 
 
 def tape_over(shape: Shape, place: Floats, settings: TapeSettings = TAPE) -> Tape:
@@ -118,10 +136,15 @@ def tape_over(shape: Shape, place: Floats, settings: TapeSettings = TAPE) -> Tap
         turn = np.radians(turn_deg)
         return tilted(np.array([np.sin(turn), np.cos(turn), 0.0]), AXES[2], tilt_deg)
 
-    step, most = settings.step_deg, settings.most_deg
-    tilt_deg = least_near(lambda deg: girths.at(axes(deg, 0.0)), 2.0 * step, (0.0, most), step)
-    turn_deg = least_near(lambda deg: girths.at(axes(tilt_deg, deg)), 0.0, (-most, most), step)
-    return Tape(place, axes(tilt_deg, turn_deg), tilt_deg, turn_deg)
+    @cache
+    def girth(tilt_deg: float, turn_deg: float) -> float:
+        return girths.at(axes(tilt_deg, turn_deg))
+
+    step, tilts, turns = settings.step_deg, (0.0, settings.most_deg), settings.most_deg
+    tilt = least_near(lambda deg: girth(deg, 0.0), (2.0 * step,), tilts, step)
+    turn = least_near(lambda deg: girth(tilt, deg), (0.0,), (-turns, turns), step)
+    tilt = least_near(lambda deg: girth(deg, turn), (tilt,), tilts, 0.5 * step)
+    return Tape(place, axes(tilt, turn), tilt, turn)
 
 
 def tilted(across: Floats, upright: Floats, tilt_deg: float) -> Floats:
@@ -132,38 +155,41 @@ def tilted(across: Floats, upright: Floats, tilt_deg: float) -> Floats:
     >>> tilted(np.array([0.0, 1.0, 0.0]), np.array([0.0, 0.0, 1.0]), 90.0).round(9).tolist()
     [[0.0, 1.0, 0.0], [1.0, 0.0, 0.0]]
     """
-    ahead = np.cross(across, upright)
+    ahead = cross(across, upright)
     ahead /= np.linalg.norm(ahead)
     tilt = np.radians(tilt_deg)
-    return np.stack([across, np.cos(tilt) * np.cross(ahead, across) + np.sin(tilt) * ahead])
+    return np.stack([across, np.cos(tilt) * cross(ahead, across) + np.sin(tilt) * ahead])
 
 
 def least_near(
-    girth_at: Callable[[float], float], deg: float, bounds: tuple[float, float], step: float
+    girth_at: Callable[[float], float],
+    starts: Sequence[float],
+    bounds: tuple[float, float],
+    step: float,
 ) -> float:
-    """The angle of the least girth near an angle, by a parabola.
+    """The angle of the least girth: from the best of some starts downhill, then by a parabola.
 
-    It goes downhill step by step until the girth grows on both sides, or a bound is passed.
+    It goes step by step until the girth grows on both sides, or a bound is passed. ``girth_at``
+    should keep its values, because it is asked for some of them again.
 
     Examples
     --------
-    >>> least_near(lambda deg: (deg - 7.0) ** 2, 0.0, (-45.0, 45.0), 10.0)
+    >>> least_near(lambda deg: (deg - 7.0) ** 2, (0.0,), (-45.0, 45.0), 10.0)
     7.0
-    >>> least_near(lambda deg: -deg, 0.0, (-45.0, 45.0), 10.0)
+    >>> least_near(lambda deg: -deg, (0.0,), (-45.0, 45.0), 10.0)
     45.0
     """
-    before, here, after = (girth_at(deg + side * step) for side in (-1.0, 0.0, 1.0))
-    while min(before, after) < here and bounds[0] < deg < bounds[1]:
-        if before < after:
-            deg -= step
-            before, here, after = girth_at(deg - step), before, here
-        else:
-            deg += step
-            before, here, after = here, after, girth_at(deg + step)
-    bend = before - 2.0 * here + after
-    if bend > 0.0:
-        deg += 0.5 * step * (before - after) / bend
-    return float(np.clip(deg, *bounds))
+    here = min(starts, key=girth_at)
+    best = min((here, here - step, here + step), key=girth_at)
+    while best != here and bounds[0] < here < bounds[1]:
+        here = best
+        best = min((here, here - step, here + step), key=girth_at)
+    before, after = girth_at(here - step), girth_at(here + step)
+    bend = before - 2.0 * girth_at(here) + after
+    if 0.0 < bend < np.inf:
+        least = here + 0.5 * step * (before - after) / bend
+        here = min((here, least), key=girth_at)
+    return float(np.clip(here, *bounds))
 
 
 class RoughGirths:
@@ -184,12 +210,12 @@ class RoughGirths:
 
     def at(self, axes: Floats) -> float:
         """The girth in the plane along ``axes`` (2, 3); infinite if the plane cuts nothing."""
-        normal = np.cross(axes[0], axes[1])
+        normal = cross(*axes)
         height = self._vertices @ normal - self.origin @ normal
         above = height > 0.0
         a, b, c = above[self._faces.T]
         cut = self._faces[(a != b) | (a != c)]
-        start, end = cut.ravel(), np.roll(cut, -1, axis=1).ravel()
+        start, end = cut.ravel(), cut[:, [1, 2, 0]].ravel()
         crossed = above[start] != above[end]
         start, end = start[crossed], end[crossed]
         share = height[start] / (height[start] - height[end])

@@ -12,7 +12,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from footfit.geometry.mesh.nearest import part_middles
-from footfit.geometry.numeric.arrays import Floats, Ints
+from footfit.geometry.mesh.surface import cross
+from footfit.geometry.numeric.arrays import Floats, Ints, row_lengths
 
 _PARTS = part_middles(4)
 
@@ -81,7 +82,7 @@ def tip(vertices: Floats, faces: Ints, direction: Floats, length: float) -> Tip:
     near = outermost > top - max(TIPS.law[1], TIPS.cap) * length
     corner, triangles = corner[near], vertices[faces[near]]
     sides = triangles[:, 1] - triangles[:, 0], triangles[:, 2] - triangles[:, 0]
-    area = np.linalg.norm(np.cross(*sides), axis=1)
+    area = row_lengths(cross(*sides))
     depth = np.linspace(*TIPS.law, TIPS.levels) * length
     beyond = area @ share_over(corner, top - depth)
     slope, start = np.polyfit(depth, beyond, 1)

@@ -8,6 +8,7 @@ from typing import NamedTuple
 import numpy as np
 
 from footfit.geometry.mesh.sections import Planes, plane_sections
+from footfit.geometry.mesh.surface import cross
 from footfit.geometry.mesh.welding import welded_vertices
 from footfit.geometry.numeric.arrays import Floats, Ints
 
@@ -95,7 +96,7 @@ def outline(
     length : float
         The shape's length, which the settings are multiplied by.
     """
-    normal = np.cross(axes[0], axes[1])
+    normal = cross(*axes)
     level = float(origin @ normal)
     values = vertices @ normal
     a, b, c = (values > level)[faces.T]
