@@ -388,7 +388,10 @@ def _surface(room: SurfaceClearance) -> list[str]:
 
 
 def measured_values(measured: Measured) -> list[str | None]:
-    return [plain(measured.value), None if measured.sd is None else plain(measured.sd)]
+    return [
+        plain(measured.value),
+        *(None if spread is None else plain(spread) for spread in (measured.sd, measured.total_sd)),
+    ]
 
 
 def _title(name: str) -> str:

@@ -29,6 +29,9 @@ from tests.readback import (
     signed,
 )
 
+SPREADS = "the spread of a second scan of the same shape"
+"""What the tables of measures say of ±."""
+
 
 def measured_facts(scan: MeasuredScan) -> Iterator[Fact]:
     """Everything that ``footfit measure`` shows of one mesh."""
@@ -37,6 +40,7 @@ def measured_facts(scan: MeasuredScan) -> Iterator[Fact]:
     said = [side.side or "undecided", *side_values(alignment), alignment.pose.kind]
     yield fact("title", path, TERMINAL)
     yield fact("side", said, TERMINAL)
+    yield fact("±", SPREADS, TERMINAL)
     for row in scan.measures:
         known, name = row.measured, row.name.replace("_", " ")
         words = [known.reason] if known.value is None else measured_values(known)
@@ -46,6 +50,8 @@ def measured_facts(scan: MeasuredScan) -> Iterator[Fact]:
             "kind": alignment.pose.kind,
             "value_mm": mm(known.value),
             "sd_mm": mm(known.sd),
+            "total_sd_mm": mm(known.total_sd),
+            "bias_mm": mm(known.bias),
             "reason": known.reason or "",
             "definition": row.definition,
         }
@@ -191,6 +197,7 @@ def last_facts(last: StoredLast) -> Iterator[Fact]:
             known = row.measured
             words = [known.reason] if known.value is None else measured_values(known)
             rows[row.name.replace("_", " ")] = words
+    rows["±"] = [SPREADS]
     for notice in record.warnings:
         rows["warning"] = [notice.message]
     for name, values in rows.items():

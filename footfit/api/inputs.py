@@ -41,13 +41,14 @@ class ReadingKeywords(ScaleKeywords, total=False):
 
     ``heel_height_mm`` and ``toe_spring_mm`` are what is known of how a last stands: they decide its
     stance. ``platform_mm`` is the height of its forepart over the ground that the heel is given
-    over.
+    over. ``scanner`` is the kind of scanner; the total standard deviations then hold its own.
     """
 
     side: Literal["auto", "left", "right"]
     heel_height_mm: float | None
     toe_spring_mm: float | None
     platform_mm: float | None
+    scanner: Literal["laser", "handheld", "phone", "photos"] | None
 
 
 class HeelKeywords(TypedDict, total=False):

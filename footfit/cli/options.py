@@ -16,6 +16,7 @@ if TYPE_CHECKING:
 
 UnitName = Literal["auto", "mm", "cm", "m", "in"]
 SideChoice = Literal["auto", "left", "right"]
+ScannerName = Literal["laser", "handheld", "phone", "photos"]
 FormatName = Literal["stl", "obj", "ply", "off", "glb", "3mf"]
 
 STDOUT = Path("-")
@@ -140,10 +141,15 @@ class Reading(Scale):
         default="auto",
         panel=READING,
     )
+    scanner: ScannerName | None = member(
+        "--scanner",
+        "Say what kind of scanner was used: each total ± then holds the scanner's own uncertainty.",
+        panel=READING,
+    )
 
     def keywords(self) -> dict[str, Any]:
         """The options as the functions of `footfit.api` take them."""
-        return {**Scale.keywords(self), "side": self.side}
+        return {**Scale.keywords(self), "side": self.side, "scanner": self.scanner}
 
 
 @dataclass(frozen=True, slots=True)

@@ -24,7 +24,7 @@ class MeshInfo(Part):
     the file's bytes, ``unit_scale`` takes the file's coordinates to mm, ``units`` is
     "mm", "cm", "m", "in" or "scaled" (``--known-length``), ``units_source`` is
     "declared", "detected" or "known-length". ``step`` is the step in which the file keeps its
-    coordinates, 0 if there is none.
+    coordinates, 0 if there is none. ``scanner`` is the kind of scanner, if that is known.
     """
 
     path: str | None
@@ -37,11 +37,13 @@ class MeshInfo(Part):
     units_source: str
     unit_scale: float
     step: float = 0.0
+    scanner: str | None = None
 
     not_written = (
         "format",
         "unit_scale",
         "step",
+        "scanner",
     )
 
     @property

@@ -102,7 +102,7 @@ class MeasuredScan(Document):
 
     columns = (
         *("path", "side", "kind", "measure"),
-        *("value_mm", "sd_mm", "reason", "definition"),
+        *("value_mm", "sd_mm", "total_sd_mm", "bias_mm", "reason", "definition"),
     )
 
     schema = "measure/1"
@@ -121,9 +121,10 @@ class MeasuredScan(Document):
         alignment = self.alignment
         start = (alignment.info.path, alignment.side.side, alignment.pose.kind)
         values = [
-            (*start, row.name, taken.value, taken.sd, taken.reason, row.definition)
+            (*start, row.name, *spreads, taken.reason, row.definition)
             for row in self.measures
             for taken in (row.measured,)
+            for spreads in [(taken.value, taken.sd, taken.total_sd, taken.bias)]
         ]
         return rows(self.columns, values)
 

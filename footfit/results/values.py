@@ -134,8 +134,8 @@ class Measured:
     """A measured value with its uncertainty, or the reason why there is none.
 
     ``sd`` is the repeatability: how far a second scan of the same shape reads another value.
-    ``total_sd`` also holds what is known of the trueness, and ``bias`` is the mean error that is
-    known; None where nothing is known of them.
+    ``total_sd`` also holds what is known of the trueness. ``bias`` is the mean error that is known;
+    it is in ``total_sd``, and it is not subtracted. None where nothing is known of them.
     """
 
     value: float | None
@@ -145,16 +145,21 @@ class Measured:
     bias: float | None = None
 
     def to_dict(self) -> Json:
-        """``value`` and ``sd`` in mm, and a ``reason`` only if the value is null.
+        """All in mm, and a ``reason`` only if the value is null.
 
         Examples
         --------
         >>> Measured(262.31049, 0.4).to_dict()
-        {'value': 262.31, 'sd': 0.4, 'reason': None}
+        {'value': 262.31, 'sd': 0.4, 'total_sd': None, 'bias': None, 'reason': None}
         """
         value = json_number(self.value)
-        reason = None if value is not None else self.reason or "not measured"
-        return {"value": value, "sd": json_number(self.sd), "reason": reason}
+        return {
+            "value": value,
+            "sd": json_number(self.sd),
+            "total_sd": json_number(self.total_sd),
+            "bias": json_number(self.bias),
+            "reason": None if value is not None else self.reason or "not measured",
+        }
 
 
 LABELS = ("style", "size", "size_system", "width_label")

@@ -38,7 +38,8 @@ from footfit.results import (
 )
 
 _labels = LAST.reader("labels", LastLabels, parent=itemgetter("parent"))
-_info = LAST.reader("info", MeshInfo, step=lambda row: 0.0)  # noqa: ARG005  no column keeps it
+_NOT_KEPT = {"step": lambda _: 0.0, "scanner": lambda _: None}  # no column keeps them
+_info = LAST.reader("info", MeshInfo, **_NOT_KEPT)
 _side = LAST.reader("side", SideVerdict)
 _pose = FRAME.reader("pose", PoseQuality)
 _eigenframe = FRAME.reader("eigenframe", Eigenframe)

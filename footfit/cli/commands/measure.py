@@ -19,6 +19,9 @@ def measure(
 ) -> None:
     """Measure feet or lasts: lengths, widths, girths and heights in mm.
 
+    ± is the spread of a second scan of the same shape; total ± also holds what is known of the
+    trueness.
+
     Example: footfit measure left.stl right.stl --csv measures.csv
     """
     from footfit.api import scans

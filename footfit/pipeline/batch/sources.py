@@ -35,7 +35,7 @@ class ReadingOptions:
     """How to read a scan; "auto" is decided by its shape and reported.
 
     ``heel_height_mm``, ``toe_spring_mm`` and ``platform_mm`` are what people say of how a last
-    stands.
+    stands. ``scanner`` is the kind of scanner that made it.
     """
 
     units: str = "auto"
@@ -44,6 +44,7 @@ class ReadingOptions:
     heel_height_mm: float | None = None
     toe_spring_mm: float | None = None
     platform_mm: float | None = None
+    scanner: str | None = None
 
     @property
     def stance_labels(self) -> StanceLabels:

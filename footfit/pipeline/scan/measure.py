@@ -11,14 +11,15 @@ from footfit.geometry.measures import measure_table
 from footfit.geometry.measures.landmarks import Shape
 from footfit.geometry.numeric.arrays import Floats, Ints
 from footfit.geometry.stance.stance import Stance
+from footfit.pipeline.scan.trueness import measured
 from footfit.results import (
     AlignedScan,
     Alignment,
     LastLabels,
     LastRecord,
     Measure,
-    Measured,
     MeasuredScan,
+    MeshInfo,
     Notice,
     PreparedScan,
     Profiled,
@@ -63,7 +64,11 @@ def scan_measures(prepared: PreparedScan) -> tuple[Measure, ...]:
     would be too short.
     """
     rows = shape_measures(
-        prepared.vertices_mm, prepared.faces, prepared.pose.kind, prepared.standing
+        prepared.vertices_mm,
+        prepared.faces,
+        prepared.pose.kind,
+        prepared.standing,
+        prepared.info,
     )
     if prepared.length.value is not None:
         return rows
@@ -73,7 +78,11 @@ def scan_measures(prepared: PreparedScan) -> tuple[Measure, ...]:
 
 
 def shape_measures(
-    vertices_mm: Floats, faces: Ints, kind: str = "foot", stance: Stance | None = None
+    vertices_mm: Floats,
+    faces: Ints,
+    kind: str = "foot",
+    stance: Stance | None = None,
+    info: MeshInfo | None = None,
 ) -> tuple[Measure, ...]:
     """Every measure of the table that a kind of shape has, on a canonical right shape.
 
@@ -84,18 +93,19 @@ def shape_measures(
     kind : {"foot", "last"}
     stance : Stance, optional
         How it stands; else its shape decides.
+    info : MeshInfo, optional
+        What is known of its scan: it adds to the total standard deviations.
 
     Returns
     -------
     tuple of Measure
         In the table's order; one that cannot be taken has a reason instead of a value.
     """
-    shape, measures = Shape(vertices_mm, faces, kind, stance), []
-    for entry in measure_table.of_kind(kind):
-        value, reason, _ = entry.value_of(shape)
-        measured = Measured(value, None if value is None else entry.sd, reason)
-        measures.append(Measure(entry.name, measured, entry.definition_id))
-    return tuple(measures)
+    shape = Shape(vertices_mm, faces, kind, stance)
+    return tuple(
+        Measure(entry.name, measured(entry, entry.value_of(shape), kind, info), entry.definition_id)
+        for entry in measure_table.of_kind(kind)
+    )
 
 
 def unusual_measures(measures: Iterable[Measure], kind: str) -> tuple[Notice, ...]:

@@ -12,6 +12,7 @@ from footfit.errors import HalfScan
 from footfit.geometry.flare.levelled_bottom import low_length
 from footfit.geometry.measures.landmarks import Shape
 from footfit.geometry.measures.measure_table import measure_named
+from footfit.geometry.measures.measure_value import MeasureValue
 from footfit.geometry.mesh.holes import ClosedMesh, closed_mesh
 from footfit.geometry.mesh.samples import SurfaceSample, gathered_sample, quadrature
 from footfit.geometry.numeric.arrays import Floats, Ints
@@ -26,6 +27,7 @@ from footfit.meshes.resolution import check_resolution, resolution_notices
 from footfit.pipeline.scan import settled_unit
 from footfit.pipeline.scan.one_shape import PosedShape, shape_in
 from footfit.pipeline.scan.standing import last_stance, stance_notices
+from footfit.pipeline.scan.trueness import measured
 from footfit.results import (
     Confidence,
     Measured,
@@ -102,9 +104,9 @@ def prepared_scan(
     factor = info.unit_scale / scan.info.unit_scale
     verdict = _verdict(frame, side)
     vertices_mm, faces = right_copy(factor * frame.points, closed.faces, verdict.side)
-    length = Measured(factor * frame.length, measure_named("length").sd)
     kind = frame.quality.kind
     standing = stance_of(vertices_mm, faces, kind, labels)
+    length = measured(measure_named("length"), MeasureValue(factor * frame.length), kind, info)
     open_end = _open_end(frame, rims)
     if open_end:  # what was not scanned is not known
         length = Measured(None, reason=open_end[0].message)

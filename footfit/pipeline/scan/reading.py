@@ -21,6 +21,7 @@ from footfit.pipeline.scan.one_shape import scans_in
 from footfit.pipeline.scan.preparation import prepared_scan
 from footfit.pipeline.scan.settled_unit import length_windows
 from footfit.pipeline.scan.standing import check_stance_labels
+from footfit.pipeline.scan.trueness import check_scanner
 
 AS_FOUND = ReadingOptions()
 ANY_LENGTH_MM = 250.0
@@ -51,6 +52,7 @@ def read(source: Source, reading: ReadingOptions = AS_FOUND) -> results.Scan:
     """
     check_unit_options(reading.units, reading.known_length_mm)
     check_stance_labels(reading.stance_labels)
+    check_scanner(reading.scanner)
     if source.scan is not None:
         return source.scan
     file = file_mesh(source_bytes(source), source.path, source.format)
@@ -69,6 +71,7 @@ def prepared_source(source: Source, reading: ReadingOptions) -> results.Prepared
         prepared_scan(read(source, replace(reading, known_length_mm=ANY_LENGTH_MM)))
         raise
     side = cast(Literal["auto", "left", "right"], reading.side)
+    scan = replace(scan, info=replace(scan.info, scanner=reading.scanner))
     return prepared_scan(scan, side, reading.known_length_mm, reading.stance_labels)
 
 

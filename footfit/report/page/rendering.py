@@ -82,6 +82,7 @@ def templates() -> Environment:
         lstrip_blocks=True,
         keep_trailing_newline=True,
     )
+    environment.globals["spreads"] = text.SPREADS
     environment.filters |= {function.__name__: function for function in FILTERS}
     return environment
 

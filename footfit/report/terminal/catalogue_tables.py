@@ -17,6 +17,7 @@ from footfit.report.terminal.scan_tables import (
     side_words,
 )
 from footfit.report.wording.text import (
+    SPREADS,
     class_words,
     length_text,
     measured_text,
@@ -85,6 +86,7 @@ def show_last_table(last: results.StoredLast) -> RenderableType:
         ("length", length_text(record.length)),
         ("flare", f"{turned}, definition {visible(flare.definition.version)}{upgraded}"),
         *_measures(record),
+        ("±", Text(SPREADS, "dim")),
         ("reference", "this is the reference last" if labels.name == reference else "no"),
         ("paper's frame", _paper_words(last)),
         ("eigenvalues", eigenvalue_words(record.eigenframe)),

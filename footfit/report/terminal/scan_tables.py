@@ -17,6 +17,7 @@ from rich.text import Text
 
 from footfit import results
 from footfit.report.wording.text import (
+    SPREADS,
     class_words,
     length_text,
     measured_text,
@@ -189,4 +190,5 @@ def measure_table(scan: results.MeasuredScan) -> RenderableType:
     for measure in scan.measures:
         words = cell(measured_text(measure.measured, "mm"))
         rows.append((measure.name.replace("_", " "), words))
+    rows.append(("±", Text(SPREADS, "dim")))
     return facts(*rows, title=alignment.info.path or "standard input")

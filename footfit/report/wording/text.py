@@ -81,6 +81,12 @@ def plain(value: float, digits: int = 1) -> str:
     return f"{round(value, digits) + 0.0:.{digits}f}"
 
 
+SPREADS = (
+    "± is the spread of a second scan of the same shape; total ± also holds what is known of the"
+    " trueness."
+)
+
+
 def measured_text(measured: Measured, unit: str) -> str:
     """A measured value with its uncertainty and unit, or the reason why there is none.
 
@@ -89,13 +95,16 @@ def measured_text(measured: Measured, unit: str) -> str:
     >>> from footfit.results import Measured
     >>> measured_text(Measured(262.31, 0.42), "mm")
     '262.3 ± 0.4 mm'
+    >>> measured_text(Measured(262.31, 0.42, None, 0.71, -0.2), "mm")
+    '262.3 ± 0.4 mm, total ± 0.7'
     >>> measured_text(Measured(None, reason="the sole is missing"), "mm")
     'not measured (the sole is missing)'
     """
     if measured.value is None:
         return f"not measured ({measured.reason})" if measured.reason else "not measured"
     spread = f" ± {plain(measured.sd)}" if measured.sd is not None else ""
-    return f"{plain(measured.value)}{spread} {unit}"
+    total = "" if measured.total_sd is None else f", total ± {plain(measured.total_sd)}"
+    return f"{plain(measured.value)}{spread} {unit}{total}"
 
 
 def length_text(length: Measured) -> str:
@@ -107,7 +116,7 @@ def length_text(length: Measured) -> str:
     >>> length_text(Measured(262.31, 0.25)), length_text(Measured(None, reason="open"))
     ('262.3 mm', 'not measured (open)')
     """
-    return measured_text(replace(length, sd=None), "mm")
+    return measured_text(replace(length, sd=None, total_sd=None), "mm")
 
 
 def difference_text(measured: Measured) -> str:
