@@ -25,6 +25,7 @@ SPECS = {
     "high pointed": LastSpec(
         length_mm=250.0, heel_height_mm=60.0, toe_spring_mm=5.0, toe_shape="pointed", **SMALL
     ),
+    "upright instep": LastSpec(medial_wall=0.7, feather_inset=0.03, ridge_mm=16.0, **SMALL),
 }
 any_last = st.integers(0, 10**6).map(lambda seed: varied(np.random.default_rng(seed), **SMALL))
 
@@ -147,6 +148,17 @@ def test_the_sides_differ_where_a_foot_differs():
     medial = waist[np.abs(waist[:, 1] - centre - 0.7 * half_mm) < 2, 2].min()
     lateral = waist[np.abs(waist[:, 1] - centre + 0.7 * half_mm) < 2, 2].min()
     assert medial > lateral + 0.8 * spec.arch_mm  # measured: 1.55
+
+
+def test_an_upright_medial_wall_leaves_the_lateral_one():
+    """At the instep the medial side gets fuller; the heel and the lateral wall stay."""
+    leaning, upright = (last_mesh(LastSpec(medial_wall=w, **SMALL))[0] for w in (0.0, 0.7))
+    change = np.linalg.norm(upright - leaning, axis=1)
+    instep = np.abs(leaning[:, 0] - 0.5 * 270) < 0.05 * 270
+    medial = leaning[:, 1] > lasts.centre_line_mm(LastSpec(), np.array([0.5]))[0, 1] + 9.0
+    assert change[instep & medial].max() > 5.0  # measured: 11.3
+    assert change[leaning[:, 0] < 0.09 * 270].max() < EXACT
+    assert change[instep & (leaning[:, 1] < -9.0)].max() < EXACT
 
 
 @pytest.mark.parametrize("heel_mm", [0.0, 25.0, 40.0])

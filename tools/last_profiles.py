@@ -78,6 +78,11 @@ def crest_shape(
     return keep(s), power(s), swing
 
 
+def wall_window(s: Floats) -> Floats:
+    """How far the medial wall may stay upright, per station (n,): 0 at the heel, 1 ahead of it."""
+    return eased((s - 0.10) / 0.18)
+
+
 @dataclass(frozen=True, slots=True)
 class SideView:
     """The last seen from the side, lying on its sole; functions of the station.
@@ -157,12 +162,18 @@ THICKNESS = (  # of the forepart over the sole's middle, at stations
 
 
 def side_view(
-    draft: Draft, *, cone: float, cone_length: float, fullness: float = 1.0, shaft: float = 0.0
+    draft: Draft,
+    *,
+    cone: float,
+    cone_length: float,
+    fullness: float = 1.0,
+    shaft: float = 0.0,
+    sole_crown: float = 1.0,
 ) -> SideView:
     """The side view of a drafted last, laid onto its sole.
 
     The forepart is ``fullness`` times as thick as usual; ``shaft`` is the height of a boot's shaft
-    over the seat, 0 for none.
+    over the seat, 0 for none. The sole's bulge is ``sole_crown`` times as deep as usual.
     """
     x = np.linspace(0.0, 1.0, 1001)
     drafted = drafted_bottom(x, draft)
@@ -183,7 +194,8 @@ def side_view(
         [0.0, 0.15, 0.42, 0.60, 0.72, 0.85, 1.0], [0.074, 0.074, 0.070, 0.062, 0.056, 0.046, 0.038]
     )
     crown = PchipInterpolator(
-        [0.0, 0.15, 0.42, 0.66, 0.85, 1.0], [0.010, 0.010, 0.005, 0.012, 0.009, 0.007]
+        [0.0, 0.15, 0.42, 0.66, 0.85, 1.0],
+        sole_crown * np.array([0.010, 0.010, 0.005, 0.012, 0.009, 0.007]),
     )
 
     def bottom_at(at: Floats) -> Floats:

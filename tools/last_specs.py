@@ -25,8 +25,11 @@ class LastSpec:
 
     ``waist_cut_mm``, ``joint_bulge_mm`` and ``toe_turn_deg`` shape the planted centre line.
     ``arch_mm`` (the medial feather line's rise at the waist), ``arch_cut_mm`` (how far it goes
-    in under the widest row), ``ridge_mm`` (the instep ridge's way to the medial side) and
-    ``fullness`` (the forepart's thickness over the usual) do not.
+    in under the widest row), ``ridge_mm`` (the instep ridge's way to the medial side),
+    ``fullness`` (the forepart's thickness over the usual), ``medial_wall`` (0: at the instep both
+    walls lean alike, 1: the medial one stays upright), ``feather_inset`` (how far the feather line
+    lies inside the widest row, over the half width) and ``sole_crown`` (the sole's bulge over the
+    usual) do not.
 
     The side view: ``seat_pitch`` is the slope of the seat over the mean slope from seat to tread
     (0: the seat is level), ``break_station`` is where the shank meets the tread and
@@ -63,6 +66,9 @@ class LastSpec:
     shaft_mm: float = 0.0
     cone_width: float = 0.31
     level_tread: bool = False
+    medial_wall: float = 0.0
+    feather_inset: float = 0.10
+    sole_crown: float = 1.0
     side: Literal["left", "right"] = "right"
     rings: int = 160
     segments: int = 110

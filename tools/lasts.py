@@ -35,7 +35,17 @@ from dataclasses import dataclass
 import numpy as np
 
 from footfit.geometry.numeric.arrays import Floats, Ints
-from tools.last_profiles import Draft, SideView, Widths, bell, crest_shape, eased, side_view, widths
+from tools.last_profiles import (
+    Draft,
+    SideView,
+    Widths,
+    bell,
+    crest_shape,
+    eased,
+    side_view,
+    wall_window,
+    widths,
+)
 from tools.last_specs import LastSpec, graded, plain, share, varied
 
 __all__ = [
@@ -249,6 +259,9 @@ def _upper(straight: _Straight, sign: float, count: int) -> Floats:
     s = _along(straight, rise, np.zeros_like(rise))
     spec = straight.spec
     keep, power, ridge = crest_shape(straight.s, spec.cone_length, spec.cone_width)
+    if sign > 0:
+        upright = spec.medial_wall * wall_window(straight.s)
+        keep, power = keep + upright * (1.0 - keep), power + upright * (3.0 - power)
     taper = 1.0 - (1.0 - keep[:, None]) * rise**1.6 * (1.5 - 0.5 * rise)
     d = straight.half[:, None] * taper * np.sqrt(1.0 - rise ** power[:, None])
     swing = share(straight.spec, "ridge_mm") * ridge[:, None] * rise**2
@@ -264,7 +277,7 @@ def _feather(straight: _Straight, sign: float) -> tuple[Floats, Floats]:
     """Half width and height of the feather line of one side, per station (n,)."""
     s = straight.s
     waist = bell(s, 0.43, 0.11) if sign > 0 else 0.25 * bell(s, 0.45, 0.11)
-    inside = 0.10 + 0.02 * bell(s, 0.68, 0.10)
+    inside = straight.spec.feather_inset + 0.02 * bell(s, 0.68, 0.10)
     cut = share(straight.spec, "arch_cut_mm") * waist / np.maximum(straight.half, 0.05)
     level = straight.spec.level_tread  # then at the tread both edges lie on the ground
     behind = 1.0 - eased((s - 0.48) / 0.16) if level else 1.0
@@ -308,6 +321,7 @@ def _side_view(spec: LastSpec) -> SideView:
         cone_length=spec.cone_length,
         fullness=spec.fullness,
         shaft=share(spec, "shaft_mm"),
+        sole_crown=spec.sole_crown,
     )
 
 
