@@ -173,3 +173,11 @@ def test_a_toe_that_rises_over_the_instep_is_not_within_the_tape() -> None:
         girths(low)["heel_girth_instep"], rel=0.05
     )
     assert tape.section(high).points[:, 0].max() < tape.reach_mm + 5.0
+
+
+def test_a_plane_that_runs_through_the_whole_forepart_gives_no_girth() -> None:
+    """A short flat last, bent to 110 mm with upright sections: its toe rises over its instep."""
+    flat, faces = last_mesh(replace(SPEC, length_mm=255.0, heel_height_mm=0.0))
+    folded = Shape(at_rest(bent(flat, 255.0, 110.0)), faces, "last")
+    taken = measure_named("heel_girth_instep").value_of(folded)
+    assert (taken.value, taken.reason) == (None, "the forepart is in the tape's way")
