@@ -146,6 +146,9 @@ def test_an_upgrade_measures_what_is_missing_with_any_number_of_jobs(
         for name in catalogue.names():
             assert str(catalogue.record(name)) == str(other.record(name))
             assert str(catalogue.sections(name)) == str(other.sections(name))
+            stands = catalogue.record(name).standing_transform
+            assert stands[2, 2] == pytest.approx(np.cos(np.arcsin(stands[2, 0])))
+            assert catalogue.record(name).stance_by == "shape"
     assert upgrade(older).recomputed == ()
 
 

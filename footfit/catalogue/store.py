@@ -12,7 +12,7 @@ from footfit.catalogue.file.copying import copy_into
 from footfit.catalogue.file.engine import SETTINGS, CatalogueFile, sqlite_errors_in_words
 from footfit.catalogue.file.migrate import Revisions, Schema
 from footfit.catalogue.file.opening import open_for_reading, open_for_writing
-from footfit.catalogue.rows.columns import FLARE, LAST, MEASURE, MESH_COPY, SECTION, Table
+from footfit.catalogue.rows.columns import FLARE, FRAME, LAST, MEASURE, MESH_COPY, SECTION, Table
 from footfit.catalogue.rows.records import mesh_copy_of, record_of, sections_of
 from footfit.catalogue.rows.reference_last import (
     express,
@@ -52,6 +52,9 @@ from footfit.results import (
     RenameOutcome,
     ShapeSections,
 )
+
+STANCE_COLUMNS = ("standing_transform", "ground_sd_deg", "stance_by")
+"""What a frame has that is measured again."""
 
 
 @contextmanager
@@ -301,6 +304,8 @@ class Catalogue:
             key = intact_last(driver, last_id(driver, record.labels.name)).id
             for table in (FLARE, MEASURE):
                 write_owned(connection, key, table, record)
+            stance = {name: FRAME.row(record)[name] for name in STANCE_COLUMNS}
+            update_row(connection, FRAME, key, stance)
             if sections is not None:
                 write_sealed(connection, key, SECTION, sections)
             seal(connection, key)

@@ -45,6 +45,9 @@ class LastRecord:
     left last) to the reference's frame by the paper's Eq. 8, from the printed frames; None if
     there is no reference.
     ``extent_mm`` is how far the mesh reaches along X; definitions are scaled by it.
+    ``standing_transform`` (4, 4) takes the canonical right frame to the standing one, whose ground
+    is sure to ``ground_sd_deg``; ``stance_by`` is "label" or "shape". They are None if it is not
+    known how the last stands.
     ``upgraded_from`` names the older flare definition that this profile replaces.
     """
 
@@ -61,6 +64,9 @@ class LastRecord:
     measures: tuple[Measure, ...]
     warnings: tuple[Notice, ...]
     upgraded_from: str | None = None
+    standing_transform: Floats | None = None
+    ground_sd_deg: float | None = None
+    stance_by: str | None = None
 
     @property
     def length(self) -> Measured:
@@ -142,6 +148,9 @@ class StoredLast(Document):
             "upgraded_from": record.upgraded_from,
             "measures": measures_part(record.measures),
             "transform": record.canonical_transform,
+            "standing_transform": record.standing_transform,
+            "ground_sd_deg": record.ground_sd_deg,
+            "stance_by": record.stance_by,
             "paper_transform": record.paper_transform,
             "paper_frame_angle_deg": self.paper_frame_angle_deg,
             **record.eigenframe.to_dict(),

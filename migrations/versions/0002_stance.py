@@ -40,4 +40,7 @@ def upgrade() -> None:
         op.add_column("last", sa.Column(name, sa.Float))
     for name in ("total_sd", "bias"):
         op.add_column("measure", sa.Column(name, sa.Float))
+    op.add_column("frame", sa.Column("standing_transform", sa.LargeBinary))
+    op.add_column("frame", sa.Column("ground_sd_deg", sa.Float))
+    op.add_column("frame", sa.Column("stance_by", sa.String))
     _sections()

@@ -219,6 +219,9 @@ FRAME = _owned(
     Column("pose_sole", FLAG, "pose.sole"),
     Column("pose_kind", TEXT, "pose.kind", choice("foot", "last")),
     Column("length_mm", REAL, "extent_mm", rules.LENGTH),
+    Column("standing_transform", TRANSFORM, "standing_transform", nullable=True),
+    Column("ground_sd_deg", REAL, "ground_sd_deg", number(0.0), nullable=True),
+    Column("stance_by", TEXT, "stance_by", choice("label", "shape"), nullable=True),
 )
 """How the last lies: its exact and its printed eigenframe, both transforms, its pose.
 

@@ -135,7 +135,9 @@ def new_last(
     target = len(faces) if keep_mesh == "full" else COPY_FACES
     copy = compact_copy(shape.aligned.vertices_mm, faces, target)
     prepared = shape.aligned.prepared
-    sections = kept_sections(prepared.vertices_mm, prepared.faces, prepared.pose.kind)
+    sections = kept_sections(
+        prepared.vertices_mm, prepared.faces, prepared.pose.kind, prepared.standing
+    )
     return NewLast(sha256, last_record(shape, entry.labels), copy, sections)
 
 

@@ -8,6 +8,8 @@ from pathlib import Path
 
 from footfit.catalogue.store import Catalogue, open_catalogue
 from footfit.geometry.flare.definition import FlareDefinition, FlareProfile
+from footfit.geometry.measures.landmarks import Shape
+from footfit.geometry.numeric.arrays import Floats
 from footfit.geometry.stance.stance import stance_of
 from footfit.pipeline.batch.runs import HERE, outcomes
 from footfit.pipeline.library.lasts import has_other_measures
@@ -15,8 +17,15 @@ from footfit.pipeline.scan.flare import shape_flare
 from footfit.pipeline.scan.kept_sections import kept_sections
 from footfit.pipeline.scan.measure import shape_measures
 from footfit.pipeline.scan.preparation import stored_shape
-from footfit.pipeline.scan.standing import stance_labels
-from footfit.results import LastRecord, Measure, Notice, ShapeSections, UpgradeOutcome
+from footfit.pipeline.scan.standing import last_stance, stance_labels
+from footfit.results import (
+    LastRecord,
+    LastStance,
+    Measure,
+    Notice,
+    ShapeSections,
+    UpgradeOutcome,
+)
 
 AT_A_TIME = 256
 """Mesh copies that are held in memory; each is 60 kB, or a few MB if the whole mesh is kept."""
@@ -39,6 +48,8 @@ class MeasuredAgain:
     measures: tuple[Measure, ...]
     flare: FlareProfile | None
     sections: ShapeSections
+    stance: LastStance | None
+    standing_transform: Floats | None
 
 
 def upgrade(path: Path, jobs: int = HERE) -> UpgradeOutcome:
@@ -105,7 +116,13 @@ def _renew(
         if new is None:
             yield record.labels.name, f"{record.labels.name!r} stays as it is: {outcome.error}"
             continue
-        record = replace(record, measures=new.measures)
+        record = replace(
+            record,
+            measures=new.measures,
+            standing_transform=new.standing_transform,
+            ground_sd_deg=None if new.stance is None else new.stance.ground_sd_deg,
+            stance_by=None if new.stance is None else new.stance.decided_by,
+        )
         if new.flare is not None:
             old = record.flare.definition.version
             record = replace(record, flare=new.flare, upgraded_from=old)
@@ -119,4 +136,10 @@ def _measured_again(mesh: StoredMesh) -> MeasuredAgain:
     stance = stance_of(*right, kind, stance_labels(mesh.record.labels))
     flare = shape_flare(*right, kind, stance) if mesh.reprofile else None
     measures = shape_measures(*right, kind, stance)
-    return MeasuredAgain(measures, flare, kept_sections(*right, kind))
+    return MeasuredAgain(
+        measures,
+        flare,
+        kept_sections(*right, kind, stance),
+        last_stance(Shape(*right, kind, stance)),
+        None if stance is None or kind == "foot" else stance.standing_transform,
+    )

@@ -150,4 +150,7 @@ def last_record(shape: Profiled, labels: LastLabels) -> LastRecord:
         flare=flare,
         measures=shape.measures,
         warnings=notices,
+        standing_transform=alignment.standing_transform if kind == "last" else None,
+        ground_sd_deg=None if alignment.stance is None else alignment.stance.ground_sd_deg,
+        stance_by=None if alignment.stance is None else alignment.stance.decided_by,
     )
