@@ -33,6 +33,8 @@ PAGE, CSV, TERMINAL = "page", "csv", "terminal"
 MARKS = {"good": "●", "acceptable": "▲", "poor": "■", "reject": "✕", None: "–"}
 """The shape that stands for a verdict, for whom the colours say nothing."""
 
+UNKNOWN_HEEL = "the heel of the last is not known"
+
 SAID = "said"
 """Begins the name of a fact that stands somewhere in a sentence of its own."""
 
@@ -411,13 +413,28 @@ def comparison_facts(comparison: Comparison) -> Iterator[Fact]:
     delta = last.flare.angle_deg - comparison.foot.flare.angle_deg
     mirrored = "mirrored" if comparison.mirrored else None
     lengths = [plain(foot.length_mm), plain(last.length_mm)]
-    lengths += [signed(last.length_mm - foot.length_mm), signed(delta)]
+    room, heel = comparison.toe_room, comparison.heel
+    turn = {} if heel is None else dict(heel.changes)
+    delta -= turn.get("flare_angle", Measured(0.0)).value
+    spread = None if room.sd is None else plain(room.sd)
+    known = [signed(room.value), spread] if room.value is not None else ["not known"]
+    lengths += [*known, signed(delta)]
     names = [_file(comparison.foot), last.labels.name]
     side = foot.side.side
     yield fact("title", names, PAGE)
     yield fact("lead", [side, mirrored, *lengths], PAGE)
     yield fact(f"{SAID} title", [names[0], side, names[1], mirrored], TERMINAL)
     yield fact(f"{SAID} lengths", lengths, TERMINAL)
+    yield from heel_facts(heel)
+    numbers = [mm(room.value), mm(room.sd), room.reason or ""]
+    yield from _compare_csv(comparison, ("whole", "length", "toe_room"), ["mm", "", "", *numbers])
+    if heel is not None:
+        cells = ["mm", "", "", mm(heel.drop_mm), "", "" if heel.drop_mm else UNKNOWN_HEEL]
+        yield from _compare_csv(comparison, ("heel", "last", "drop"), cells)
+        for name, change in heel.changes:
+            unit = "deg" if name == "flare_angle" else "mm"
+            cells = [unit, "", "", mm(change.value), mm(change.sd), ""]
+            yield from _compare_csv(comparison, ("heel", name, "change"), cells)
     for number, notice in enumerate(comparison.warnings, 1):
         yield fact(f"note {number}", notice.message, PAGE)
     yield from room_facts(comparison, "room 1", area=True, where=PAGE)
@@ -443,6 +460,24 @@ def comparison_facts(comparison: Comparison) -> Iterator[Fact]:
         for name, value in areas.items():
             cells = ["cm2", "", "", csv_number(value, 1), "", ""]
             yield from _compare_csv(comparison, ("zone", zone.zone, name), cells)
+
+
+def heel_facts(heel: HeelChange | None) -> Iterator[Fact]:
+    """The sentence of what the heel changes; only for a change of 1 mm of length, or unproven."""
+    changes = {} if heel is None else dict(heel.changes)
+    length_mm = changes["length"].value if "length" in changes else 0.0
+    if heel is None or heel.drop_mm is None:
+        return
+    if abs(length_mm) < 1.0 and not heel.unproven and not heel.length_only:
+        return
+    said: list[object] = [f"{heel.drop_mm:.0f}"]
+    for name in ("length", "ball_girth", "flare_angle"):
+        value = changes[name].value if name in changes else 0.0
+        if abs(value) >= 0.5 and (name == "length" or not heel.length_only):
+            said.append(plain(abs(value)))
+    said += ["unproven model"] if heel.unproven else []
+    said += ["only the length is judged"] if heel.length_only else []
+    yield fact(f"{SAID} in the heel", said, PAGE, TERMINAL)
 
 
 def _compare_csv(

@@ -60,6 +60,7 @@ COMMANDS: dict[str, str] = {
         for name in ("dress", "sport", "child", "safety")
     },
     "compare": f"compare {OTHER} derby-40 --catalogue {CATALOGUE}",
+    "compare as scanned": f"compare {OTHER} derby-40 --catalogue {CATALOGUE} --as-scanned",
     "compare with a left last": f"compare {FOOT} trainer-42 --catalogue {CATALOGUE}",
     "list-lasts": f"list-lasts --catalogue {CATALOGUE}",
     "show-last": f"show-last trainer-41 --catalogue {CATALOGUE}",

@@ -15,13 +15,21 @@ from footfit.geometry.mesh.surface import vertex_areas, vertex_normals
 from footfit.meshes.write import encoded_mesh
 from footfit.pipeline.batch.sources import ReadingOptions, Source
 from footfit.pipeline.drawables import best_comparisons
-from footfit.pipeline.fit.compare import best_comparison, compared, repeatability_mm, stored_last
-from footfit.pipeline.fit.match import matched
+from footfit.pipeline.fit.compare import (
+    best_comparison,
+    compared,
+    repeatability_mm,
+    stored_last,
+    with_surface_clearance,
+)
+from footfit.pipeline.fit.heel_model import heel_question
+from footfit.pipeline.fit.match import Question, matched
 from footfit.pipeline.library.lasts import library
 from footfit.pipeline.scan.reading import profiled_source
+from footfit.results.heel import AS_SCANNED
 from tests import answers
 from tests.answers import turned
-from tests.bounds import ROUNDING
+from tests.bounds import EXACT, ROUNDING
 from tests.comparisons import comparison, last
 from tests.scans import aligned_of
 from tools.lasts import LastSpec, last_mesh
@@ -108,6 +116,54 @@ def test_a_match_is_shown_in_its_best_last(scan, stocked):
     assert best_comparison(stocked, replace(match, candidates=(gone,))) is None
 
 
+# ---------------------------------------------------------------- the foot in the heel
+
+
+def test_a_comparison_says_what_a_match_says(scan, stocked):
+    """One number for one thing: toe room, flare, what the heel changes, and the surfaces."""
+    lasts = library(stocked)
+    for heel in (heel_question(), heel_question(scanned_at_drop_mm=60.0), AS_SCANNED):
+        match = matched([scan], lasts, Question(top=0, by="flare", heel=heel))
+        chosen = {c.last: c for c in match.candidates if c.last in (LAST, "derby-40")}
+        shown = replace(match, candidates=tuple(chosen.values()))
+        for candidate in with_surface_clearance(shown, stocked).candidates:
+            found = compared(scan, stored_last(stocked, candidate.last), heel)
+            assert found.toe_room == dict(candidate.clearance_mm)["length"]
+            assert found.flare_delta_deg == pytest.approx(candidate.flare.delta_deg, abs=EXACT)
+            assert found.heel == candidate.fits[0].heel
+            assert found.zones == candidate.surfaces[0].zones
+
+
+def test_the_page_of_a_match_shows_the_foot_that_was_ranked(scan, stocked):
+    for heel in (heel_question(), AS_SCANNED):
+        match = matched([scan], library(stocked), Question(heel=heel))
+        (best,) = best_comparisons(stocked, match)
+        first = (match.candidates or match.nearest)[0]
+        assert best.heel == first.fits[0].heel
+        assert best.toe_room == dict(first.clearance_mm)["length"]
+
+
+def test_a_heel_makes_the_foot_of_a_comparison_narrower_and_its_sizes_less_sure(scan, stocked):
+    last_shape = stored_last(stocked, LAST)
+    labels = replace(last_shape.record.labels, heel_height_mm=80.0)
+    high = replace(last_shape, record=replace(last_shape.record, labels=labels))
+    raised, flat = (compared(scan, high, heel) for heel in (heel_question(), AS_SCANNED))
+    for there, here in zip(raised.sections, flat.sections, strict=True):
+        width, as_scanned = there.sizes[0].foot, here.sizes[0].foot
+        if there.station not in ("heel", "toes"):  # the planes move along the foot a little
+            shares = (1.0 - 0.016, 1.0 - 0.008)
+            assert shares[0] < width.value / as_scanned.value < shares[1], there.station
+        assert width.sd == pytest.approx(np.hypot(as_scanned.sd, 0.015 * width.value), abs=EXACT)
+    assert raised.heel.unproven
+    assert flat.heel is None
+    rows = {(row["part"], row["place"], row["quantity"]): row for row in raised.rows()}
+    assert rows["heel", "last", "drop"]["difference"] == 80.0
+    assert rows["heel", "length", "change"]["difference"] == pytest.approx(
+        -0.015 * scan.length_mm, abs=0.001
+    )
+    assert not [row for row in flat.rows() if row["part"] == "heel"]
+
+
 # ---------------------------------------------------------------- the command
 
 
@@ -135,8 +191,9 @@ def test_a_last_can_be_a_file(footfit, foot, stocked):
     from tests.conftest import SAMPLES
 
     path = SAMPLES / "lasts" / f"{LAST}.stl"
-    by_file = footfit("compare", foot, path, "--json").document
-    by_name = footfit("compare", foot, LAST, "--json", "--catalogue", stocked).document
+    scanned = ("--json", "--as-scanned")  # a file has no labelled heel
+    by_file = footfit("compare", foot, path, *scanned).document
+    by_name = footfit("compare", foot, LAST, *scanned, "--catalogue", stocked).document
     assert by_file["last"] == LAST
     for zone, figures in by_name["zones"].items():
         assert by_file["zones"][zone]["mean_mm"] == pytest.approx(figures["mean_mm"], abs=ROUNDING)

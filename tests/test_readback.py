@@ -283,7 +283,22 @@ COMPARISONS = {
     "right in right": lambda: comparison(path="r.stl"),
     "left in right": lambda: comparison(True, False, "l.stl"),
     "moved": lambda: moved(comparison(path="r.stl")),
+    "in a heel": lambda: heeled(comparison(path="r.stl"), 47.3, length_only=False),
+    "in a heel too high": lambda: heeled(comparison(path="r.stl"), 112.4, length_only=True),
+    "as scanned": lambda: replace(comparison(path="r.stl"), heel=None),
+    "no toe room": lambda: replace(
+        comparison(path="r.stl"), toe_room=Measured(None, None, "the toes are open")
+    ),
 }
+
+
+def heeled(known: Comparison, drop_mm: float, *, length_only: bool) -> Comparison:
+    """A comparison with a last that has a heel; no two numbers are alike."""
+    values = {"length": -2.27, "ball_width": -0.83, "ball_girth": 1.19, "flare_angle": 1.61}
+    sds = iter((1.7, 1.1, 2.3, 0.9))
+    changes = tuple((name, Measured(value, next(sds))) for name, value in values.items())
+    heel = HeelChange(drop_mm, 3.3, "flat-to-heel/1", 0.57, True, length_only, changes)
+    return replace(known, heel=heel, toe_room=Measured(12.61, 1.74))
 
 
 @pytest.mark.parametrize("name", list(COMPARISONS))

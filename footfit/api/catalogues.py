@@ -9,12 +9,12 @@ from typing import TYPE_CHECKING, Any, Self, Unpack
 
 from footfit import results
 from footfit.api.inputs import (
+    CompareKeywords,
     Feet,
     FilePath,
     IngestKeywords,
     MatchKeywords,
     Meshes,
-    ReadingKeywords,
     Shape,
     heel_options,
     reading_options,
@@ -118,7 +118,7 @@ class Catalogue:
         return customers(sources(feet), reading, library, asked, pair=pair, jobs=jobs)
 
     def compare(
-        self, foot: Shape, last: str, **reading: Unpack[ReadingKeywords]
+        self, foot: Shape, last: str, **reading: Unpack[CompareKeywords]
     ) -> results.Comparison:
         """A foot in a stored last.
 
@@ -132,7 +132,7 @@ class Catalogue:
         from footfit.pipeline.fit.compare import compared, stored_last
 
         around = stored_last(self.path, last)
-        return compared(profiled_shape(foot, reading), around)
+        return compared(profiled_shape(foot, reading), around, heel_options(reading))
 
     def _question(self, question: MatchKeywords) -> Question:
         from footfit.pipeline.fit.fit_profile import fit_profile

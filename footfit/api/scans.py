@@ -8,11 +8,13 @@ from functools import partial
 from typing import Any, TypeVar, Unpack
 
 from footfit.api.inputs import (
+    CompareKeywords,
     Mesh,
     Meshes,
     ReadingKeywords,
     ScaleKeywords,
     Shape,
+    heel_options,
     reading_options,
     source_of,
 )
@@ -116,7 +118,7 @@ def curvature(
     return surface_curvature(read(mesh, **scale), radius_mm)
 
 
-def compare(foot: Shape, last: Mesh, **reading: Unpack[ReadingKeywords]) -> Comparison:
+def compare(foot: Shape, last: Mesh, **reading: Unpack[CompareKeywords]) -> Comparison:
     """A foot in a last that has a file of its own; for a stored last see `Catalogue.compare`.
 
     Raises
@@ -126,7 +128,8 @@ def compare(foot: Shape, last: Mesh, **reading: Unpack[ReadingKeywords]) -> Comp
     """
     from footfit.pipeline.fit.compare import compared, scanned_last
 
-    return compared(flare(foot, **reading), scanned_last(source_of(last, {}), ReadingOptions()))
+    heel, around = heel_options(reading), scanned_last(source_of(last, {}), ReadingOptions())
+    return compared(profiled_shape(foot, reading), around, heel)
 
 
 def sources(meshes: Meshes, *, split: bool = False, **reading: Any) -> list[Source]:

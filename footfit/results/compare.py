@@ -5,7 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from footfit.results.values import Document, Json, Part, fields, json_number, part, rows
+from footfit.results.heel import FLARE, HeelChange
+from footfit.results.values import Document, Json, Measured, Part, fields, json_number, part, rows
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
@@ -15,7 +16,7 @@ if TYPE_CHECKING:
     from footfit.geometry.numeric.arrays import Floats, Ints
     from footfit.results.last_record import LastRecord
     from footfit.results.profile import Profiled
-    from footfit.results.values import Measured, Notice, SideName
+    from footfit.results.values import Notice, SideName
 
 
 def zone_part(zone: ZoneClearance) -> Json:
@@ -79,6 +80,8 @@ class SurfaceClearance(Part):
 class Comparison(Document):
     """A foot in a last, both as right shapes in the last's frame, mm.
 
+    ``heel`` is what the last's heel changes of the foot; None for a foot that is taken as scanned.
+    The surfaces and sections are of the foot as it is in the heel. ``toe_room`` is that of a match.
     ``vertices_mm`` (n, 3) and ``faces`` (m, 3) are the foot in its place, ``clearance_mm`` (n,) its
     clearance at each vertex, NaN where no shoe covers the foot; ``last_vertices_mm`` and
     ``last_faces`` are the last. ``mirrored``: the last is of the other side.
@@ -96,6 +99,8 @@ class Comparison(Document):
     zones: tuple[ZoneClearance, ...]
     sections: tuple[SectionComparison, ...]
     warnings: tuple[Notice, ...]
+    toe_room: Measured
+    heel: HeelChange | None = None
 
     columns = (
         *("path", "last", "part", "place", "quantity", "unit"),
@@ -103,14 +108,11 @@ class Comparison(Document):
     )
 
     @property
-    def longer_mm(self) -> float | None:
-        """How much longer the last is than the foot; None if one length is not known."""
-        return _longer_mm(self.foot.length_mm, self.last.length_mm)
-
-    @property
     def flare_delta_deg(self) -> float:
-        """The flare angles' difference, last minus foot."""
-        return self.last.flare.angle_deg - self.foot.flare.angle_deg
+        """The flare angles' difference: the last minus the foot as it is in the heel."""
+        turn = None if self.heel is None else self.heel.change_of(FLARE)
+        turn_deg = 0.0 if turn is None or turn.value is None else turn.value
+        return self.last.flare.angle_deg - self.foot.flare.angle_deg - turn_deg
 
     schema = "compare/2"
 
@@ -124,7 +126,9 @@ class Comparison(Document):
             "mirrored": self.mirrored,
             "length_mm": _lengths_part(alignment.length_mm, self.last.length_mm),
             "extent_mm": _lengths_part(alignment.extent_mm, self.last.extent_mm),
+            "toe_room_mm": self.toe_room,
             "flare_delta_deg": self.flare_delta_deg,
+            "heel": self.heel,
             "docking": part(fields(self.placement, "hinge_mm", "hinge_length_mm")),
             "zones": zones_part(self.zones),
             "sections": self.sections,
@@ -132,9 +136,14 @@ class Comparison(Document):
         }
 
     def rows(self) -> list[Json]:
-        """A table: a row for each size of each section, and for each figure of each zone."""
+        """A table: a row for the toe room and for each change in the heel, for each size of each
+        section, and for each figure of each zone.
+        """
         start = (self.foot.aligned.alignment.info.path, self.last.labels.name)
-        values: list[tuple[object, ...]] = []
+        values: list[tuple[object, ...]] = [
+            (*start, *head, None, None, known["value"], known["sd"], known["reason"])
+            for head, known in self._whole()
+        ]
         for section in self.sections:
             for size in section.sizes:
                 place = (*start, "section", section.station, size.name, "mm")
@@ -147,6 +156,17 @@ class Comparison(Document):
                 place = (*start, "zone", zone.zone, quantity, unit)
                 values.append((*place, None, None, value, None, None))
         return rows(self.columns, values)
+
+    def _whole(self) -> list[tuple[tuple[str, str, str, str], Json]]:
+        """What rows say of the whole foot: where they stand, and what they say."""
+        heads = [(("whole", "length", "toe_room", "mm"), self.toe_room)]
+        if self.heel is not None:
+            drop = Measured(self.heel.drop_mm, reason="the heel of the last is not known")
+            heads.append((("heel", "last", "drop", "mm"), drop))
+            for name, change in self.heel.changes:
+                unit = "deg" if name == FLARE else "mm"
+                heads.append((("heel", name, "change", unit), change))
+        return [(head, known.to_dict()) for head, known in heads]
 
 
 def _longer_mm(foot_mm: float | None, last_mm: float | None) -> float | None:

@@ -29,7 +29,7 @@ def compare(
     *,
     lasts: options.Lasts,
     force: bool = options.FORCE,
-    reading: options.Reading,
+    reading: options.FootReading,
     mode: options.OutputMode,
 ) -> None:
     """Put a foot into a last and measure the clearance in mm, zone by zone and section by section.

@@ -10,6 +10,7 @@ from footfit import results
 from footfit.catalogue.store import open_catalogue
 from footfit.errors import CatalogueDamaged, NoSole, UnknownLast
 from footfit.geometry.fit.clearance import ZoneClearance, foot_clearance, zone_clearances
+from footfit.geometry.fit.foot_in_heel import foot_in_heel
 from footfit.geometry.fit.paired_sections import SIZES, SectionPair, section_pairs
 from footfit.geometry.fit.placement import Placement, placed, placement
 from footfit.geometry.measures.landmarks import Shape
@@ -17,6 +18,9 @@ from footfit.geometry.measures.measure_table import measure_named
 from footfit.geometry.measures.measure_value import MeasureValue
 from footfit.geometry.numeric.arrays import Floats
 from footfit.pipeline.batch.sources import ReadingOptions, Source
+from footfit.pipeline.fit.heel_model import heel_question
+from footfit.pipeline.fit.heels import Heels, heel_change, heels_of, share_sd, surface_change
+from footfit.pipeline.fit.zones import toe_room
 from footfit.pipeline.scan.measure import last_record
 from footfit.pipeline.scan.preparation import stored_shape
 from footfit.pipeline.scan.reading import profiled_source
@@ -29,6 +33,14 @@ SD_FROM = {
     "girth": "instep_girth",
 }
 """The measure that is taken like a section's size, and so has the same repeatability."""
+HEEL_SD_FROM = {
+    "width": "ball_width",
+    "medial": "ball_width",
+    "lateral": "ball_width",
+    "height": "arch_height",
+    "girth": "instep_girth",
+}
+"""The rule of the heel model whose standard deviation a section's size of the foot has."""
 FAR_MM = 40.0
 """Six sizes: with such a difference a comparison says nothing of a fit."""
 
@@ -81,8 +93,8 @@ class PlacedFoot:
     zones: tuple[ZoneClearance, ...]
 
 
-def placed_foot(foot: results.Profiled, last: LastShape) -> PlacedFoot:
-    """A foot, placed in a last.
+def placed_foot(foot: results.Profiled, last: LastShape, heels: Heels) -> PlacedFoot:
+    """A foot, placed in a last as it is in the last's heel, which is the first of ``heels``.
 
     Raises
     ------
@@ -90,21 +102,29 @@ def placed_foot(foot: results.Profiled, last: LastShape) -> PlacedFoot:
         One of the two has no bottom to rest on.
     """
     vertices_mm, faces = foot.aligned.prepared.vertices_mm, foot.aligned.prepared.faces
+    if heels.share[0]:
+        vertices_mm = foot_in_heel(Shape(vertices_mm, faces), surface_change(heels, 0))
     place = placement(Shape(vertices_mm, faces), last.shape)
     inside = Shape(placed(vertices_mm, place), faces)
     clearance_mm = foot_clearance(inside, last.shape)
     return PlacedFoot(inside, place, clearance_mm, zone_clearances(inside, clearance_mm))
 
 
-def compared(foot: results.Profiled, last: LastShape) -> results.Comparison:
+def compared(
+    foot: results.Profiled, last: LastShape, heel: results.HeelQuestion | None = None
+) -> results.Comparison:
     """Place a foot in a last and measure the clearance around it, by surface and by section.
+
+    Without a ``heel`` question the foot was scanned flat, and is taken as it is in the last's heel.
 
     Raises
     ------
     NoSole
         One of the two has no bottom to rest on.
     """
-    inside = placed_foot(foot, last)
+    heels = heels_of(heel_question() if heel is None else heel, [last.record])
+    inside = placed_foot(foot, last, heels)
+    pairs = section_pairs(inside.foot, last.shape)
     return results.Comparison(
         foot=foot,
         last=last.record,
@@ -116,8 +136,10 @@ def compared(foot: results.Profiled, last: LastShape) -> results.Comparison:
         last_faces=last.shape.faces,
         clearance_mm=inside.clearance_mm,
         zones=inside.zones,
-        sections=tuple(_section(pair) for pair in section_pairs(inside.foot, last.shape)),
+        sections=tuple(_section(pair, heels) for pair in pairs),
         warnings=_warnings(foot, last.record),
+        toe_room=toe_room(foot, last.record, heels),
+        heel=heel_change(heels, 0, foot),
     )
 
 
@@ -130,7 +152,7 @@ def best_comparison(path: Path, match: results.Match, foot: int = 0) -> results.
     if not lasts:
         return None
     try:
-        return compared(match.feet[foot], stored_last(path, lasts[0].last))
+        return compared(match.feet[foot], stored_last(path, lasts[0].last), match.heel)
     except (CatalogueDamaged, NoSole, UnknownLast):
         return None
 
@@ -160,27 +182,29 @@ def with_surface_clearance(match: results.Match, path: Path) -> results.Match:
     """
     return replace(
         match,
-        candidates=tuple(_with_clearance(last, match.feet, path) for last in match.candidates),
-        nearest=tuple(_with_clearance(last, match.feet, path) for last in match.nearest),
+        candidates=tuple(_with_clearance(last, match, path) for last in match.candidates),
+        nearest=tuple(_with_clearance(last, match, path) for last in match.nearest),
     )
 
 
 def _with_clearance(
-    candidate: results.Candidate, feet: tuple[results.Profiled, ...], path: Path
+    candidate: results.Candidate, match: results.Match, path: Path
 ) -> results.Candidate:
     try:
         last = stored_last(path, candidate.last)
     except (CatalogueDamaged, UnknownLast) as error:
-        surfaces = tuple(_unknown(foot, str(error)) for foot in feet)
+        surfaces = tuple(_unknown(foot, str(error)) for foot in match.feet)
     else:
-        surfaces = tuple(surface_clearance(foot, last) for foot in feet)
+        surfaces = tuple(surface_clearance(foot, last, match.heel) for foot in match.feet)
     return replace(candidate, surfaces=surfaces)
 
 
-def surface_clearance(foot: results.Profiled, last: LastShape) -> results.SurfaceClearance:
+def surface_clearance(
+    foot: results.Profiled, last: LastShape, heel: results.HeelQuestion
+) -> results.SurfaceClearance:
     """The clearance by zone of one foot in one last, as ``compare`` says it."""
     try:
-        inside = placed_foot(foot, last)
+        inside = placed_foot(foot, last, heels_of(heel, [last.record]))
     except NoSole as error:
         return _unknown(foot, str(error))
     side = foot.aligned.alignment.side.side
@@ -194,26 +218,31 @@ def _unknown(foot: results.Profiled, reason: str) -> results.SurfaceClearance:
 # ---------------------------------------------------------------- sections
 
 
-def _section(pair: SectionPair) -> results.SectionComparison:
+def _section(pair: SectionPair, heels: Heels) -> results.SectionComparison:
+    sizes = (_size(name, pair.foot_sizes[name], pair.last_sizes[name], heels) for name in SIZES)
     return results.SectionComparison(
         station=pair.station.name,
         x_mm=pair.x_mm,
         foot_outline=pair.foot.loops,
         last_outline=pair.last.loops,
-        sizes=tuple(_size(name, pair.foot_sizes[name], pair.last_sizes[name]) for name in SIZES),
+        sizes=tuple(sizes),
     )
 
 
-def _size(name: str, foot: MeasureValue, last: MeasureValue) -> results.SizeDifference:
+def _size(
+    name: str, foot: MeasureValue, last: MeasureValue, heels: Heels
+) -> results.SizeDifference:
     """One size of a section; + is space, so a lateral edge's difference is towards -Y."""
     sd = repeatability_mm(name)
-    here, there = (_measured(value, sd) for value in (foot, last))
+    model_sd = share_sd(heels, 0, HEEL_SD_FROM[name]) * abs(foot.value or 0.0)
+    here, there = _measured(foot, math.hypot(sd, model_sd)), _measured(last, sd)
     if here.value is None or there.value is None:
         reason = here.reason if here.value is None else there.reason
         return results.SizeDifference(name, here, there, results.Measured(None, reason=reason))
     more = there.value - here.value
     outward = -more if name == "lateral" else more
-    return results.SizeDifference(name, here, there, results.Measured(outward, math.hypot(sd, sd)))
+    spread = math.hypot(sd, sd, model_sd)
+    return results.SizeDifference(name, here, there, results.Measured(outward, spread))
 
 
 def _measured(value: MeasureValue, sd: float) -> results.Measured:

@@ -3,12 +3,21 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
 
 import numpy as np
 
+from footfit.geometry.fit.foot_in_heel import SurfaceChange
 from footfit.geometry.numeric.arrays import Bools, Floats
-from footfit.results import HeelChange, HeelModel, HeelQuestion, LastRecord, Measured, Profiled
+from footfit.results import (
+    HeelChange,
+    HeelModel,
+    HeelQuestion,
+    HeelRule,
+    LastRecord,
+    Measured,
+    Profiled,
+)
 from footfit.results.heel import FLARE
 
 SAME_DROP_MM = 5.0
@@ -51,9 +60,7 @@ def full_change(model: HeelModel | None, foot: Profiled, measure: str) -> tuple[
     """How a foot's measure changes at the model's full drop, and the standard deviation of that:
     in mm, or in degrees for the flare angle. It is 0 where the model has no rule.
     """
-    rule = None if model is None else model.rule_of(measure)
-    if rule is None:
-        return 0.0, 0.0
+    rule = _rule_of(model, measure)
     size = 1.0 if measure == FLARE else _value_mm(foot, measure)
     return rule.change * size, rule.sd * size
 
@@ -78,6 +85,27 @@ def heel_change(heels: Heels, row: int, foot: Profiled) -> HeelChange | None:
         length_only=bool(heels.length_only[row]),
         changes=tuple(changes),
     )
+
+
+def surface_change(heels: Heels, row: int) -> SurfaceChange:
+    """How the surface of any foot changes in the heel of one last."""
+    return SurfaceChange(
+        **{
+            field.name: float(heels.share[row]) * _rule_of(heels.question.model, field.name).change
+            for field in fields(SurfaceChange)
+        }
+    )
+
+
+def share_sd(heels: Heels, row: int, measure: str) -> float:
+    """The standard deviation, as a share, of how a measure changes in the heel of one last."""
+    return abs(float(heels.share[row])) * _rule_of(heels.question.model, measure).sd
+
+
+def _rule_of(model: HeelModel | None, measure: str) -> HeelRule:
+    """The rule of a measure, or one that changes nothing."""
+    rule = None if model is None else model.rule_of(measure)
+    return rule or HeelRule(measure, 0.0, 0.0, "", "")
 
 
 def _value_mm(foot: Profiled, measure: str) -> float:

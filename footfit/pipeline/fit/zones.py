@@ -152,6 +152,19 @@ def clearances(
     return Clearances(value, foot_sd, last_sd, heel_sd, _with_length_only(reasons, columns, heels))
 
 
+def toe_room(foot: Profiled, last: LastRecord, heels: Heels) -> Measured:
+    """The toe room of one foot in one last, whose heel is the first of ``heels``: the zone "length"
+    without a cavity.
+    """
+    room = _length(foot_shape(foot), last_shape(last))
+    if room.reason is not None:
+        return Measured(None, reason=room.reason)
+    share = float(heels.share[0])
+    change, sd = full_change(heels.question.model, foot, "length")
+    spread = math.hypot(room.foot_sd, room.last_sd, share * sd)
+    return Measured(room.value - share * change, spread)
+
+
 def is_length(column: Column) -> bool:
     """Is this the column of a toe room?"""
     return column.rule.zone == "length"

@@ -6,7 +6,12 @@ from rich.console import Group, RenderableType
 from rich.text import Text
 
 from footfit.report.terminal.scan_tables import lined_table
-from footfit.report.wording.comparison_words import SIZE_HEADS, lengths_words, swing_words
+from footfit.report.wording.comparison_words import (
+    SIZE_HEADS,
+    change_words,
+    lengths_words,
+    swing_words,
+)
 from footfit.report.wording.text import difference_text, file_name, plain, signed, visible
 from footfit.results import Comparison
 
@@ -16,6 +21,7 @@ def compare_table(comparison: Comparison) -> RenderableType:
     return Group(
         _headline(comparison),
         Text(lengths_words(comparison)),
+        *([Text(change_words(comparison))] if change_words(comparison) else []),
         Text(swing_words(comparison)),
         Text(),
         Text("Room between foot and last, by zone"),

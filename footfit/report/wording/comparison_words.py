@@ -5,8 +5,16 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 
 from footfit.geometry.fit.clearance import CLEARANCE
-from footfit.report.wording.text import file_name, length_text, plain, signed, visible
+from footfit.report.wording.text import (
+    difference_text,
+    file_name,
+    length_text,
+    plain,
+    signed,
+    visible,
+)
 from footfit.results import Comparison, SurfaceClearance
+from footfit.results.heel import FLARE, heel_words
 
 SIZE_HEADS = {
     "width": "width",
@@ -28,13 +36,19 @@ def comparison_names(comparison: Comparison) -> tuple[str, str]:
 
 
 def lengths_words(comparison: Comparison) -> str:
-    """The two lengths, and the differences in length and in flare."""
+    """The two lengths, the toe room, and the difference in flare."""
     foot, last = comparison.foot.aligned.alignment.length, comparison.last.length
-    longer = "" if comparison.longer_mm is None else f": {signed(comparison.longer_mm)} mm"
+    room = comparison.toe_room
+    words = "not known" if room.value is None else f"{difference_text(room)} mm"
     return (
-        f"foot {length_text(foot)}, last {length_text(last)}{longer}; "
+        f"foot {length_text(foot)}, last {length_text(last)}; toe room {words}; "
         f"flare {signed(comparison.flare_delta_deg)} deg"
     )
+
+
+def change_words(comparison: Comparison) -> str:
+    """What the heel of the last changes of the foot; empty if that is not worth a word."""
+    return heel_words(comparison.heel, ("length", "ball_girth", FLARE))
 
 
 def swing_words(comparison: Comparison) -> str:
