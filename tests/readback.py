@@ -18,6 +18,7 @@ import numpy as np
 
 from footfit import __version__
 from footfit.geometry.fit.sizes import foot_size, foot_sizes, system_named
+from footfit.geometry.flare.definition import FlareProfile
 from footfit.results import (
     Candidate,
     Comparison,
@@ -187,7 +188,7 @@ def foot_facts(match: Match, foot: Profiled, name: str) -> Iterator[Fact]:
     alignment, flare = foot.aligned.alignment, foot.flare
     side, pose = alignment.side, alignment.pose
     is_last = match.by == "shape" and pose.kind == "last"
-    word, turn = side.side or "undecided", [signed(flare.angle_deg), plain(flare.angle_sd_deg)]
+    word, turn = side.side or "undecided", turn_values(flare)
     yield fact(f"{name} title", ["last" if is_last else "foot", _file(foot)], PAGE)
     sure = "given" if side.source == "given" else side.confidence
     yield fact(f"{name} side", [word, sure], PAGE)
@@ -394,6 +395,11 @@ def measured_values(measured: Measured) -> list[str | None]:
         plain(measured.value),
         *(None if spread is None else plain(spread) for spread in (measured.sd, measured.total_sd)),
     ]
+
+
+def turn_values(flare: FlareProfile) -> list[str]:
+    spreads = flare.angle_sd_deg, flare.angle_total_sd_deg
+    return [signed(flare.angle_deg), *(plain(spread) for spread in spreads)]
 
 
 def _title(name: str) -> str:

@@ -27,6 +27,7 @@ from tests.readback import (
     mm,
     plain,
     signed,
+    turn_values,
 )
 
 SPREADS = "the spread of a second scan of the same shape"
@@ -64,8 +65,8 @@ def flare_facts(shape: Profiled) -> Iterator[Fact]:
     alignment, flare = shape.aligned.alignment, shape.flare
     yield fact("title", alignment.info.path, TERMINAL)
     yield fact("side", [alignment.side.side, *side_values(alignment)], TERMINAL)
-    turn = [signed(flare.angle_deg), plain(flare.angle_sd_deg), flare.flare_class]
-    yield fact("flare", turn, TERMINAL)
+    yield fact("flare", [*turn_values(flare), flare.flare_class], TERMINAL)
+    yield fact("±", SPREADS, TERMINAL)
     yield fact("length", plain(shape.length_mm), TERMINAL)
     yield fact("definition", flare.definition.version, TERMINAL)
     for channel, values in flare.curvature.items():
@@ -78,6 +79,7 @@ def flare_facts(shape: Profiled) -> Iterator[Fact]:
             "side": alignment.side.side or "",
             "flare_angle_deg": csv_number(flare.angle_deg, 3),
             "flare_angle_sd_deg": csv_number(flare.angle_sd_deg, 3),
+            "flare_angle_total_sd_deg": csv_number(flare.angle_total_sd_deg, 3),
             "class": flare.flare_class,
             "definition": flare.definition.version,
             "station": csv_number(station, 6),
@@ -176,7 +178,7 @@ def last_facts(last: StoredLast) -> Iterator[Fact]:
     off = []
     if check is not None and check.flagged:
         off = [plain(abs(check.off)), f"{system} {round(check.by_length)}"]
-    turn = [signed(flare.angle_deg), plain(flare.angle_sd_deg), flare.flare_class]
+    turn = [*turn_values(flare), flare.flare_class]
     rows: dict[str, list[object]] = {
         "title": [labels.name],
         "style": [labels.style or "-"],

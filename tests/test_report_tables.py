@@ -72,7 +72,7 @@ def test_a_long_name_is_folded_and_not_cut() -> None:
 
 def test_the_match_says_what_a_fitter_asks() -> None:
     text = terminal_text(match_tables.match_table(answers.match()), 100)
-    assert "right foot, 260.0 mm long, flare +10.0 ± 0.2 deg (straight)" in text
+    assert "right foot, 260.0 mm long, flare +10.0 ± 0.2 deg, total ± 0.4 (straight)" in text
     assert "derby, EU 42 G" in text
     assert "+11.5" in text
     assert "toe room" in text

@@ -26,6 +26,7 @@ def flare_part(flare: FlareProfile) -> Json:
         {
             "flare_angle_deg": flare.angle_deg,
             "flare_angle_sd_deg": flare.angle_sd_deg,
+            "flare_angle_total_sd_deg": flare.angle_total_sd_deg,
             "class": flare.flare_class,
             "definition": exact(fields(flare.definition)),
             "stations": flare.stations,
@@ -48,7 +49,8 @@ class Profiled(Document):
     unusual: tuple[Notice, ...] = ()
 
     columns = (
-        *("path", "side", "flare_angle_deg", "flare_angle_sd_deg", "class", "definition"),
+        *("path", "side", "flare_angle_deg", "flare_angle_sd_deg", "flare_angle_total_sd_deg"),
+        *("class", "definition"),
         *("station", "heading_deg", *CHANNELS),
     )
 
@@ -72,6 +74,7 @@ class Profiled(Document):
             alignment.side.side,
             flare.angle_deg,
             flare.angle_sd_deg,
+            flare.angle_total_sd_deg,
             flare.flare_class,
             flare.definition.version,
         )

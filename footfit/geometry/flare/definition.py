@@ -2,10 +2,17 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 
 from footfit.geometry.numeric.arrays import Floats
 
+ANOTHER_LINE_SD_DEG = 0.35
+"""How far the angle is from that of the line along which a generator bent its last.
+
+It is the root mean square over two families and all heels (benchmarks/heels.py): so far apart are
+lines that halve an outline equally well.
+"""
 CHANNELS = ("plan", "bottom_20", "bottom_50", "bottom_80", "bottom_surface")
 
 
@@ -106,7 +113,7 @@ class FlareProfile:
     ``heading_deg`` is the direction of the centre line, + towards medial; ``curvature`` maps
     each of ``CHANNELS`` to curvature times length (dimensionless), or None where it cannot be
     measured; ``centre_line`` is (n, 2), x and y in the plan of the canonical frame over the extent.
-    ``flare_class`` is None for a foot.
+    ``flare_class`` is None for a foot. ``angle_sd_deg`` is the spread of a second scan.
     """
 
     definition: FlareDefinition
@@ -117,6 +124,11 @@ class FlareProfile:
     heading_deg: Floats
     curvature: dict[str, Floats | None]
     centre_line: Floats
+
+    @property
+    def angle_total_sd_deg(self) -> float:
+        """The angle's standard deviation with what an outline leaves open of its centre line."""
+        return math.hypot(self.angle_sd_deg, ANOTHER_LINE_SD_DEG)
 
 
 def flare_class(angle_deg: float, kind: str, definition: FlareDefinition) -> str | None:

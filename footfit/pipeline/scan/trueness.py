@@ -37,7 +37,54 @@ class Trueness(NamedTuple):
     bias: float
 
 
-TRUENESS: dict[str, dict[str, Trueness]] = {"last": {}, "foot": {}}
+TRUENESS: dict[str, dict[str, Trueness]] = {
+    "last": {
+        "length": Trueness(0.35, -0.27),
+        "functional_length": Trueness(0.38, -0.30),
+        "ball_length": Trueness(0.75, 0.24),
+        "ball_width": Trueness(0.42, -0.34),
+        "ball_width_orthogonal": Trueness(0.27, -0.32),
+        "ball_girth": Trueness(0.94, -0.71),
+        "waist_girth": Trueness(0.25, -0.25),
+        "instep_girth": Trueness(0.40, -0.43),
+        "long_heel_girth": Trueness(0.61, -0.43),
+        "short_heel_girth": Trueness(4.11, -1.34),
+        "ball_girth_least": Trueness(0.90, -0.17),
+        "waist_girth_least": Trueness(0.79, 0.30),
+        "instep_girth_least": Trueness(0.22, 0.07),
+        "heel_girth_instep": Trueness(1.77, 0.20),
+        "heel_width": Trueness(0.00, -0.06),
+        "arch_height": Trueness(0.39, 0.10),
+        "instep_height": Trueness(0.33, 0.06),
+        "toe_height": Trueness(0.53, 0.27),
+        "toe_spring": Trueness(0.77, -0.78),
+        "heel_height": Trueness(0.00, 0.41),
+        "bottom_width_ball": Trueness(1.77, 1.28),
+        "bottom_width_heel": Trueness(0.35, -0.32),
+        "tape_length": Trueness(0.85, -0.64),
+    },
+    "foot": {
+        "length": Trueness(0.21, -0.26),
+        "functional_length": Trueness(0.22, -0.24),
+        "ball_length": Trueness(0.78, 0.80),
+        "ball_width": Trueness(0.27, -0.16),
+        "ball_width_orthogonal": Trueness(0.28, -0.31),
+        "ball_girth": Trueness(0.75, -0.57),
+        "waist_girth": Trueness(0.04, -0.22),
+        "instep_girth": Trueness(0.24, -0.29),
+        "long_heel_girth": Trueness(0.40, -0.05),
+        "short_heel_girth": Trueness(0.00, -0.35),
+        "ball_girth_least": Trueness(0.53, -0.15),
+        "waist_girth_least": Trueness(0.00, 0.07),
+        "instep_girth_least": Trueness(0.00, 0.02),
+        "heel_girth_instep": Trueness(0.48, 0.45),
+        "heel_width": Trueness(0.00, -0.11),
+        "arch_height": Trueness(0.62, -0.49),
+        "instep_height": Trueness(0.67, -0.60),
+        "toe_height": Trueness(0.00, -0.15),
+        "toe_spring": Trueness(0.00, -0.18),
+    },
+}
 """By kind and measure; the table of docs/measures.md shows the families it comes from."""
 
 

@@ -25,6 +25,7 @@ FILTERS = (
     text.class_words,
     text.signed,
     text.tie_words,
+    text.turn_words,
     comparison_words.change_words,
     comparison_words.lengths_words,
     comparison_words.surfaces_words,

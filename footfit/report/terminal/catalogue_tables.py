@@ -24,6 +24,7 @@ from footfit.report.wording.text import (
     plain,
     signed,
     size_text,
+    turn_words,
     visible,
 )
 
@@ -76,7 +77,7 @@ def show_last_table(last: results.StoredLast) -> RenderableType:
     record, reference = last.record, last.reference
     labels, flare, info = record.labels, record.flare, record.info
     upgraded = f", upgraded from {record.upgraded_from}" if record.upgraded_from else ""
-    turned = f"{signed(flare.angle_deg)} ± {plain(flare.angle_sd_deg)} deg{class_words(flare)}"
+    turned = f"{turn_words(flare, 'deg')}{class_words(flare)}"
     return facts(
         ("style", cell(labels.style)),
         ("size", _size_row(record)),

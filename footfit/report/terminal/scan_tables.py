@@ -23,6 +23,7 @@ from footfit.report.wording.text import (
     measured_text,
     plain,
     signed,
+    turn_words,
     visible,
 )
 from footfit.results.profile import spread_part
@@ -131,6 +132,7 @@ def flare_table(profiled: results.Profiled) -> RenderableType:
         ("flare", Text(flare_words(profiled), "bold")),
         ("length", length_text(alignment.length)),
         ("definition", flare.definition.version),
+        ("±", Text(SPREADS, "dim")),
     ]
     for channel, values in flare.curvature.items():
         rows.append((channel, "not measurable" if values is None else _range_words(values)))
@@ -140,8 +142,7 @@ def flare_table(profiled: results.Profiled) -> RenderableType:
 def flare_words(profiled: results.Profiled) -> str:
     """The flare angle with its uncertainty, and the class of a last."""
     flare = profiled.flare
-    angle, spread = signed(flare.angle_deg), plain(flare.angle_sd_deg)
-    return f"{angle} ± {spread} deg{class_words(flare)}"
+    return f"{turn_words(flare, 'deg')}{class_words(flare)}"
 
 
 def _range_words(values: Sequence[float] | object) -> str:

@@ -134,6 +134,12 @@ def difference_text(measured: Measured) -> str:
     return f"{signed(measured.value)}{spread}"
 
 
+def turn_words(flare: FlareProfile, unit: str) -> str:
+    """The flare angle with both its uncertainties."""
+    turned = f"{signed(flare.angle_deg)} ± {plain(flare.angle_sd_deg)} {unit}"
+    return f"{turned}, total ± {plain(flare.angle_total_sd_deg)}"
+
+
 def angle_text(flare: FlareProfile) -> str:
     """The flare angle with its uncertainty."""
     return f"{signed(flare.angle_deg)}° ± {plain(flare.angle_sd_deg)}°"
