@@ -75,6 +75,7 @@ def test_a_check_beside_a_bad_mesh_has_the_code_of_different_failures(
         (("--profile", "none.toml"), 3, "give a fit profile"),
         (("--by", "shape", "--fail-under", "good"), 2, "judges no fit"),
         (("--fail-under", "superb"), 2, "superb"),
+        (("--as-scanned", "--scanned-at-drop", "20"), 2, "leave out one"),
     ],
 )
 def test_what_cannot_be_asked_is_refused_in_one_line(
