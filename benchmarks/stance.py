@@ -93,7 +93,8 @@ def at_rest(mesh: Any) -> tuple[Floats, Ints]:
     angle = -float(np.arctan2(below[1], below[0]))
     cosine, sine = np.cos(angle), np.sin(angle)
     turn = np.array([[cosine, 0.0, sine], [0.0, 1.0, 0.0], [-sine, 0.0, cosine]])
-    return points @ turn, np.array(mesh.faces)
+    resting = points @ turn
+    return resting - resting.min(axis=0) * [1.0, 0.0, 1.0], np.array(mesh.faces)
 
 
 def rows(count: int, seed: int) -> Iterator[list[str]]:

@@ -11,6 +11,7 @@ from footfit.results import (
     Alignment,
     CatalogueFacts,
     LastRecord,
+    Measured,
     MeasuredScan,
     Profiled,
     StoredLast,
@@ -43,21 +44,26 @@ def measured_facts(scan: MeasuredScan) -> Iterator[Fact]:
     yield fact("side", said, TERMINAL)
     yield fact("±", SPREADS, TERMINAL)
     for row in scan.measures:
-        known, name = row.measured, row.name.replace("_", " ")
+        known, name = row.measured, row.name.removesuffix("_deg").replace("_", " ")
         words = [known.reason] if known.value is None else measured_values(known)
         yield fact(name, words, TERMINAL)
+        is_angle = row.name.endswith("_deg")
         cells = {
             "side": side.side or "",
             "kind": alignment.pose.kind,
-            "value_mm": mm(known.value),
-            "sd_mm": mm(known.sd),
-            "total_sd_mm": mm(known.total_sd),
-            "bias_mm": mm(known.bias),
+            **{name: "" if is_angle else text for name, text in spreads("mm", known)},
             "reason": known.reason or "",
             "definition": row.definition,
+            **{name: text if is_angle else "" for name, text in spreads("deg", known)},
         }
         for column, text in cells.items():
             yield fact(f"{path} {row.name} {column}", text, CSV)
+
+
+def spreads(unit: str, known: Measured) -> list[tuple[str, str]]:
+    """The cells of a measured value in one unit."""
+    values = {"value": known.value, "sd": known.sd, "total_sd": known.total_sd, "bias": known.bias}
+    return [(f"{name}_{unit}", mm(value)) for name, value in values.items()]
 
 
 def flare_facts(shape: Profiled) -> Iterator[Fact]:

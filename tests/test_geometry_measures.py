@@ -10,9 +10,11 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from scipy.spatial import ConvexHull
 
 from footfit.geometry.measures.landmarks import Shape
 from footfit.geometry.measures.measure_table import BOTH, MEASURES, of_kind, unusual
+from footfit.geometry.stance.middle_line import low_points, turned
 from footfit.geometry.stance.stance import STANCE
 from tests.bounds import ROUNDING
 from tests.conftest import ROOT, SAMPLES
@@ -21,6 +23,7 @@ from tests.reading import read_scan
 from tests.scans import aligned, right_shape
 from tests.solids import capped
 from tests.strategies import seeds
+from tools.bent_lasts import bent
 from tools.last_specs import ToeShape
 from tools.lasts import LastSpec, half_width_mm, last_mesh, standing, true_heading_deg, varied
 
@@ -117,6 +120,52 @@ def test_a_toe_that_is_sprung_more_reads_more() -> None:
     )  # .68 of it is at .94 L; measured 0.46
 
 
+def test_a_last_is_measured_along_its_ground_and_its_bottom() -> None:
+    """The tip's feather edge is drafted, the tread lies where the shank ends and the toe begins."""
+    spec = replace(LEVEL, heel_height_mm=50.0, toe_spring_mm=8.0)
+    drafted = standing(spec)
+    vertices, faces = last_of(spec)
+    found = taken(vertices, faces, "last")
+    assert found["toe_spring_tip"] == pytest.approx(drafted.tip_mm, abs=1.0)  # measured .4
+    assert found["tread_from"] < 0.66 * found["stick_length"] < found["tread_to"]
+    x, z = drafted.middle_mm.T
+    run = x - x[0]
+    near = (run > 0.06 * run[-1]) & (run < 0.14 * run[-1])
+    pitch_deg = -np.degrees(np.arctan(np.polyfit(run[near], z[near], 1)[0]))
+    assert found["seat_angle_deg"] == pytest.approx(pitch_deg, abs=1.0)  # the ground's two sds
+    stands = turned(vertices, np.radians(drafted.pitch_deg))
+    stick_mm = np.ptp(stands[low_points(stands), 0])
+    assert found["stick_length"] == pytest.approx(stick_mm, abs=1.4)  # measured .7
+    overhang_mm = drafted.bottom_length_mm - found["bottom_length"]
+    assert 2.0 < overhang_mm < 8.0  # what the heel's back and the tip stand out over the feather
+
+
+@pytest.mark.parametrize("turning", [0.0, 1.0])
+def test_the_bottom_of_one_last_is_as_long_at_every_heel(turning: float) -> None:
+    """Its sections stay upright, or turn with the bottom: real bending lies between."""
+    spec = replace(LEVEL, length_mm=255.0, heel_height_mm=0.0, toe_spring_mm=6.0)
+    vertices, faces = last_of(spec)
+    stance = Shape(vertices, faces, "last").stance
+    assert stance is not None
+    transform = stance.standing_transform
+    flat = vertices @ transform[:3, :3].T + transform[:3, 3]
+    lengths = []
+    for heel_mm in (0.0, 60.0, 110.0):
+        raised = bent(flat, stance.length_mm, heel_mm, turning)
+        at_rest = resting(raised)
+        lengths.append(taken(at_rest, faces, "last")["bottom_length"])
+    assert np.ptp(lengths) < 2.0  # measured 1.6 and .7
+
+
+def resting(vertices: np.ndarray) -> np.ndarray:
+    """A standing last laid on its seat and its ball."""
+    hull = vertices[ConvexHull(vertices[:, [0, 2]]).vertices][:, [0, 2]]
+    edges = np.roll(hull, -1, axis=0) - hull
+    below = edges[np.argmax(np.where(edges[:, 0] > 0, edges[:, 0], 0.0))]
+    laid = turned(vertices, float(np.arctan2(below[1], below[0])))
+    return laid - laid.min(axis=0) * [1.0, 0.0, 1.0]
+
+
 def test_the_bottom_is_as_wide_as_from_feather_to_feather() -> None:
     """The generator draws the feather edge .10 of the half width in from the widest row, and
     .02 more at the ball, with no waist cut there.
@@ -143,7 +192,8 @@ def test_a_graded_shape_is_graded_in_every_measure(ratio: float) -> None:
             if isinstance(value, str):
                 assert other[name] == value
             else:
-                assert other[name] == pytest.approx(ratio * value, abs=ROUNDING), name
+                scale = 1.0 if name.endswith("_deg") else ratio
+                assert other[name] == pytest.approx(scale * value, abs=ROUNDING), name
 
 
 def test_a_subdivided_shape_measures_the_same() -> None:
@@ -291,7 +341,9 @@ def test_the_table_has_the_agreed_names_once_each() -> None:
     names = [entry.name for entry in MEASURES]
     assert len(set(names)) == len(names)
     lasts_only = {entry.name for entry in MEASURES if entry.kinds != BOTH}
-    assert lasts_only == {"bottom_width_ball", "bottom_width_heel", "tape_length"}
+    along = {"stick_length", "bottom_length", "toe_spring_tip", "tread_from", "tread_to"}
+    bottom = {"bottom_width_ball", "bottom_width_heel", "tape_length", "seat_angle_deg"}
+    assert lasts_only == along | bottom
     assert {entry.name for entry in of_kind("last")} == set(names)
 
 

@@ -23,6 +23,7 @@ from footfit.results import Scan
 from tests.distortions import moved, random_pose, white_noise
 from tests.reading import read_scan
 from tests.scans import aligned
+from tools.stance_picture import stance_picture
 from tools.tape_pictures import tape_pictures
 
 ROOT = Path(__file__).resolve().parents[1]
@@ -43,6 +44,7 @@ def pictures() -> dict[str, bytes]:
         "flare-last.png": png_bytes(flare_figure(profiled_scan(aligned(last)))),
         **curvature_pictures(foot, rng),
         **tape_pictures(),
+        "standing_last.png": stance_picture(),
     }
 
 

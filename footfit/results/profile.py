@@ -106,6 +106,7 @@ class MeasuredScan(Document):
     columns = (
         *("path", "side", "kind", "measure"),
         *("value_mm", "sd_mm", "total_sd_mm", "bias_mm", "reason", "definition"),
+        *("value_deg", "sd_deg", "total_sd_deg", "bias_deg"),
     )
 
     schema = "measure/1"
@@ -123,12 +124,12 @@ class MeasuredScan(Document):
         """The measures as a table: a row for each; one without a value has a reason."""
         alignment = self.alignment
         start = (alignment.info.path, alignment.side.side, alignment.pose.kind)
-        values = [
-            (*start, row.name, *spreads, taken.reason, row.definition)
-            for row in self.measures
-            for taken in (row.measured,)
-            for spreads in [(taken.value, taken.sd, taken.total_sd, taken.bias)]
-        ]
+        nothing, values = (None,) * 4, []
+        for row in self.measures:
+            taken = row.measured
+            spreads = (taken.value, taken.sd, taken.total_sd, taken.bias)
+            lengths, angles = (nothing, spreads) if row.unit == "deg" else (spreads, nothing)
+            values.append((*start, row.name, *lengths, taken.reason, row.definition, *angles))
         return rows(self.columns, values)
 
 

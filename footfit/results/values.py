@@ -178,6 +178,22 @@ class Measure:
     measured: Measured
     definition: str
 
+    @property
+    def unit(self) -> str:
+        """Either "deg", if the name ends so, or "mm"."""
+        return "deg" if self.name.endswith("_deg") else "mm"
+
+    @property
+    def words(self) -> str:
+        """The name in words, without its unit.
+
+        Examples
+        --------
+        >>> Measure("seat_angle_deg", NOT_YET, "seat_angle_deg/1").words
+        'seat angle'
+        """
+        return self.name.removesuffix("_deg").replace("_", " ")
+
 
 @dataclass(frozen=True, slots=True)
 class Notice(Part):

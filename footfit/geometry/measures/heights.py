@@ -77,3 +77,24 @@ def heel_height(shape: Shape) -> MeasureValue:
     if shape.stance is None or heel_mm is None:
         return MeasureValue(None, NO_SOLE.format(place="heel or the ball"))
     return MeasureValue(heel_mm, convention_sd=shape.stance.height_sd_mm(0.0))
+
+
+def toe_spring_tip(shape: Shape) -> MeasureValue:
+    """How high the middle of a last's bottom, drawn on to the tip, lies over the ground.
+
+    It is the toe spring of the trade; ``toe_spring`` is read further back.
+    """
+    tip_mm = None if shape.stance is None else shape.stance.tip_mm()
+    if shape.stance is None or tip_mm is None:
+        return MeasureValue(None, NO_SOLE.format(place="toes or the ball"))
+    sd_mm = shape.stance.height_sd_mm(shape.stance.length_mm)
+    return MeasureValue(tip_mm, convention_sd=sd_mm)
+
+
+def seat_angle_deg(shape: Shape) -> MeasureValue:
+    """How steeply the line of a last's seat falls towards the toe, in degrees from the ground."""
+    seat = None if shape.stance is None else shape.stance.seat_line()
+    if shape.stance is None or seat is None:
+        return MeasureValue(None, NO_SOLE.format(place="heel or the ball"))
+    sd_deg = float(np.degrees(shape.stance.ground_sd))
+    return MeasureValue(-float(np.degrees(np.arctan(seat[0]))), convention_sd=sd_deg)

@@ -18,7 +18,7 @@ BOTH, LAST = ("foot", "last"), ("last",)
 
 @dataclass(frozen=True, slots=True)
 class MeasureDefinition:
-    """An entry of the table; all measures are in mm.
+    """An entry of the table; a measure is in mm, or in degrees if its name ends in ``_deg``.
 
     The docstring of ``value_of`` is the definition, and ``version`` counts its changes. ``sd`` is
     the repeatability of the whole way from a scan, in any pose, with noise or ripple of 0.3 mm, or
@@ -68,6 +68,12 @@ MEASURES: tuple[MeasureDefinition, ...] = (
     MeasureDefinition(widths.bottom_width_ball, 1, 0.4, LAST),
     MeasureDefinition(widths.bottom_width_heel, 1, 0.2, LAST),
     MeasureDefinition(lengths.tape_length, 1, 0.25, LAST),
+    MeasureDefinition(lengths.stick_length, 1, 0.3, LAST),
+    MeasureDefinition(lengths.bottom_length, 1, 0.5, LAST),
+    MeasureDefinition(heights.toe_spring_tip, 1, 0.8, LAST),
+    MeasureDefinition(lengths.tread_from, 1, 2.0, LAST),
+    MeasureDefinition(lengths.tread_to, 1, 2.0, LAST),
+    MeasureDefinition(heights.seat_angle_deg, 1, 0.5, LAST),
 )
 
 

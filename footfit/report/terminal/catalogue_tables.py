@@ -101,7 +101,7 @@ def show_last_table(last: results.StoredLast) -> RenderableType:
 def _measures(record: results.LastRecord) -> list[tuple[str, str | Text]]:
     """Every stored measure except the length, which has its own row."""
     return [
-        (measure.name.replace("_", " "), cell(measured_text(measure.measured, "mm")))
+        (measure.words, cell(measured_text(measure.measured, measure.unit)))
         for measure in record.measures
         if measure.name != "length"
     ]

@@ -189,7 +189,7 @@ def measure_table(scan: results.MeasuredScan) -> RenderableType:
         ("side", f"{side_words(alignment.side)}, measured as a {alignment.pose.kind}")
     ]
     for measure in scan.measures:
-        words = cell(measured_text(measure.measured, "mm"))
-        rows.append((measure.name.replace("_", " "), words))
+        words = cell(measured_text(measure.measured, measure.unit))
+        rows.append((measure.words, words))
     rows.append(("±", Text(SPREADS, "dim")))
     return facts(*rows, title=alignment.info.path or "standard input")
