@@ -25,7 +25,10 @@ from footfit.results import (
     Profiled,
 )
 
-END_MEASURES = frozenset({"length", "functional_length", "tape_length", "ball_length"})
+END_MEASURES = frozenset(
+    ("length", "functional_length", "tape_length", "ball_length", "stick_length", "bottom_length")
+    + ("tread_from", "tread_to")
+)
 """What is counted from the pternion or to the toes."""
 
 
