@@ -25,10 +25,9 @@ from footfit.results import (
     Profiled,
 )
 
-END_MEASURES = frozenset(
-    ("length", "functional_length", "tape_length", "ball_length", "stick_length", "bottom_length")
-    + ("tread_from", "tread_to")
-)
+_ALONG_X = ("length", "functional_length", "tape_length", "ball_length")
+_ALONG_THE_GROUND = ("stick_length", "bottom_length", "tread_from", "tread_to")
+END_MEASURES = frozenset((*_ALONG_X, *_ALONG_THE_GROUND))
 """What is counted from the pternion or to the toes."""
 
 
