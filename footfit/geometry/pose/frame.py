@@ -21,6 +21,7 @@ from footfit.geometry.pose.resting_line import (
     heeled_share,
     resting_line,
     resting_plane,
+    thinned,
 )
 from footfit.geometry.pose.sole_plane import FLOOR, rim_plane, sole_plane, support
 
@@ -103,7 +104,8 @@ def length_of(points: Floats, ground: float, length: float, back_height: float) 
 
 
 def _sole_plane(sample: SurfaceSample, length: float, start: Plane) -> tuple[Plane, float]:
-    return sole_plane(sample, length, start), 0.0
+    """The sole plane; from the second round on the shape lies on it, to 1e-9 rad."""
+    return sole_plane(sample, length, start) if start is LEVEL else start, 0.0
 
 
 def _rim_plane(sample: SurfaceSample, length: float, _: Plane) -> tuple[Plane, float]:
@@ -112,12 +114,11 @@ def _rim_plane(sample: SurfaceSample, length: float, _: Plane) -> tuple[Plane, f
 
 def _last_plane(sample: SurfaceSample, length: float, start: Plane) -> tuple[Plane, float]:
     """The plane of a last, and how much of it is the resting plane of one with a raised heel."""
-    bottom = bottom_of(sample, length)
-    line = resting_line(bottom)
+    line = resting_line(bottom_of(thinned(sample), length))
     share = heeled_share(line, length)
     if line is None or share == 0.0:
-        return sole_plane(sample, length, start), 0.0
-    resting = resting_plane(bottom, line, length)
+        return _sole_plane(sample, length, start)
+    resting = resting_plane(bottom_of(sample, length), line, length)
     if share == 1.0:
         return resting, share
     low = sole_plane(sample, length, start)
@@ -138,7 +139,7 @@ def _settled(
         tilted, share = standing_plane(turned, length, plane)
         level = levelling(tilted.normal)
         plane = Plane(LEVEL.normal, tilted.offset)
-        axis = plan_axis(turned_sample(turned, level), plane.offset, length)
+        axis = plan_axis(turned.points @ level.T, sample.areas, plane.offset, length)
         rotation = about_z(axis) @ level @ rotation
         turned = turned_sample(sample, rotation)
     return rotation, plane, share
@@ -157,12 +158,12 @@ def about_z(axis: Floats) -> Floats:
     return np.array([[c, s, 0.0], [-s, c, 0.0], [0.0, 0.0, 1.0]])
 
 
-def plan_axis(sample: SurfaceSample, ground: float, length: float) -> Floats:
+def plan_axis(points: Floats, areas: Floats, ground: float, length: float) -> Floats:
     """The direction (2,) of the low part's longest plan extent, heel to toe: 2-D PCA by area."""
-    height = (sample.points[:, 2] - ground) / length
+    height = (points[:, 2] - ground) / length
     steepness = np.clip((height - FRAME.axis_height) / FRAME.axis_softness, -50, 50)
-    weights = sample.areas / (1 + np.exp(steepness))
-    plan = sample.points[:, :2]
+    weights = areas / (1 + np.exp(steepness))
+    plan = points[:, :2]
     away = plan - weights @ plan / weights.sum()
     axis = np.linalg.eigh((weights[:, None] * away).T @ away)[1][:, 1]
     return np.asarray(axis * np.where(axis[0] < 0, -1.0, 1.0))

@@ -27,6 +27,8 @@ class RestingSettings:
         Nor is one whose normal's z is above this.
     stations, share
         The side view's lower edge: the height below which this share of a station's points lie.
+    some_points : int
+        Of the whole surface: enough to find the line and the rise.
     contact_share : float
         Seat and tread touch the ground where this share of the area of their half lies below.
     width : float
@@ -42,6 +44,7 @@ class RestingSettings:
     stations: int = 64
     share: float = 0.03
     fewest_points: int = 3
+    some_points: int = 8000
     contact_share: float = 0.003
     width: float = 0.02
     levelling_rounds: int = 3
@@ -62,6 +65,12 @@ class RestingLine:
     contacts: Floats
     rise: float
     summit: float
+
+
+def thinned(sample: SurfaceSample) -> SurfaceSample:
+    """Every so many points of a sample, at most ``RESTING.some_points`` or twice as many."""
+    step = max(1, len(sample.areas) // RESTING.some_points)
+    return SurfaceSample(sample.points[::step], sample.normals[::step], sample.areas[::step])
 
 
 def bottom_of(sample: SurfaceSample, length: float) -> SurfaceSample:

@@ -23,6 +23,7 @@ class FloorSettings:
     narrowing_steps: int = 12
     final_steps: int = 15
     still: float = 1e-7
+    weightless: float = 6.2  # widths from the plane a point weighs less than 1e-16
     reach: float = 0.25  # a point that is higher cannot be sole
     support_height: float = 0.06
     rim_stations: int = 14
@@ -48,7 +49,10 @@ def sole_plane(sample: SurfaceSample, length: float, start: Plane = LEVEL) -> Pl
     narrowing = np.geomspace(FLOOR.tau_first, FLOOR.tau_last, FLOOR.narrowing_steps)
     widths = np.append(narrowing, np.full(FLOOR.final_steps, FLOOR.tau_last)) * length
     plane = start
-    for width in widths:
+    for step, width in enumerate(widths):
+        if step == FLOOR.narrowing_steps:
+            close = np.abs(plane.heights(points)) < FLOOR.weightless * width
+            points, normals, areas = columns(points[close]), columns(normals[close]), areas[close]
         weights = areas * np.exp(-((plane.heights(points) / width) ** 2))
         weights *= squareness(normals, plane.normal)
         if np.count_nonzero(weights) < 3:

@@ -6,6 +6,7 @@ Arrays are float32: the fit only chooses among poses, the frame is refined in fl
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -56,6 +57,15 @@ class Poses:
     def at(self, index: Ints | Bools) -> Poses:
         """The poses at an index array or mask."""
         return Poses(self.rotation[index], self.shift[index], self.scale[index])
+
+
+def joined_poses(parts: Sequence[Poses]) -> Poses:
+    """Batches of poses as one."""
+    return Poses(
+        np.concatenate([part.rotation for part in parts]),
+        np.concatenate([part.shift for part in parts]),
+        np.concatenate([part.scale for part in parts]),
+    )
 
 
 def posed_points(poses: Poses, points: Singles) -> Singles:
@@ -137,7 +147,8 @@ def _gauss_newton(poses: Poses, points: Singles, normals: Singles, template: Tem
     plane = template.normals[index]
     cosine = np.einsum("kni,kni->kn", turned, plane)
     costs = point_costs(away, cosine, q[..., 2])
-    bound = np.quantile(costs, FIT.icp_quantile, axis=1, method="lower")[:, None]
+    lower = int(FIT.icp_quantile * (costs.shape[1] - 1))  # as np.quantile
+    bound = np.partition(costs, lower, axis=1)[:, lower, None]
     weight = np.clip(cosine, FIT.normal_floor, 1.0)
     weight *= (costs <= bound) & (q[..., 2] <= FIT.icp_height)
     normal = _plane_part(q, away, plane, weight) + FIT.point_weight * _point_part(q, away, weight)

@@ -18,6 +18,7 @@ from footfit.geometry.search.icp import (
     Poses,
     forward_costs,
     icp_steps,
+    joined_poses,
     levelled_poses,
     reverse_cost,
     size_of,
@@ -157,9 +158,11 @@ class _Search:
         Lengths that would make nearly all of the mesh leg are not plausible.
         """
         settings = self.settings
-        corners = vertices[faces].reshape(-1, 3)
+        used = np.zeros(len(vertices), dtype=bool)
+        used[faces] = True
+        points = vertices if used.all() else vertices[used]
         # About the middle of the box float32 loses nothing, wherever the origin is.
-        centre = 0.5 * (corners.min(axis=0) + corners.max(axis=0))
+        centre = 0.5 * (points.min(axis=0) + points.max(axis=0))
         clouds = both_clouds(
             vertices - centre, faces, self.ends, settings.sample_points, settings.few_points
         )
@@ -217,7 +220,10 @@ class _Search:
             ]
             fitted.sort(key=lambda each: each[0])
             best = fitted[: self.settings.kept_poses]
-            result += [self._finished(pose, cloud, template) for _, pose, cloud in best]
+            for cloud in clouds:
+                mine = [pose for _, pose, owner in best if owner is cloud]
+                if mine:
+                    result += self._finished(joined_poses(mine), cloud, template)
         return result
 
     def rivals(self, candidates: list[_Candidate]) -> list[_Candidate]:
@@ -237,14 +243,15 @@ class _Search:
             poses = icp_steps(poses, cloud.few, cloud.few_normals, template, settings.rival_steps)
             costs = self._costs(poses, cloud, template)
             cheapest = np.argsort(costs, kind="stable")[: settings.rivals_finished]
-            result += [self._finished(poses.at(np.array([i])), cloud, template) for i in cheapest]
+            result += self._finished(poses.at(cheapest), cloud, template)
         return result
 
     def boots(self, candidates: list[_Candidate]) -> list[_Candidate]:
         """The boot, fitted from the best pose: it costs less than the foot if the shape is one."""
-        boot = self.templates[self.settings.boot_template :][:1]
+        if len(self.templates) <= self.settings.boot_template:
+            return []
         best = min(candidates, key=lambda each: each.cost)
-        return [self._finished(best.pose, best.cloud, template) for template in boot]
+        return self._finished(best.pose, best.cloud, self.templates[self.settings.boot_template])
 
     def _costs(
         self, poses: Poses, cloud: Cloud, template: Template, few: int | None = None
@@ -288,19 +295,23 @@ class _Search:
                 kept.append(int(place))
         return kept
 
-    def _finished(self, pose: Poses, cloud: Cloud, template: Template) -> _Candidate:
-        """One pose fitted with all points, and its cost both ways."""
+    def _finished(self, poses: Poses, cloud: Cloud, template: Template) -> list[_Candidate]:
+        """Poses of one cloud fitted with all points, and their costs both ways."""
         settings, points, normals = self.settings, cloud.many, cloud.many_normals
         some = slice(None, None, settings.final_stride)
-        pose = icp_steps(pose, points[some], normals[some], template, settings.final_steps)
-        forward = float(forward_costs(pose, points, normals, template)[0])
+        poses = icp_steps(poses, points[some], normals[some], template, settings.final_steps)
+        costs = forward_costs(poses, points, normals, template)
+        costs += cloud.implausible(poses, settings.upright)
         sought = template.normals[:, 2] >= settings.reverse_normal
         low = np.flatnonzero(sought & (template.points[:, 2] < settings.reverse_height))
         low = low[np.linspace(0, len(low) - 1, settings.reverse_points).astype(int)]
         sparse = template.points[low], template.normals[low]
-        back = reverse_cost(pose, points, normals, sparse, settings.reverse_share)
-        implausible = float(cloud.implausible(pose, settings.upright)[0])
-        return _Candidate(pose, template, cloud, forward + back + implausible)
+        result = []
+        for place, forward in enumerate(costs.tolist()):
+            pose = poses.at(np.array([place]))
+            back = reverse_cost(pose, points, normals, sparse, settings.reverse_share)
+            result.append(_Candidate(pose, template, cloud, forward + back))
+        return result
 
 
 def _turns() -> Singles:
