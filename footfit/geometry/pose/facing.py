@@ -30,7 +30,7 @@ def facing(vertices: Floats, faces: Ints) -> Facing:
     """Where the faces of a mesh look, on the whole."""
     vectors = area_vectors(vertices, faces)
     areas = row_lengths(vectors)
-    away = vertices[faces].mean(axis=1)
+    away = (vertices[faces[:, 0]] + vertices[faces[:, 1]] + vertices[faces[:, 2]]) / 3.0
     away -= areas @ away / areas.sum()
     distance = float(areas @ row_lengths(away))
     outward = float(np.einsum("ij,ij->", away, vectors))

@@ -40,6 +40,11 @@ class Openings:
         areas = np.array([_area_vector(vertices[rim]) for rim in rims]).reshape(-1, 3)
         return cls(rims, unit(areas))  # a rim that runs there and back looks nowhere
 
+    @classmethod
+    def none(cls) -> Openings:
+        """Those of a closed surface."""
+        return cls([], np.empty((0, 3)))
+
     def look_up_and_down(self, up: Floats) -> bool:
         """Whether each opening is that of a leg or a sole, if ``up`` (3,) is up."""
         return bool((np.abs(self.directions @ up) > OPENINGS.upright).all())

@@ -207,7 +207,7 @@ def _wound(
     vertices: Floats, faces: Ints, windows: Windows, looks: Facing, notices: tuple[Notice, ...]
 ) -> PosedShape:
     """One mesh, wound as it is, with its pose; first with lids on it if its sole seems missing."""
-    openings = Openings.of(vertices, faces)
+    openings = Openings.of(vertices, faces) if looks.one_way > PIECES.closed else Openings.none()
     pose = None
     if looks.one_way > PIECES.shell:
         pose = _pose_with_lids(vertices, faces, windows, openings)
