@@ -31,6 +31,7 @@ class FrameSettings:
     """Everything numeric of the refinement and the origin; lengths over L."""
 
     rounds: int = 2
+    still: float = 1e-4  # rad; after so small a turn another round moves the frame by 1e-9 rad
     axis_height: float = 0.15  # the plan axis is taken below, so that a leg does not move it
     axis_softness: float = 0.01
     length_height: float = 0.30
@@ -104,8 +105,7 @@ def length_of(points: Floats, ground: float, length: float, back_height: float) 
 
 
 def _sole_plane(sample: SurfaceSample, length: float, start: Plane) -> tuple[Plane, float]:
-    """The sole plane; from the second round on the shape lies on it, to 1e-9 rad."""
-    return sole_plane(sample, length, start) if start is LEVEL else start, 0.0
+    return sole_plane(sample, length, start), 0.0
 
 
 def _rim_plane(sample: SurfaceSample, length: float, _: Plane) -> tuple[Plane, float]:
@@ -117,7 +117,7 @@ def _last_plane(sample: SurfaceSample, length: float, start: Plane) -> tuple[Pla
     line = resting_line(bottom_of(thinned(sample), length))
     share = heeled_share(line, length)
     if line is None or share == 0.0:
-        return _sole_plane(sample, length, start)
+        return sole_plane(sample, length, start), 0.0
     resting = resting_plane(bottom_of(sample, length), line, length)
     if share == 1.0:
         return resting, share
@@ -140,8 +140,11 @@ def _settled(
         level = levelling(tilted.normal)
         plane = Plane(LEVEL.normal, tilted.offset)
         axis = plan_axis(turned.points @ level.T, sample.areas, plane.offset, length)
-        rotation = about_z(axis) @ level @ rotation
+        turn = about_z(axis) @ level
+        rotation = turn @ rotation
         turned = turned_sample(sample, rotation)
+        if np.abs(turn - np.eye(3)).max() < FRAME.still:
+            break
     return rotation, plane, share
 
 
