@@ -127,14 +127,16 @@ def test_a_scanned_plantar_sheet_is_refused(footfit, scans):
     assert json.loads(run.last_error)["code"] in ("half_scan", "not_a_foot")
 
 
-def test_a_foot_of_a_childs_length_is_asked_for_its_unit(footfit, tmp_path, bodies):
+def test_a_childs_foot_has_a_unit_and_a_smaller_one_is_asked_for_it(footfit, tmp_path, bodies):
     """The shape passes; only then is the unit the question."""
     vertices, faces = bodies["foot"]
     child = tmp_path / "child.stl"
     child.write_bytes(encoded_mesh(vertices * 0.5, faces, "stl"))
     run = footfit("align", child, "--json")
+    assert (run.code, json.loads(run.out)["units"]) == (0, "mm")
+    child.write_bytes(encoded_mesh(vertices * 0.3, faces, "stl"))
+    run = footfit("align", child, "--json")
     assert (run.code, json.loads(run.last_error)["code"]) == (3, "unknown_units")
-    assert footfit("align", child, "--units", "mm", "--json").code == 0
 
 
 def test_thousands_of_pieces_and_lone_triangles_end_in_a_word(footfit, tmp_path):

@@ -169,7 +169,7 @@ def _the_one_foot(body: _Body, alike: list[Piece], windows: Windows) -> PosedSha
     together = near_pieces(body.parts, best.vertices)
     if len(together) > 1:
         whole = _gathered(body, together, windows)
-        if whole.pose.accepted and whole.pose.cost <= best.pose.cost:
+        if whole.pose.accepted and whole.pose.cost <= best.pose.cost + PIECES.hinged:
             return whole
     return replace(best, notices=(*best.notices, _PIECES_REMOVED))
 
