@@ -46,6 +46,9 @@ class GroundSettings:
         line cut for its own ground.
     near_bandwidth : float
         Standard deviation of the local parabolas of the near slope, over the length.
+    bend_bandwidth : float
+        The same of the slope whose change tells what bends. It is wider, because noise of 0.3 mm
+        moved the weights, and so the heel, by up to 5 mm.
     near_reach : float
         Standard deviation of the weights about the tread's place, over the length.
     near_bend : float
@@ -74,8 +77,9 @@ class GroundSettings:
     near_window: tuple[float, float] = (0.45, 0.92)
     near_samples: int = 95
     near_bandwidth: float = 0.025
+    bend_bandwidth: float = 0.035
     near_reach: float = 0.03
-    near_bend: float = 0.5
+    near_bend: float = 0.8
     near_sd_deg: float = 0.5
     near_level_deg: float = 2.5
     fit_doubt: float = 4.0
@@ -192,7 +196,10 @@ def _near_slope(line: MiddleLine, ground: float, settings: GroundSettings) -> Cu
     bottom = sloped(line, arc, settings.near_bandwidth)
     if bottom is None:
         return None
-    bend = np.gradient(bottom.slope, arc)
+    smooth = sloped(line, arc, settings.bend_bandwidth)
+    if smooth is None:
+        return None
+    bend = np.gradient(smooth.slope, arc)
     off = (bottom.places(ground) - TREAD_FIT.tread[0]) / settings.near_reach
     weight = np.exp(-0.5 * (off**2 + (bend / settings.near_bend) ** 2))
     weight /= weight.sum()

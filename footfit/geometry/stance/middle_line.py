@@ -36,7 +36,7 @@ class MiddleLineSettings:
     sections : int
     """
 
-    places: tuple[float, ...] = (0.35, 0.50, 0.65)
+    places: tuple[float, ...] = (0.30, 0.35, 0.40, 0.45, 0.50, 0.55, 0.60, 0.65, 0.70)
     band: float = 0.10
     low: float = 0.13
     cells: int = 64
