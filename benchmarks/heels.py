@@ -91,15 +91,18 @@ def rows(count: int, seed: int) -> Iterator[list[str]]:
 
 
 def _errors(cases: list[Case]) -> list[str]:
-    off = []
+    off, total_sds = [], []
     for case in cases:
         standing = stance_of(*case.mesh, "last")
-        read = flare_profile(*case.mesh, stance=standing, kind="last").angle_deg
+        read = flare_profile(*case.mesh, stance=standing, kind="last")
         outline = flare_profile(*case.slab, ON_THE_FLAT, kind="last").angle_deg
-        off.append((read - outline, read - case.planted_deg))
+        off.append((read.angle_deg - outline, read.angle_deg - case.planted_deg))
+        total_sds.append(read.angle_total_sd_deg)
     rms, worst = np.sqrt(np.mean(np.square(off), axis=0)), np.abs(off).max(axis=0)
     pairs = zip(rms, worst, strict=True)
-    return [str(len(off)), *(f"{value:.2f}" for pair in pairs for value in pair)]
+    inside = np.mean(np.abs(off)[:, 1] <= 2.0 * np.array(total_sds))
+    figures = [f"{value:.2f}" for pair in pairs for value in pair]
+    return [str(len(off)), *figures, f"{100 * inside:.0f} %", f"{np.mean(total_sds) / rms[1]:.1f}"]
 
 
 def main() -> None:
@@ -110,6 +113,7 @@ def main() -> None:
     parser.add_argument("--write", action="store_true")
     options = parser.parse_args()
     heads = ["family", "heel mm", "lasts", "outline: RMS deg", "worst", "planted: RMS deg", "worst"]
+    heads += ["within 2 total", "total / RMS"]
     table = markdown(heads, list(rows(options.count, options.seed)))
     print(table)
     if options.write:
