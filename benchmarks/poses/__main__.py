@@ -106,7 +106,7 @@ def main() -> None:
         rows.append((case, result))
         if options.verbose or not is_plain(case, result):
             print(line(case, result), file=sys.stderr, flush=True)
-    text = markdown(HEADS, list(table(rows)))
+    text = f"{len(rows)} cases, seed {options.seed}:\n\n" + markdown(HEADS, list(table(rows)))
     print(text)
     if options.write:
         put("alignment.md", "poses", text)
