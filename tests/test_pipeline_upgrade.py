@@ -19,6 +19,8 @@ from footfit.geometry.flare.definition import FlareDefinition
 from footfit.pipeline.library.lasts import library
 from footfit.pipeline.library.upgrade import upgrade
 
+ON_THE_GROUND = ("heel_height", "toe_spring_tip", "tread_from", "tread_to", "bottom_length")
+
 
 def test_profiles_of_another_definition_are_recomputed_and_marked(catalogue: Path) -> None:
     with open_catalogue(catalogue, write=True) as opened:
