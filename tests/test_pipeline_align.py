@@ -376,6 +376,13 @@ def test_the_paper_methods_need_a_reference(last):
         aligned(scan_of(*last), method="paper")
 
 
+def test_a_reference_changes_nothing_of_footfits_own_frame(last, home):
+    turned = replace(reference_of(home), om_e=np.eye(3)[[1, 2, 0]])
+    found = aligned(scan_of(*last), reference=turned).alignment
+    assert np.array_equal(found.transform, found.canonical_transform)
+    assert np.array_equal(found.transform, home.transform)
+
+
 @pytest.mark.parametrize("left", [False, True])
 def test_the_paper_method_puts_a_last_on_itself(last, home, left):
     """With its own OM_E the consistent reading gives the canonical frame back."""

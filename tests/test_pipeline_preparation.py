@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from pathlib import Path
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -11,10 +12,12 @@ from footfit.geometry.mesh.holes import closed_mesh
 from footfit.geometry.mesh.topology import boundary_loops, is_closed
 from footfit.meshes.write import encoded_mesh
 from footfit.pipeline.batch.sources import ReadingOptions, Source
-from footfit.pipeline.scan import preparation
+from footfit.pipeline.scan import one_shape, preparation
 from footfit.pipeline.scan.flare import profiled_scan
 from footfit.pipeline.scan.measure import shape_measures
 from footfit.pipeline.scan.reading import profiled_source, split_sources
+from footfit.pipeline.scan.settled_unit import LENGTHS, length_notices
+from tests import shapes
 from tests.bounds import ROUNDING
 from tests.conftest import SAMPLES, Footfit
 from tests.distortions import mirrored, moved, random_pose, with_holes
@@ -155,3 +158,20 @@ def test_a_hole_hardly_moves_what_is_measured(foot_with_holes: Path) -> None:
     whole = scan_from_bytes((SAMPLES / "feet" / "mh007_R.stl").read_bytes())
     there, here = profiled_scan(aligned(whole)), profiled_scan(aligned(read_scan(foot_with_holes)))
     assert here.flare.angle_deg == pytest.approx(there.flare.angle_deg, abs=0.18)  # measured 0.12
+
+
+@pytest.mark.parametrize("costs", [(0.2, 0.5), (0.5, 0.2)])
+def test_if_faces_may_look_either_way_the_winding_that_fits_better_is_taken(monkeypatch, costs):
+    tried = iter(SimpleNamespace(pose=SimpleNamespace(cost=cost)) for cost in costs)
+    monkeypatch.setattr(one_shape, "_wound", lambda *_: next(tried))
+    chosen = one_shape._posed(*shapes.flat_sheet(), ((0.0, 1.0),), ())
+    assert chosen.pose.cost == 0.2
+    assert list(tried) == [], "both were tried"
+
+
+def test_only_a_length_outside_the_usual_ones_is_said():
+    least, most = LENGTHS.usual_mm
+    assert [length_notices(mm) for mm in (least, 260.0, most)] == [[], [], []]
+    for mm in (least - 1.0, most + 1.0):
+        (notice,) = length_notices(mm)
+        assert notice.code == "length_unusual"
