@@ -85,8 +85,8 @@ def test_measures_of_older_definitions_are_taken_anew_and_the_profile_stays(
     for before, after in zip(record.measures, again.measures, strict=True):
         assert (after.name, after.definition) == (before.name, before.definition)
         assert before.measured.value is not None
-        # of a mesh copy: measured 0.006, and 0.014 of the heel, which turns about the tread
-        within = 0.027 if after.name == "heel_height" else 0.0091
+        # of a mesh copy: measured 0.006, and 0.017 of what turns about the tread
+        within = 0.034 if after.name in ON_THE_GROUND else 0.0091
         assert after.measured.value == pytest.approx(before.measured.value, abs=within), after.name
     assert upgrade(catalogue).recomputed == ()
 
