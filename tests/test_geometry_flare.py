@@ -15,7 +15,7 @@ from hypothesis import strategies as st
 
 from footfit.errors import HalfScan
 from footfit.geometry.flare import levelled_bottom
-from footfit.geometry.flare.centre_line import centre_line
+from footfit.geometry.flare.centre_line import _Graph, _projected, centre_line
 from footfit.geometry.flare.definition import CHANNELS, FlareDefinition, flare_class
 from footfit.geometry.flare.flare_profile import flare_profile
 from footfit.geometry.flare.levelled_bottom import bottom_shape
@@ -412,3 +412,13 @@ def test_a_round_thing_has_no_flare():
     vertices, faces = shapes.sphere(60.0, 3)
     profile = flare_profile(vertices + np.array([0.0, 0.0, 60.0]), faces)
     assert profile.angle_deg == pytest.approx(0.0, abs=ROUNDING)
+
+
+@pytest.mark.parametrize("left", [0.6, 0.4, 0.25])
+def test_a_point_near_the_middle_of_a_bend_is_put_where_its_normal_meets_the_line(left):
+    """``left`` is how much of the way to the line's centre of curvature is still to go."""
+    x, bend, at = np.linspace(-1.0, 2.0, 30_001), 4.0, np.array([0.02, 0.05])
+    line = _Graph(x, 0.5 * bend * x**2, bend * x, np.full_like(x, bend))
+    aside = (1.0 - left) / bend
+    points = np.stack([at - bend * at * aside, 0.5 * bend * at**2 + aside], axis=1)
+    assert np.abs(_projected(points, line, FlareDefinition()) - at).max() < 9e-5  # measured 5e-5
