@@ -12,6 +12,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy.spatial import ConvexHull
 
+from footfit.geometry.measures.heights import toe_height
 from footfit.geometry.measures.landmarks import Shape
 from footfit.geometry.measures.measure_table import BOTH, MEASURES, of_kind, unusual
 from footfit.geometry.stance.middle_line import low_points, turned
@@ -361,3 +362,13 @@ def test_the_page_defines_every_measure() -> None:
     cells = [line.split("|")[1] for line in definitions.splitlines() if line.startswith("| `")]
     listed = [name for cell in cells for name in re.findall(r"`(\w+)`", cell)]
     assert listed == [entry.name for entry in MEASURES]
+
+
+def test_a_toe_that_is_open_has_no_height_but_a_reason() -> None:
+    vertices, faces = last_of()
+    middles = vertices[faces].mean(axis=1)
+    gone = (np.abs(middles[:, 0] - 0.92 * SPEC.length_mm) < 6.0) & (middles[:, 2] > 12.0)
+    height = toe_height(Shape(vertices, faces[~gone], "last"))
+    assert height.value is None
+    assert height.reason is not None
+    assert "open at the toes" in height.reason

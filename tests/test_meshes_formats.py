@@ -12,12 +12,13 @@ import trimesh
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from footfit.errors import BadOption, DamagedMesh, TooLarge
+from footfit.errors import BadOption, DamagedMesh, EmptyMesh, TooLarge
 from footfit.geometry.mesh.surface import area_vectors
 from footfit.meshes.formats import stl
 from footfit.meshes.formats.foreign import is_text, known_foreign, likeness
 from footfit.meshes.formats.known_formats import EXTENSIONS, FORMATS, raw_mesh
 from footfit.meshes.formats.ply import read_ply
+from footfit.meshes.formats.raw import RawMesh, checked_mesh
 from footfit.meshes.formats.threemf import is_3mf
 from footfit.meshes.formats.tokens import floats, text_lines
 from footfit.meshes.read_limits import LIMITS
@@ -247,3 +248,10 @@ def test_only_the_beginning_says_what_a_file_is():
     for before, behind in ((65_520, 99_999), (99_999, 65_530)):
         assert is_3mf(b"PK\3\4" + bytes(before - 4) + name + bytes(behind))
     assert not is_3mf(b"PK\3\4" + bytes(65_536) + name + bytes(65_536))
+
+
+@pytest.mark.parametrize(("points", "said"), [(3, "3 points but no faces"), (0, "no triangles")])
+def test_a_file_without_a_face_says_what_it_holds(points, said):
+    raw = RawMesh(np.zeros((points, 3)), np.zeros((0, 3), dtype=np.int64))
+    with pytest.raises(EmptyMesh, match=f"the file holds {said}:"):
+        checked_mesh(raw, LIMITS)
