@@ -196,7 +196,8 @@ def test_a_last_can_be_a_file(footfit, foot, stocked):
     by_name = footfit("compare", foot, LAST, *scanned, "--catalogue", stocked).document
     assert by_file["last"] == LAST
     for zone, figures in by_name["zones"].items():
-        assert by_file["zones"][zone]["mean_mm"] == pytest.approx(figures["mean_mm"], abs=ROUNDING)
+        # the copy's corners are rounded, and the toes are bent by them; measured: 0.002
+        assert by_file["zones"][zone]["mean_mm"] == pytest.approx(figures["mean_mm"], abs=0.004)
 
 
 def test_an_unknown_last_and_a_wrong_suffix_are_refused(footfit, foot, stocked, tmp_path):

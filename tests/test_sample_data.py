@@ -9,9 +9,19 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from footfit.geometry.measures.landmarks import Shape
+from footfit.pipeline.fit.compare import compared, stored_last
+from footfit.pipeline.fit.fit_profile import fit_profile, shipped
+from footfit.pipeline.fit.heel_model import heel_question
+from footfit.pipeline.fit.match import Question, matched
+from footfit.pipeline.library.lasts import library
+from footfit.pipeline.scan.flare import profiled_scan
+from tests.reading import read_scan
+from tests.scans import aligned, cleaned
 from tests.test_shapes import euler, is_closed_and_wound, volume
+from tests.test_tools_lasts import band_across
 from tools import make_sample_data as maker
-from tools.lasts import last_mesh, true_flare_deg
+from tools.lasts import centre_line_mm, last_mesh, true_flare_deg
 
 ROOT = Path(__file__).resolve().parents[1]
 SAMPLES = ROOT / "sample_data"
@@ -116,6 +126,50 @@ def test_the_readme_states_the_planted_flare_and_the_sizes():
         assert cells[4] == style.width_label
         sizes = [int(size) for size in re.findall(r"\d+", cells[5])]
         assert sizes == [size for size, _, _ in style.lasts]
+
+
+@pytest.mark.parametrize("style", maker.STYLES, ids=lambda style: style.name)
+def test_a_style_is_shaped_as_real_lasts_are(style):
+    """Their inner joint lies at .673, .676 and .690 of the length, their ridge is medial."""
+    vertices, faces = last_mesh(style.model)
+    for s in np.linspace(0.06, 0.94, 12):
+        low, high = band_across(style.model, vertices, faces, s)
+        # between the rings' facets; measured: 1.4e-4
+        assert abs(low + high) / 2 < 2.5e-4 * style.model.length_mm
+    scan = aligned(cleaned(vertices, faces), side="right").prepared
+    shape = Shape(scan.vertices_mm, scan.faces, "last")
+    joint = (shape.mt1[0] - shape.x_mm(0.0)) / shape.length_mm
+    assert 0.67 <= joint <= 0.692  # measured: .686 to .690
+    middle = centre_line_mm(style.model, np.array([0.5]))[0]
+    near = np.abs(vertices[:, 0] - middle[0]) < 5.0
+    crown = vertices[near][np.argmax(vertices[near, 2])]
+    assert crown[1] - middle[1] > 8.0  # measured: 14.8
+
+
+@pytest.fixture(scope="module")
+def feet():
+    return {name: profiled_scan(aligned(read_scan(SAMPLES / "feet" / name))) for name in maker.FEET}
+
+
+@pytest.mark.parametrize("name", maker.FEET)
+def test_a_foot_lies_in_every_last_that_is_good_for_it(name, feet, stocked):
+    """By the default profile it has a good last and a poor one, and no good last is pierced."""
+    foot, everything = feet[name], library(stocked)
+    by_verdict = {
+        profile: [
+            (last.verdict, last.last)
+            for last in matched(
+                [foot], everything, Question(profile=fit_profile(profile), top=99)
+            ).candidates
+        ]
+        for profile in shipped()
+    }
+    assert {"good", "poor"} <= {verdict for verdict, _ in by_verdict["walking"]}
+    good = {last for each in by_verdict.values() for verdict, last in each if verdict == "good"}
+    for last in good:
+        for question in (heel_question(), heel_question(as_scanned=True)):
+            clearance_mm = compared(foot, stored_last(stocked, last), question).clearance_mm
+            assert np.nanmin(clearance_mm) > -3.0, last  # measured: -2.93
 
 
 @pytest.mark.parametrize("name", maker.FEET)

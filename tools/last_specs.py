@@ -37,7 +37,7 @@ class LastSpec:
     toe spring begins. ``shaft_mm`` is the height of a boot's shaft over the seat, 0 for none;
     ``cone_width`` is the width of the cone over the width below it. With ``level_tread`` the arch
     and the hollow of the shank end before the tread, which then lies level: only so is the
-    drafted stance the true one. The sample lasts were drawn without it.
+    drafted stance the true one.
     """
 
     length_mm: float = 270.0

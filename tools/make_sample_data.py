@@ -39,8 +39,10 @@ GRADED = (
     "heel_width_mm",
     "waist_width_mm",
     "joint_bulge_mm",
+    "waist_cut_mm",
     "ridge_mm",
     "arch_cut_mm",
+    "cone_height_mm",
 )
 
 
@@ -65,12 +67,26 @@ def size_length_mm(size: int) -> float:
 
 # The models' joints, heels and girths are those of mean feet of their size and width in a survey of
 # 6,068 people (ansur2 in docs/references.md). Size 40 is for a foot of 253 mm, whose ball girth is
-# 235 mm (G; E is 12 mm less, H 6 mm more), its breadth 95 mm, its heel 63 mm at L/6.
+# 235 mm (G; E is 12 mm less, H 6 mm more). Their shape follows what real lasts show: the inner
+# joint lies at .67 to .69 of the length, the instep is a round ridge to the medial side, the waist
+# is lifted there, the seat slopes half as much as the way from seat to tread, which lies level.
 MODEL = LastSpec(
     length_mm=size_length_mm(40),
-    mt1_station=0.70,
-    mt5_station=0.55,
-    joint_bulge_mm=3.5,
+    mt1_station=0.61,
+    mt5_station=0.49,
+    joint_bulge_mm=5.5,
+    waist_cut_mm=-4.0,
+    toe_turn_deg=7.0,
+    ridge_mm=16.0,
+    medial_wall=0.68,
+    feather_inset=0.03,
+    sole_crown=0.1,
+    cone_height_mm=89.0,
+    cone_width=0.35,
+    seat_pitch=0.5,
+    break_station=0.70,
+    spring_station=0.72,
+    level_tread=True,
     rings=58,
     segments=44,
 )
@@ -80,11 +96,13 @@ STYLES = (
         replace(
             MODEL,
             heel_height_mm=25.0,
-            toe_spring_mm=11.0,
-            flare_deg=6.0,
-            ball_width_mm=97.0,
-            heel_width_mm=64.0,
-            fullness=1.08,
+            toe_spring_mm=10.0,
+            flare_deg=8.0,
+            ball_width_mm=93.5,
+            heel_width_mm=59.4,
+            waist_width_mm=74.0,
+            cone_height_mm=87.2,
+            fullness=1.025,
         ),
         "G",
         (
@@ -100,14 +118,16 @@ STYLES = (
         replace(
             MODEL,
             heel_height_mm=18.0,
-            toe_spring_mm=9.0,
-            flare_deg=9.5,
-            toe_shape="almond",
-            ball_width_mm=91.0,
-            heel_width_mm=61.0,
-            waist_width_mm=67.5,
-            fullness=1.02,
-            arch_cut_mm=15.0,
+            toe_spring_mm=8.0,
+            flare_deg=10.0,
+            toe_turn_deg=9.0,
+            ball_width_mm=87.6,
+            heel_width_mm=59.0,
+            waist_width_mm=75.0,
+            waist_cut_mm=-4.6,
+            cone_width=0.37,
+            fullness=0.855,
+            arch_cut_mm=16.0,
         ),
         "E",
         ((39, "right", "mm"), (40, "left", "mm"), (42, "right", "mm"), (43, "right", "mm")),
@@ -116,14 +136,19 @@ STYLES = (
         "trainer",
         replace(
             MODEL,
-            heel_height_mm=10.0,
-            toe_spring_mm=15.0,
-            flare_deg=14.0,
-            ball_width_mm=97.5,
-            heel_width_mm=65.5,
-            waist_width_mm=74.0,
-            ridge_mm=7.0,
-            arch_cut_mm=9.0,
+            heel_height_mm=12.0,
+            toe_spring_mm=11.0,
+            flare_deg=11.0,
+            ball_width_mm=93.8,
+            heel_width_mm=62.0,
+            waist_width_mm=75.5,
+            waist_cut_mm=-6.0,
+            joint_bulge_mm=6.5,
+            break_length=0.22,
+            cone_height_mm=87.0,
+            cone_width=0.40,
+            fullness=1.03,
+            arch_cut_mm=10.0,
         ),
         "H",
         (

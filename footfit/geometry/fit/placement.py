@@ -25,8 +25,8 @@ class PlacementSettings:
     """Where foot and last are brought together, over the foot's length.
 
     What lies up to ``band`` over a section's lowest point is its sole. ``places`` over the sole's
-    width are where its height is read. ``hinge`` is how far in front of the tread the bend is
-    complete.
+    width are where its height is read; under the toes its lowest point counts, because between two
+    toes there is no sole. ``hinge`` is how far in front of the tread the bend is complete.
     """
 
     seat: tuple[float, float] = (0.06, 0.16)
@@ -118,9 +118,12 @@ def _turned(foot: Shape, last: Shape, place: Placement) -> Placement:
     """The placement with bend, pitch and yaw that bring seat, tread and toes to the last's."""
     length_mm = foot.length_mm
     moved, back = _moved(foot, place)
-    windows = (PLACEMENT.seat, PLACEMENT.tread, PLACEMENT.toes)
-    seat, tread, toes = (_rest(moved, w, back, length_mm) for w in windows)
-    to_seat, to_tread, to_toes = (_rest(last, w, back, length_mm) for w in windows)
+    windows = (PLACEMENT.seat, PLACEMENT.tread)
+    seat, tread = (_rest(moved, w, back, length_mm) for w in windows)
+    to_seat, to_tread = (_rest(last, w, back, length_mm) for w in windows)
+    toes, to_toes = (
+        _rest(shape, PLACEMENT.toes, back, length_mm, lowest=True) for shape in (moved, last)
+    )
     if seat is None or tread is None or to_seat is None or to_tread is None:
         raise NoSole("foot and last share no bottom to rest on: the last is far too short, or open")
     reach = tread.x - seat.x
@@ -164,16 +167,21 @@ def _heel_back(shape: Shape, length_mm: float) -> float:
 
 
 def _rest(
-    shape: Shape, window: tuple[float, float], start_mm: float, length_mm: float
+    shape: Shape,
+    window: tuple[float, float],
+    start_mm: float,
+    length_mm: float,
+    lowest: bool = False,
 ) -> _Rest | None:
     """Where a sole lies in a window, in shares of a length from ``start_mm`` along X; None if there
-    is no sole.
+    is no sole. With ``lowest`` its height is that of its lowest points.
     """
     x = start_mm + np.linspace(*window, PLACEMENT.sections) * length_mm
     segments = sections_across(shape.vertices_mm, shape.faces, x)
     sole = soles(segments, PLACEMENT.band * length_mm, PLACEMENT.places)
     middle, height = 0.5 * (sole.lateral + sole.medial), sole.depth.mean(axis=0)
-    height = np.where(height <= sole.limit, height, sole.floor)  # an open sole
+    read = (height <= sole.limit) & (not lowest)  # else it is an open sole
+    height = np.where(read, height, sole.floor)
     if not np.isfinite(middle).all():
         return None
     return _Rest(float(x.mean()), float(middle.mean()), float(height.mean()))
