@@ -92,7 +92,12 @@ def own(rng: np.random.Generator, band: tuple[float, float], number: int) -> Cas
     vertices, faces = last_mesh(replace(spec, **FINE))
     vertices = on_plan_axis(vertices, faces)
     pitch = np.radians(drafted.pitch_deg)
-    draft = Drafted(vertices, faces, "last", float(pitch), {"heel_height": heel_mm})
+    planted = {
+        "heel_height": heel_mm,
+        "toe_spring_tip": drafted.tip_mm,
+        "bottom_length": drafted.bottom_length_mm,
+    }
+    draft = Drafted(vertices, faces, "last", float(pitch), planted)
     return Case("own", band_words(band), last_mesh(spec), "right", draft)
 
 
@@ -103,10 +108,13 @@ def other(rng: np.random.Generator, band: tuple[float, float], _: int) -> Case:
     spec = stance.other_spec(rng, band)
     fine = lasts2.mesh(spec, **FINE_OTHER)
     vertices, faces = stance.at_rest(fine)
-    turn = np.linalg.lstsq(np.array(fine.vertices), vertices, rcond=None)[0]
+    drafted = np.array(fine.vertices)
+    away = vertices - vertices.mean(axis=0)
+    turn = np.linalg.lstsq(drafted - drafted.mean(axis=0), away, rcond=None)[0]
     pitch = float(np.arctan2(turn[0, 2], turn[0, 0]))
     vertices = on_plan_axis(vertices, faces)
-    draft = Drafted(vertices, faces, "last", pitch, {"heel_height": spec.heel_height})
+    planted = {"heel_height": spec.heel_height, "toe_spring_tip": spec.toe_spring}
+    draft = Drafted(vertices, faces, "last", pitch, planted)
     mesh = stance.at_rest(lasts2.mesh(spec, n_long=150, n_round=84))
     return Case("lasts2", band_words(band), mesh, "right", draft)
 

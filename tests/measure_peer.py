@@ -80,7 +80,8 @@ class Drafted:
         """Faces (k, 3, 3) that look down."""
         corners = self.vertices_mm[self.faces]
         normal = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
-        return corners[(normal[:, 2] < 0.0) & (corners[:, :, 2].max(axis=1) < 0.6 * self.rough_mm)]
+        high_mm = 0.6 * np.ptp(self.vertices_mm[:, 0])
+        return corners[(normal[:, 2] < 0.0) & (corners[:, :, 2].max(axis=1) < high_mm)]
 
     def bottom_z(self, x_mm: float, y_mm: list[float]) -> list[float]:
         """The lowest surface that looks down at places of the plan; NaN where there is none."""
@@ -158,7 +159,7 @@ def true_measures(shape: Drafted) -> dict[str, float]:
     values = _ends(shape) | _joints(shape) | _sections(shape) | _heel_girths(shape)
     values |= _least_tapes(shape)
     if shape.kind == "last":
-        values |= _last_only(shape)
+        values |= _last_only(shape) | standing_measures(shape)
     known = {name: value for name, value in values.items() if value is not None}
     return known | shape.planted
 
@@ -335,3 +336,47 @@ def _last_only(shape: Drafted) -> dict[str, float]:
     run, rise = np.diff(curve, axis=0).T
     longer = float((np.hypot(run, rise) - run).sum())
     return values | {"tape_length": shape.length_mm + longer}
+
+
+def standing_measures(shape: Drafted) -> dict[str, float]:
+    """What is read of a last as it was drafted to stand: along its ground, and over it."""
+    points = shape.standing(shape.vertices_mm)
+    points = points - [points[:, 0].min(), 0.0, points[:, 2].min()]
+    low = points[_over_bottom(points) < 0.13 * np.ptp(points[:, 0])]
+    start, length = low[:, 0].min(), np.ptp(low[:, 0])
+    stands = Drafted(points - [start, 0.0, 0.0], shape.faces, "last", 0.0, {})
+    x, z = _middle(stands, length).T
+    z = z - z.min()
+    seat = (x >= 0.06 * length) & (x <= 0.14 * length)
+    slope = np.polyfit(x[seat], z[seat], 1)[0]
+    fine = np.linspace(x[0], x[-1], 4001)
+    heights = np.interp(fine, x, z)
+    lowest = np.argmin(heights)
+    high = heights > 0.002 * length
+    return {
+        "stick_length": float(length),
+        "seat_angle_deg": -float(np.degrees(np.arctan(slope))),
+        "tread_from": float(fine[np.flatnonzero(high[:lowest])[-1] + 1]),
+        "tread_to": float(fine[lowest + np.flatnonzero(high[lowest:])[0]]),
+    }
+
+
+def _over_bottom(points: np.ndarray) -> np.ndarray:
+    """How high points (n, 3) lie over the lowest point of their slice across x and its neighbours."""
+    slices = np.minimum((points[:, 0] / np.ptp(points[:, 0]) * 80).astype(int), 79)
+    lowest = np.full(82, np.inf)
+    np.minimum.at(lowest, slices + 1, points[:, 2])
+    near = np.minimum(np.minimum(lowest[:-2], lowest[1:-1]), lowest[2:])
+    return np.asarray(points[:, 2] - near[slices])
+
+
+def _middle(stands: Drafted, length: float) -> np.ndarray:
+    """The bottom's middle along the ground, (k, 2) as x and z."""
+    curve = []
+    for x in np.linspace(0.03, 0.97, 95) * length:
+        section = stands.across(x)
+        y = section[section[:, 1] < section[:, 1].min() + 0.10 * length, 0]
+        heights = stands.bottom_z(x, [y.min() + p * np.ptp(y) for p in (0.35, 0.50, 0.65)])
+        curve.append((x, np.mean(heights)))
+    known = np.array(curve)
+    return np.asarray(known[np.isfinite(known[:, 1])])

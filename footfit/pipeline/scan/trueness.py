@@ -62,6 +62,11 @@ TRUENESS: dict[str, dict[str, Trueness]] = {
         "bottom_width_ball": Trueness(1.77, 1.28),
         "bottom_width_heel": Trueness(0.35, -0.32),
         "tape_length": Trueness(0.85, -0.64),
+        "stick_length": Trueness(0.35, -0.17),
+        "toe_spring_tip": Trueness(0.30, 0.46),
+        "tread_from": Trueness(0.00, 1.03),
+        "tread_to": Trueness(1.50, -0.44),
+        "seat_angle_deg": Trueness(0.00, 0.01),
     },
     "foot": {
         "length": Trueness(0.21, -0.26),
@@ -122,19 +127,21 @@ def scan_sd_mm(name: str, info: MeshInfo | None) -> float:
     if info is None:
         return 0.0
     quantity = quantity_of(name)
+    if quantity == "angle":  # over the length of a seat, steps and scanners turn it by little
+        return 0.0
     step_mm = STEP_SHARE[quantity] * info.resolution_mm
     return math.hypot(step_mm, SCANNER_SD_MM[info.scanner][quantity] if info.scanner else 0.0)
 
 
 def quantity_of(name: str) -> str:
-    """Whether a measure is a length, a width, a height or a girth.
+    """Whether a measure is a length, a width, a height, a girth or an angle.
 
     Examples
     --------
     >>> quantity_of("ball_girth_least"), quantity_of("toe_spring"), quantity_of("tape_length")
     ('girth', 'height', 'length')
     """
-    for word, quantity in (("girth", "girth"), ("width", "width")):
+    for word, quantity in (("girth", "girth"), ("width", "width"), ("_deg", "angle")):
         if word in name:
             return quantity
     return "height" if "height" in name or "spring" in name else "length"
