@@ -362,7 +362,7 @@ def standing_measures(shape: Drafted) -> dict[str, float]:
 
 
 def _over_bottom(points: np.ndarray) -> np.ndarray:
-    """How high points (n, 3) lie over the lowest point of their slice across x and its neighbours."""
+    """How high points (n, 3) lie over the lowest of their slice across x and its neighbours."""
     slices = np.minimum((points[:, 0] / np.ptp(points[:, 0]) * 80).astype(int), 79)
     lowest = np.full(82, np.inf)
     np.minimum.at(lowest, slices + 1, points[:, 2])
