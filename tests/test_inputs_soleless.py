@@ -8,6 +8,8 @@ import numpy as np
 import pytest
 
 import footfit
+from footfit.geometry.pose.facing import facing
+from footfit.pipeline.scan import one_shape
 from tests.conftest import SAMPLES, SCANS
 from tests.distortions import leg_cut, moved, plane_cut, random_pose
 from tools.lasts import LastSpec, last_mesh
@@ -77,3 +79,17 @@ def test_a_last_without_its_bottom_stays_a_last(heel_mm):
     vertices, faces = last_mesh(LastSpec(heel_height_mm=heel_mm))
     answer, _, _ = taken(*without_sole(vertices, faces, 12.0))
     assert answer.alignment.pose.kind == "last"
+
+
+def test_a_sole_is_not_looked_for_only_where_the_faces_look_up_on_the_whole():
+    """Without its top a last is as open, but its faces look down; whole, they look nowhere."""
+    vertices, faces = last_mesh(LastSpec())
+    lengths_mm = ((200.0, 310.0),)
+
+    def pose(shape):
+        return one_shape._pose_without_sole(*shape, lengths_mm, facing(*shape))
+
+    assert pose(without_sole(vertices, faces, 8.0)).kind == "last"
+    low = np.array([0.0, 0.0, vertices[:, 2].min() + 30.0])
+    assert pose(plane_cut(vertices, faces, low, np.array([0.0, 0.0, 1.0]))) is None
+    assert pose((vertices, faces)) is None
