@@ -11,6 +11,7 @@ import sqlite3
 import subprocess
 import sys
 from pathlib import Path
+from typing import Any
 
 import pytest
 
@@ -78,7 +79,7 @@ def test_a_match_leaves_the_catalogue_as_it_was(footfit: Footfit, foot: Path, ca
     assert "forgotten" in footfit("catalogue-info", "--catalogue", catalogue).out
     kept = footfit("catalogue-info", "--catalogue", catalogue, "--json").document
     assert kept["feet_kept"] == 0
-    of_lasts = {"last", "frame", "flare", "measure", "notice", "mesh_copy", "reference"}
+    of_lasts = {"last", "frame", "flare", "measure", "notice", "mesh_copy", "section", "reference"}
     assert set(kept["kept"]) == of_lasts
     with sqlite3.connect(catalogue) as connection:
         names = {name for (name,) in connection.execute("SELECT name FROM sqlite_schema")}
@@ -95,10 +96,10 @@ def test_a_file_that_takes_too_long_is_named_and_the_rest_is_stored(
     slow = sorted(tmp_path.iterdir())[1].name
     usual = ingest.new_last
 
-    def new_last(entry: ingest.Entry, known: frozenset[str] = frozenset()) -> ingest.NewLast:
+    def new_last(entry: ingest.Entry, **options: Any) -> ingest.NewLast:
         if entry.path and entry.path.endswith(slow):
             signal.raise_signal(signal.SIGALRM)
-        return usual(entry, known)
+        return usual(entry, **options)
 
     monkeypatch.setattr(ingest, "new_last", new_last)
     in_this_process = lambda work, items, _jobs: outcomes(work, items, HERE)  # noqa: E731

@@ -30,7 +30,7 @@ from tests.reading import read_scan
 from tests.scans import aligned, aligned_of
 
 AHEAD = np.array([1.0, 0.0, 0.0])
-NOISE_MM = {"length": 0.55, "width": 0.76, "girth": 2.0, "heel_height": 2.3}
+NOISE_MM = {"length": 0.55, "width": 0.76, "girth": 2.0, "heel_height": 2.3, "tread": 4.3}
 """Under noise of 0.3 mm, or with a quarter of the faces; measured: 0.28, 0.38, 1.04 and 1.18."""
 OTHERS_MM = 1.3
 """The same for other heights and the toe spring; measured: 0.68."""

@@ -74,7 +74,8 @@ def test_left_feet_are_shown_as_left_feet():
     assert right["view"][0] == -left["view"][0]
     low = right["foot"]["origin"][1]
     span = right["foot"]["step"] * array(right["foot"]["vertices"], "<u2")[1::3].max()
-    assert left["foot"]["origin"][1] == pytest.approx(-(low + span), abs=3 * printed(4))
+    within = 0.5 * right["foot"]["step"] + 3 * printed(4)
+    assert left["foot"]["origin"][1] == pytest.approx(-(low + span), abs=within)
 
 
 def test_a_left_foot_is_seen_from_where_a_right_one_is_mirrored():

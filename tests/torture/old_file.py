@@ -8,8 +8,12 @@ from __future__ import annotations
 
 from pathlib import Path
 
+import numpy as np
+
 from footfit.catalogue.store import open_catalogue
+from footfit.geometry.fit.named_sections import NamedSection
 from footfit.meshes.copies.compact_copy import compact_copy
+from footfit.results import ShapeSections
 from tests import answers, records
 from tests.torture.migrations import DATA, HEAD
 
@@ -18,11 +22,15 @@ LASTS = 4
 
 def store(path: Path) -> None:
     """Write a small catalogue with both sides, a parent, notices, measures and mesh copies."""
-    copy = compact_copy(*answers.tube(260.0, rings=24, sides=16))
+    vertices, faces = answers.tube(260.0, rings=24, sides=16)
+    copy = compact_copy(vertices, faces)
+    section = NamedSection(np.eye(4), vertices[:16, 1:])
+    sections = ShapeSections({"ball": section, "toes": section}, vertices[:16])
     with open_catalogue(path, write=True) as catalogue:
         for seed in range(LASTS):
             side, parent = ("right", "left")[seed % 2], "last-0" if seed == 3 else None
-            catalogue.add(records.last(f"last-{seed}", seed, side=side, parent=parent), copy)
+            record = records.last(f"last-{seed}", seed, side=side, parent=parent)
+            catalogue.add(record, copy, sections)
 
 
 if __name__ == "__main__":
