@@ -10,7 +10,7 @@ from footfit.results.values import Part
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
-    from footfit.geometry.fit.named_sections import NamedSection
+    from footfit.geometry.fit.stations import NamedSection
     from footfit.geometry.numeric.arrays import Floats, Ints
     from footfit.geometry.search.pose_search import RoughPose
     from footfit.results.values import Notice

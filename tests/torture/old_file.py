@@ -11,7 +11,7 @@ from pathlib import Path
 import numpy as np
 
 from footfit.catalogue.store import open_catalogue
-from footfit.geometry.fit.named_sections import NamedSection
+from footfit.geometry.fit.stations import NamedSection
 from footfit.meshes.copies.compact_copy import compact_copy
 from footfit.results import ShapeSections
 from tests import answers, records

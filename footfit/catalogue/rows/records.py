@@ -19,8 +19,7 @@ from footfit.catalogue.rows.columns import (
 from footfit.catalogue.rows.digests import Row
 from footfit.catalogue.rows.verified_rows import LastRows
 from footfit.errors import CatalogueDamaged
-from footfit.geometry.fit.named_sections import NamedSection
-from footfit.geometry.fit.stations import STATIONS
+from footfit.geometry.fit.stations import STATIONS, NamedSection
 from footfit.geometry.flare.definition import FlareProfile
 from footfit.results import (
     Eigenframe,

@@ -8,7 +8,7 @@ import numpy as np
 
 from footfit.errors import HalfScan
 from footfit.geometry.fit.paired_sections import station_plane
-from footfit.geometry.fit.stations import STATIONS
+from footfit.geometry.fit.stations import STATIONS, NamedSection
 from footfit.geometry.flare.definition import FlareDefinition
 from footfit.geometry.flare.flattened import flattened
 from footfit.geometry.measures.landmarks import Shape
@@ -39,22 +39,6 @@ class NamedSectionSettings:
 
 
 NAMED_SECTIONS = NamedSectionSettings()
-
-
-@dataclass(frozen=True, slots=True)
-class NamedSection:
-    """The section of a right shape by one plane.
-
-    Attributes
-    ----------
-    plane : (4, 4)
-        From the plane's own axes (across, up, out of it) to the canonical frame.
-    points_mm : (n, 2)
-        Its longest loop in the plane's axes, across to the medial side and up.
-    """
-
-    plane: Floats
-    points_mm: Floats
 
 
 def named_sections(
