@@ -189,7 +189,7 @@ def test_a_slightly_wrong_frame_hardly_moves_the_angle(usual, roll, pitch, yaw):
 def test_a_roll_of_the_frame_changes_nothing(usual, roll):
     vertices, faces, profile = usual
     rolled = vertices @ distortions.axis_rotation("x", roll)[:3, :3].T
-    same(profile, flare_profile(rolled, faces), 2.6e-4)  # 2.0e-5 at 3 degrees, 1.3e-4 at -0.375
+    same(profile, flare_profile(rolled, faces), 1.4e-3)  # a heading moves by 0.0007 at most
 
 
 def bowl(along_mm, across_mm):
