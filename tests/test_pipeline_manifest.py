@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import os
+import unicodedata
 from pathlib import Path
 
 import pytest
@@ -46,6 +48,12 @@ def test_what_is_not_said_stays_open() -> None:
         ("path,heel_height_mm\na.stl,nan\n", "heel_height_mm is 'nan'"),
         ("path,name\n,x\n", "has no path"),
         ("path,name\na.stl,x,y\n", "more values than columns"),
+        ("path,name,\na.stl,x,y\n", "column 3, which has no name"),
+        ("path,size,Size\na.stl,42,43\n", "column 'size' twice"),
+        ("path,stile\na.stl,derby\n", "did you mean 'style'"),
+        ("path;stile\na.stl;derby\n", "unknown column 'stile'"),
+        ("name;size\nx;42\n", "no column 'path'"),
+        ('path,name\na.stl,"x\n', "not a CSV file"),
     ],
 )
 def test_a_mistake_is_named(text: str, word: str) -> None:
@@ -53,16 +61,55 @@ def test_a_mistake_is_named(text: str, word: str) -> None:
         rows(text)
 
 
-def test_a_byte_order_mark_is_no_part_of_the_first_column(tmp_path: Path) -> None:
-    path = tmp_path / "lasts.csv"
-    path.write_bytes(b"\xef\xbb\xbfpath,style\na.stl,derby\n")
-    assert read_manifest(path)[0].labels.style == "derby"
+def test_what_spreadsheets_add_changes_nothing() -> None:
+    plain = rows("path,name,size,heel_height_mm\na.stl,derby,42,25.5\nb.stl,loafer,43,\n")
+    for text in (
+        "path,name,size,heel_height_mm,,\na.stl,derby,42,25.5,,\n,,,,,\n\nb.stl,loafer,43,,,\n,,\n",
+        "path;name;size;heel_height_mm\na.stl;derby;42;25,5\nb.stl;loafer;43;\n",
+        "path\tname\tsize\theel_height_mm\na.stl\tderby\t42\t25.5\nb.stl\tloafer\t43\t\n",
+        "sep=;\r\npath;name;size;heel_height_mm\r\na.stl;derby;42;25.5\r\nb.stl;loafer;43;\r\n",
+        ' Path, "Name",SIZE,Heel height mm\na.stl, derby,42,"25,5"\nb.stl,loafer,43,\n',
+        "\n\npath,,name,size,heel_height_mm\na.stl,,derby,42,25.5\nb.stl,,loafer,43\n",
+        'path,name,size,heel_height_mm\na.stl,"der\nby",42,25.5\nb.stl,loafer,43,\n',
+    ):
+        given = rows(text.replace('"der\nby"', "derby"))
+        assert given == plain, text
+    (row, _) = rows('path,name\na.stl,"derby\n  42"\nb.stl,x\n')
+    assert row.labels.name == "derby 42"
 
 
-def test_what_is_no_text_is_refused(tmp_path: Path) -> None:
+def test_a_mistake_after_a_quoted_line_break_has_its_own_line() -> None:
+    with pytest.raises(BadManifest) as raised:
+        rows('sep=,\npath,name,side\na.stl,"derby\n42",left\nb.stl,x,port\n')
+    assert raised.value.path == "lasts.csv line 5"
+
+
+@pytest.mark.parametrize("encoding", ["utf-8", "utf-8-sig", "utf-16"])
+def test_a_manifest_in_any_unicode_encoding_is_read(encoding: str, tmp_path: Path) -> None:
     path = tmp_path / "lasts.csv"
-    path.write_bytes(b"path\n\xff\xfe.stl\n")
-    with pytest.raises(BadManifest, match="UTF-8"):
+    path.write_text("path,style\na.stl,größe\n", encoding=encoding)
+    assert read_manifest(path)[0].labels.style == "größe"
+
+
+@pytest.mark.parametrize("encoding", ["cp1252", "utf-16-le", "utf-16-be"])
+def test_another_encoding_is_named(encoding: str, tmp_path: Path) -> None:
+    path = tmp_path / "lasts.csv"
+    path.write_text("path,style\na.stl,größe\n", encoding=encoding)
+    with pytest.raises(BadManifest, match="save it as CSV UTF-8"):
         read_manifest(path)
     with pytest.raises(BadManifest, match="not a file"):
         read_manifest(tmp_path / "none.csv")
+
+
+def test_a_path_is_found_in_another_spelling(tmp_path: Path) -> None:
+    """As Windows writes it, and as macOS does (NFD)."""
+    folder = tmp_path / unicodedata.normalize("NFD", "größe")
+    folder.mkdir()
+    (folder / unicodedata.normalize("NFD", "é.stl")).touch()
+    (tmp_path / "sub").mkdir()
+    (tmp_path / "sub" / "a.stl").touch()
+    (tmp_path / "odd\\b.stl").touch()
+    text = "path\n" + unicodedata.normalize("NFC", "größe\\é.stl") + "\nsub\\a.stl\nodd\\b.stl\n"
+    given = [row.path for row in manifest_rows(text, tmp_path, "lasts.csv")]
+    assert all(Path(path).is_file() for path in given), given
+    assert given[2].endswith("odd\\b.stl" if os.sep == "/" else "b.stl")

@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
+import unicodedata
 from pathlib import Path
 
 import pytest
 
 from footfit.errors import BadOption, UnreadableFile
-from footfit.pipeline.batch.sources import mesh_sources
+from footfit.pipeline.batch.sources import left_out, mesh_sources
 
 
 def touched(folder: Path, *names: str) -> None:
@@ -74,3 +75,24 @@ def test_beside_others_a_folder_or_glob_without_a_mesh_costs_its_own_line_only(
     (tmp_path / "empty").mkdir()
     bare, good = str(tmp_path / "empty" / argument), str(tmp_path / "a.stl")
     assert [source.path for source in mesh_sources([bare, good])] == [bare, good]
+
+
+def test_files_of_other_kinds_are_counted(tmp_path: Path) -> None:
+    touched(tmp_path, "a.stl", "a.usdz", "b.USDZ", "sub/c.gltf", "d.zip", "lasts.csv", ".x.zip")
+    for argument in (tmp_path, tmp_path / "**" / "*"):
+        (notice,) = left_out(str(argument))
+        assert notice.message.startswith("4 files were left out (1 gltf, 2 usdz, 1 zip); ")
+    assert left_out(str(tmp_path / "*.stl")) == left_out(str(tmp_path / "a.usdz")) == ()
+    (tmp_path / "a.stl").unlink()
+    with pytest.raises(UnreadableFile, match="2 usdz"):
+        mesh_sources([str(tmp_path)])
+
+
+def test_a_path_is_found_in_the_other_unicode_form(tmp_path: Path) -> None:
+    """macOS writes an accent as a character of its own (NFD); keyboards write one (NFC)."""
+    forms = [unicodedata.normalize(form, "Zoë é.stl") for form in ("NFC", "NFD")]
+    for stored, typed in (forms, forms[::-1]):
+        touched(tmp_path, stored)
+        (source,) = mesh_sources([str(tmp_path / typed)])
+        assert Path(source.path or "").is_file()
+        (tmp_path / stored).unlink()

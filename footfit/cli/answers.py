@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any, TypeVar
 
 import typer
 
-from footfit.cli.console import answer, error_line, say, say_notices, show
+from footfit.cli.console import answer, error_line, is_terminal, say, say_notices, show
 from footfit.cli.options import STDOUT
 from footfit.cli.signals import LISTENER
 from footfit.errors import BadOption, FootfitError
@@ -45,7 +45,7 @@ def answer_scans(
     from footfit.api import scans
 
     outputs.refuse(as_json=mode.json)
-    sources = sources_of(meshes, reading, split=batch.split)
+    sources = sources_of(meshes, reading, split=batch.split, quiet=mode.quiet)
     outputs.require_one(sources)
     outcomes = scans.outcomes(verb, sources, jobs=batch.jobs, **reading.keywords(), **options)
     raise typer.Exit(answer_outcomes(outcomes, replace(mode, total=len(sources)), outputs))
@@ -96,26 +96,29 @@ def answer_result(result: Any, mode: OutputMode, outputs: Outputs) -> None:
     outputs.write_csv([result])
 
 
-def sources_of(meshes: Sequence[str], reading: Scale, *, split: bool = False) -> list[Source]:
+def sources_of(
+    meshes: Sequence[str], reading: Scale, *, split: bool = False, quiet: bool = False
+) -> list[Source]:
     """The meshes that a command is given; ``-`` stands for standard input.
 
     Raises
     ------
     BadOption
-        ``-`` stands beside other meshes, or ``--format`` is missing.
+        ``-`` stands beside other meshes.
     UnreadableFile
-        A folder or glob holds no mesh.
+        A folder or glob holds no mesh, or standard input cannot be read.
     """
     from footfit.api import scans
-    from footfit.pipeline.batch.sources import stdin_source
+    from footfit.pipeline.batch.sources import left_out, stdin_source
 
     if "-" not in meshes:
+        for mesh in meshes:
+            say_notices(left_out(mesh), mesh, quiet=quiet)
         return scans.sources(list(meshes), split=split, **reading.keywords())
     if list(meshes) != ["-"]:
         raise BadOption("- reads one mesh from standard input; give it alone")
-    if reading.format is None:
-        raise BadOption("a mesh on standard input needs --format, for example --format stl")
-    source = stdin_source(sys.stdin.buffer, reading.format)
+    stream = None if sys.stdin is None else sys.stdin.buffer
+    source = stdin_source(stream, reading.format)
     return scans.sources([source], split=split, **reading.keywords())
 
 
@@ -153,7 +156,7 @@ def failures_last(mode: OutputMode) -> Iterator[Callable[[str], None]]:
 def watched_items(items: Iterable[T], mode: OutputMode) -> Iterator[T]:
     """The items, with a count for an interruption, and a progress bar if a person watches."""
     LISTENER.total = mode.total
-    watched = mode.total > 1 and not (mode.quiet or mode.json) and sys.stderr.isatty()
+    watched = mode.total > 1 and not (mode.quiet or mode.json) and is_terminal(sys.stderr)
     for item in _with_a_bar(items, mode.total) if watched else items:
         yield item
         LISTENER.done += 1

@@ -10,6 +10,7 @@ import typer
 
 from footfit.cli.boundary import run_guarded
 from footfit.cli.command_group import CommandTable, LazyGroup
+from footfit.cli.console import answer
 from footfit.cli.settings import use_one_blas_thread
 from footfit.version import __version__
 
@@ -41,7 +42,7 @@ COMMANDS: CommandTable = tuple(
 
 def _version(wanted: bool) -> None:
     if wanted:
-        typer.echo(f"footfit {__version__}")
+        answer(f"footfit {__version__}")
         raise typer.Exit
 
 

@@ -2,12 +2,21 @@
 
 from __future__ import annotations
 
-import os
 import sys
 from collections.abc import Callable, Sequence
+from contextlib import suppress
 from typing import Any
 
-from footfit.cli.console import ReaderGone, answer, error_line, say
+from footfit.cli.console import (
+    AnswerLost,
+    ReaderGone,
+    answer,
+    check_stdout,
+    drop_stdout,
+    error_line,
+    open_closed_streams,
+    say,
+)
 from footfit.cli.signals import CODES, LISTENER, Stopped
 from footfit.errors import BadOption, ExitCode, FootfitError
 
@@ -16,6 +25,7 @@ REPORT_TO = "please report it with the command that you typed (docs/exit-codes.m
 
 def run_guarded(application: Callable[..., Any], arguments: Sequence[str]) -> int:
     """Run the application on ``arguments``, say what goes wrong, and return the exit code."""
+    open_closed_streams()
     with LISTENER.listen():
         try:
             code = _run(application, arguments)
@@ -31,12 +41,20 @@ def _run(application: Callable[..., Any], arguments: Sequence[str]) -> int:
     LISTENER.heed()
     try:
         code = application(args=list(arguments), prog_name="footfit", standalone_mode=False)
+        if not code:
+            check_stdout()
     except FootfitError as error:
+        if isinstance(error, AnswerLost) and sys.stdout is not None:
+            drop_stdout()
         say(error_line(error, as_json=as_json))
         return int(error.exit)
-    except ReaderGone:  # else Python complains when it flushes stdout at its end
-        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+    except ReaderGone:
+        drop_stdout()
         return int(ExitCode.OK)
+    except SystemExit as ended:
+        if isinstance(ended.__context__, BrokenPipeError):  # Typer wrote it: --show-completion
+            return int(ExitCode.OK)
+        raise
     except Exception as error:  # noqa: BLE001 - no traceback may reach the user
         return _say_unexpected(error, as_json=as_json, verbose=verbose)
     return code if isinstance(code, int) else int(ExitCode.OK)
@@ -50,10 +68,11 @@ def _say_unexpected(error: Exception, *, as_json: bool, verbose: bool) -> int:
         command = context.command_path if context is not None else "footfit"
         message = str(words())
         if type(error).__name__ == "NoArgsIsHelpError":  # its message is the help
-            answer(message)
-            message = "no command was given."
-        message = " ".join(message.split())
-        say(error_line(BadOption(f"{message} See {command} -h"), as_json=as_json))
+            with suppress(ReaderGone, AnswerLost):
+                answer(message)
+            message = "No command given"
+        message = " ".join(message.split()).removesuffix(".")
+        say(error_line(BadOption(f"{message}. See {command} -h"), as_json=as_json))
         return int(ExitCode.USAGE)
     if verbose:
         import traceback

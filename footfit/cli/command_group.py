@@ -16,6 +16,8 @@ import typer
 from typer.core import TyperCommand, TyperGroup
 from typer.main import get_command
 
+from footfit.cli.console import answer
+
 CommandTable = tuple[tuple[str, Callable[..., object], str], ...]
 """Every command: its name, its function, its heading in the help."""
 
@@ -85,7 +87,24 @@ def _write_sections(records: Iterable[tuple[str, Record]], formatter: Any) -> No
             formatter.write_dl(below)
 
 
-class PlainCommand(TyperCommand):
+def _show_help(context: Any, _option: Any, wanted: bool) -> None:
+    if wanted and not context.resilient_parsing:
+        answer(context.get_help())
+        context.exit()
+
+
+class _HelpAsAnswer:
+    """A command whose help is written as every answer is: a reader that goes away is no failure."""
+
+    def get_help_option(self, ctx: Any) -> Any:
+        """The option that shows the help."""
+        shown = super().get_help_option(ctx)  # type: ignore[misc]
+        if shown is not None:
+            shown.callback = _show_help
+        return shown
+
+
+class PlainCommand(_HelpAsAnswer, TyperCommand):
     """A command whose help groups the options by heading."""
 
     def format_options(self, ctx: Any, formatter: Any) -> None:
@@ -93,7 +112,7 @@ class PlainCommand(TyperCommand):
         _write_sections(_records(self, ctx), formatter)
 
 
-class LazyGroup(TyperGroup):
+class LazyGroup(_HelpAsAnswer, TyperGroup):
     """The commands of `table`, each built when it is used."""
 
     table: CommandTable = ()

@@ -7,7 +7,7 @@ import shutil
 import sys
 from collections.abc import Iterable
 from contextlib import suppress
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, TextIO
 
 from footfit.errors import BadOption, FootfitError
 from footfit.report.json import json_line
@@ -25,16 +25,39 @@ class ReaderGone(Exception):
     """Nobody reads stdout any more (``| head``). Not an OSError, which Typer turns into exit 1."""
 
 
+class AnswerLost(BadOption):
+    """The answer could not be written to stdout."""
+
+    code = BadOption.code
+
+
+def open_closed_streams() -> None:
+    """Open the null device where a standard stream is closed (``>&-``).
+
+    Without this, the next file that is opened gets the number of the stream, and what a library
+    prints goes into that file. ``sys.stdout`` stays None.
+    """
+    for number in range(3):
+        try:
+            os.fstat(number)
+        except OSError:
+            os.set_inheritable(os.open(os.devnull, os.O_RDWR), True)
+
+
 def answer(text: str) -> None:
     """Write to stdout as UTF-8, whatever the locale is.
 
+    If stdout is closed, nothing is written and the work goes on; `check_stdout` says so at the end.
+
     Raises
     ------
-    BadOption
+    AnswerLost
         The disk behind stdout is full.
     ReaderGone
         Nobody reads stdout.
     """
+    if sys.stdout is None:
+        return
     data = text if text.endswith("\n") else text + "\n"
     try:
         sys.stdout.buffer.write(data.encode("utf-8", "backslashreplace"))
@@ -42,21 +65,49 @@ def answer(text: str) -> None:
     except BrokenPipeError as error:
         raise ReaderGone from error
     except OSError as error:
-        raise BadOption(f"the answer could not be written to stdout: {error.strerror}") from error
+        words = f"the answer could not be written to stdout: {error.strerror}"
+        raise AnswerLost(words) from error
+
+
+def check_stdout() -> None:
+    """Refuse a closed stdout at the end of the work: every command has an answer.
+
+    Raises
+    ------
+    AnswerLost
+        stdout is closed.
+    """
+    if sys.stdout is None:
+        words = (
+            "the answer is lost, because stdout is closed; add > /dev/null if you need no answer"
+        )
+        raise AnswerLost(words)
+
+
+def drop_stdout() -> None:
+    """Send what is left in the buffer of stdout nowhere; else Python complains at its end."""
+    os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+
+
+def is_terminal(stream: TextIO | None) -> bool:
+    """Does a person see this stream, in a terminal that can move its cursor and show colours?"""
+    shown = stream is not None and stream.isatty()
+    return shown and os.environ.get("TERM") != "dumb"
 
 
 def show(renderable: RenderableType) -> None:
-    """Write a table to stdout, in colour if a terminal shows it and NO_COLOR is not set."""
+    """Write a table to stdout, in colour if a terminal shows colours and NO_COLOR is not set."""
     from footfit.report.terminal.scan_tables import terminal_text
 
-    colour = sys.stdout.isatty() and not os.environ.get("NO_COLOR")
-    width = shutil.get_terminal_size().columns if sys.stdout.isatty() else PLAIN_WIDTH
+    colour = is_terminal(sys.stdout) and not os.environ.get("NO_COLOR")
+    seen = sys.stdout is not None and sys.stdout.isatty()
+    width = shutil.get_terminal_size().columns if seen else PLAIN_WIDTH
     answer(terminal_text(renderable, width=width, colour=colour))
 
 
 def say(message: str, *, quiet: bool = False) -> None:
     """Write one line to stderr, unless ``quiet``."""
-    if not quiet:
+    if not quiet and sys.stderr is not None:
         data = visible(message) + "\n"
         with suppress(OSError):  # the disk is full or nobody reads: there is no other place for it
             sys.stderr.buffer.write(data.encode("utf-8", "backslashreplace"))

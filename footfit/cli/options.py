@@ -123,7 +123,9 @@ class Scale:
         max=370,
     )
     format: FormatName | None = member(
-        "--format", "Set the format of the mesh on stdin.", panel=READING
+        "--format",
+        "Set the format of the mesh on stdin, if its content does not say it.",
+        panel=READING,
     )
 
     def keywords(self) -> dict[str, Any]:

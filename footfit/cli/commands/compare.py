@@ -51,7 +51,7 @@ def compare(
     )
     outputs = Outputs(written, Comparison, csv, force)
     outputs.refuse(as_json=False)
-    sources = sources_of([foot], reading)
+    sources = sources_of([foot], reading, quiet=mode.quiet)
     if len(sources) != 1:
         raise BadOption(f"holds {len(sources)} meshes; name one foot", foot)
     if Path(last).is_file():

@@ -77,7 +77,7 @@ def ingest_last(
     }
     labels = LastLabels(name or "", style, size, size_system, width_label, **given)
     rows = manifests.read_manifest(manifest) if manifest else []
-    sources = sources_of(paths or [], reading) if paths else []
+    sources = sources_of(paths or [], reading, quiet=mode.quiet) if paths else []
     batch = entries(
         sources, rows, labels, ReadingOptions(**reading.keywords(), **standing.keywords())
     )

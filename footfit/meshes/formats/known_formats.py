@@ -101,12 +101,17 @@ def raw_mesh(
 
 
 def _format_of(data: bytes, wanted: str) -> MeshFormat:
-    """The format by its content. A binary STL of a wrong size is known by its name only."""
+    """The format by its content. A binary STL of a wrong size is known by its name only.
+
+    Without a name, ``wanted`` is "": the content may be such an STL, so ask.
+    """
     for known in FORMATS:
         if known.recognised(data):
             return known
     if wanted == "stl" and known_foreign(data) is None and not is_text(data):
         return FORMATS[0]
+    if not wanted and known_foreign(data) is None and not is_text(data):
+        raise UnknownFormat("the content does not say its format: add --format, such as stl")
     raise UnknownFormat(
         f"the content looks like {likeness(data)}, not like a mesh: use a file in {_READABLE}"
     )

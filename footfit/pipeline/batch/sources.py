@@ -2,18 +2,28 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+import os
+import unicodedata
+from collections import Counter
+from collections.abc import Sequence
+from contextlib import suppress
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import TYPE_CHECKING, BinaryIO
 
 from footfit.errors import BadOption, UnreadableFile
-from footfit.results import Scan
+from footfit.results import Notice, Scan
 
 if TYPE_CHECKING:
     from footfit.geometry.stance.cues import StanceLabels
 
 MESH_SUFFIXES = (".stl", ".obj", ".ply", ".off", ".glb", ".3mf")
+READ_KINDS = ", ".join(suffix[1:] for suffix in MESH_SUFFIXES)
+NO_SCANS = (
+    *("", ".csv", ".db", ".footfit", ".htm", ".html", ".ini", ".jpeg", ".jpg", ".json", ".jsonl"),
+    *(".md", ".mtl", ".npz", ".pdf", ".png", ".svg", ".toml", ".tsv", ".txt"),
+)
+"""What often lies beside scans and holds none: tables, pictures, textures, notes, footfit's own."""
 GLOB_CHARACTERS = frozenset("*?[")
 
 
@@ -75,47 +85,102 @@ def mesh_sources(arguments: Sequence[str]) -> list[Source]:
     return [Source(path) for path in paths]
 
 
-def stdin_source(stream: BinaryIO, mesh_format: str) -> Source:
-    """One mesh from an open stream, with the same limit of size as a file.
+def stdin_source(stream: BinaryIO | None, mesh_format: str | None) -> Source:
+    """One mesh from standard input, None if that is closed, with the limit of size of a file.
 
     Raises
     ------
+    UnreadableFile
+        It is closed, or it is a folder.
     TooLarge, EmptyMesh
         Past the limit, or nothing came.
     """
     from footfit.meshes.file_bytes import stream_bytes
     from footfit.meshes.read_limits import LIMITS
 
-    return Source(None, stream_bytes(stream, LIMITS), mesh_format)
+    if stream is None:
+        raise UnreadableFile("standard input is closed: pipe a mesh into it, or name a file")
+    try:
+        return Source(None, stream_bytes(stream, LIMITS), mesh_format)
+    except OSError as error:
+        words = f"standard input cannot be read ({error.strerror}): pipe a mesh into it"
+        raise UnreadableFile(words) from error
+
+
+def stored_path(path: str) -> str:
+    """A path as the folders spell it, if it differs only in form; else the path as it is.
+
+    A letter with an accent may be one character or two (NFC, NFD). A path that was written on
+    Windows has backslashes.
+    """
+    spellings = dict.fromkeys((path, path.replace("\\", "/")))
+    for spelling in spellings:
+        with suppress(OSError, ValueError):  # no such folder; a name with a NUL in it
+            if os.path.lexists(spelling) or not spelling:
+                return spelling
+            if (stored := _spelt(Path(spelling))) is not None:
+                return str(stored)
+    return path
+
+
+def _spelt(path: Path) -> Path | None:
+    """The file or folder that has the name of ``path`` in another Unicode form, if there is one."""
+    if path.exists() or path == path.parent:
+        return path if path.exists() else None
+    folder = _spelt(path.parent)
+    if folder is None:
+        return None
+    wanted = unicodedata.normalize("NFC", path.name)
+    names = (each.name for each in folder.iterdir())
+    same = sorted(name for name in names if unicodedata.normalize("NFC", name) == wanted)
+    return folder / same[0] if same else None
+
+
+def left_out(argument: str) -> tuple[Notice, ...]:
+    """A notice if a folder or a glob holds files that may be scans, of kinds that are not read."""
+    kinds = Counter(path.suffix[1:].lower() for path in _files_below(argument) or ())
+    for suffix in (*MESH_SUFFIXES, *NO_SCANS):
+        del kinds[suffix[1:]]
+    if not kinds:
+        return ()
+    counts = ", ".join(f"{count} {kind}" for kind, count in sorted(kinds.items()))
+    files = "1 file was" if kinds.total() == 1 else f"{kinds.total()} files were"
+    words = f"{files} left out ({counts}); footfit reads {READ_KINDS}"
+    return (Notice("files_left_out", words),)
 
 
 def _expanded(argument: str, *, alone: bool) -> list[str]:
     """The paths that one argument stands for; itself if it cannot be looked up."""
     if not argument:
         raise BadOption("an empty path was given (an unset variable?); name a file or folder")
-    path = Path(argument)
-    try:
-        if path.is_dir():
-            paths = _mesh_files(path.rglob("*"), path)
-        elif GLOB_CHARACTERS & set(argument) and not path.exists():
-            anchor = Path(path.anchor)
-            paths = _mesh_files(anchor.glob(str(path.relative_to(anchor))), anchor)
-        else:
-            return [argument]
-    except (OSError, ValueError):  # the name is too long, the folder is closed to us, or "**x"
+    argument = stored_path(argument)
+    files = _files_below(argument)
+    if files is None:
         return [argument]
+    paths = sorted(str(path) for path in files if path.suffix.lower() in MESH_SUFFIXES)
     if not paths and alone:
-        kinds = ", ".join(suffix[1:] for suffix in MESH_SUFFIXES)
-        raise UnreadableFile(f"holds no mesh file ({kinds}); name a file or folder", argument)
+        others = "".join(f"; {notice.message}" for notice in left_out(argument))
+        words = f"holds no mesh file ({READ_KINDS}); name a file or folder"
+        raise UnreadableFile(others[2:] or words, argument)
     return paths or [argument]
 
 
-def _mesh_files(paths: Iterable[Path], folder: Path) -> list[str]:
-    """The regular mesh files among ``paths``, sorted; no hidden ones below ``folder``."""
-    return sorted(
-        str(path)
-        for path in paths
-        if path.suffix.lower() in MESH_SUFFIXES
-        and not any(part.startswith(".") for part in path.relative_to(folder).parts)
-        and path.is_file()
-    )
+def _files_below(argument: str) -> list[Path] | None:
+    """The regular files of a folder or a glob, no hidden ones; None for anything else."""
+    path = Path(argument)
+    try:
+        if path.is_dir():
+            folder, paths = path, path.rglob("*")
+        elif GLOB_CHARACTERS & set(argument) and not path.exists():
+            folder = Path(path.anchor)
+            paths = folder.glob(str(path.relative_to(folder)))
+        else:
+            return None
+        return [
+            each
+            for each in paths
+            if not any(part.startswith(".") for part in each.relative_to(folder).parts)
+            and each.is_file()
+        ]
+    except (OSError, ValueError):  # the name is too long, the folder is closed to us, or "**x"
+        return None

@@ -2,15 +2,15 @@
 
 from __future__ import annotations
 
-import csv
-import io
+from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
 from footfit.errors import BadManifest, BadOption
 from footfit.meshes.units import UNIT_SCALES
-from footfit.pipeline.batch.sources import ReadingOptions
+from footfit.pipeline.batch.csv_rows import CsvRow, csv_rows, rows_of_text
+from footfit.pipeline.batch.sources import ReadingOptions, stored_path
 from footfit.pipeline.scan.standing import LABELLED_MM
 from footfit.results import LastLabels
 
@@ -18,7 +18,6 @@ LABEL_TEXTS = ("name", "style", "size", "size_system", "width_label")
 LABEL_HEIGHTS = ("heel_height_mm", "toe_spring_mm", "platform_mm")
 COLUMNS = ("path", *LABEL_TEXTS, "side", "units", *LABEL_HEIGHTS)
 CHOICES = {"side": ("auto", "left", "right"), "units": ("auto", *UNIT_SCALES)}
-LARGEST_BYTES = 16_000_000
 
 
 @dataclass(frozen=True, slots=True)
@@ -38,16 +37,7 @@ def read_manifest(path: Path) -> list[ManifestRow]:
     BadManifest
         It is not a file, not UTF-8 text or too large, or its content is not understood.
     """
-    try:
-        if not path.is_file():
-            raise BadManifest("is not a file; name a CSV file", str(path))
-        if path.stat().st_size > LARGEST_BYTES:
-            limit = f"{LARGEST_BYTES / 1e6:.0f} MB"
-            raise BadManifest(f"is larger than {limit}; give it fewer lines", str(path))
-        text = path.read_text(encoding="utf-8-sig")
-    except (OSError, UnicodeDecodeError) as error:
-        raise BadManifest(f"cannot be read as UTF-8 text ({error})", str(path)) from error
-    return manifest_rows(text, path.parent, str(path))
+    return _labelled_rows(csv_rows(path, COLUMNS, ("path",)), path.parent, str(path))
 
 
 def manifest_rows(text: str, folder: Path, origin: str) -> list[ManifestRow]:
@@ -65,37 +55,31 @@ def manifest_rows(text: str, folder: Path, origin: str) -> list[ManifestRow]:
     >>> row.path, row.labels.name, row.labels.size
     ('lasts/derby.stl', 'derby', '42')
     """
-    reader = csv.DictReader(io.StringIO(text), skipinitialspace=True)
-    fields = [name.strip() for name in reader.fieldnames or []]
-    reader.fieldnames = fields
-    unknown = [name for name in fields if name not in COLUMNS]
-    if "path" not in fields or unknown:
-        problem = f"unknown column {unknown[0]!r}" if unknown else "no column 'path'"
-        raise BadManifest(f"{problem}; the columns are {', '.join(COLUMNS)}", origin)
-    try:
-        rows = [_row(values, folder, f"{origin} line {reader.line_num}") for values in reader]
-    except csv.Error as error:
-        raise BadManifest(f"is not a CSV file ({error}); save it as CSV", origin) from error
+    return _labelled_rows(rows_of_text(text, COLUMNS, ("path",), origin), folder, origin)
+
+
+def _labelled_rows(rows: Sequence[CsvRow], folder: Path, origin: str) -> list[ManifestRow]:
+    labelled = [_labelled_row(row, folder) for row in rows]
     seen: set[str] = set()
-    for row in rows:
+    for row in labelled:
         if row.path in seen:
             raise BadManifest(f"names {row.path} twice; keep one line for it", origin)
         seen.add(row.path)
-    return rows
+    return labelled
 
 
-def _row(values: dict[str, str | None], folder: Path, where: str) -> ManifestRow:
-    if None in values:
-        raise BadManifest("has more values than columns; quote values with commas", where)
-    given = {name: text for name, value in values.items() if (text := (value or "").strip())}
+def _labelled_row(row: CsvRow, folder: Path) -> ManifestRow:
+    given, where = row.values, row.where
     if "path" not in given:
         raise BadManifest("has no path; fill it in or remove the line", where)
-    said: dict[str, Any] = {name: given[name] for name in LABEL_TEXTS if name in given}
+    said: dict[str, Any] = {
+        name: " ".join(given[name].split()) for name in LABEL_TEXTS if name in given
+    }
     said |= {name: _height(given.get(name), name, where) for name in LABEL_HEIGHTS}
-    labels = LastLabels(**{"name": Path(given["path"]).stem} | said)
+    path = stored_path(str(folder / given["path"]))
+    labels = LastLabels(**{"name": Path(path).stem} | said)
     units, side = (_choice(given.get(name, "auto"), name, where) for name in ("units", "side"))
-    reading = ReadingOptions(units=units, side=side)
-    return ManifestRow(str(folder / given["path"]), labels, reading)
+    return ManifestRow(path, labels, ReadingOptions(units=units, side=side))
 
 
 def _choice(value: str, column: str, where: str) -> str:
@@ -107,7 +91,7 @@ def _choice(value: str, column: str, where: str) -> str:
 
 def _height(value: str | None, column: str, where: str) -> float | None:
     try:
-        return None if value is None else label_mm(float(value), column)
+        return None if value is None else label_mm(float(value.replace(",", ".")), column)
     except (ValueError, BadOption) as error:
         low, high = LABELLED_MM[column]
         words = f"{column} is {value!r}; it must be a number of mm from {low} to {high}"

@@ -159,7 +159,9 @@ def ingest_line(outcome: results.IngestOutcome) -> Text:
     """The outcome of one file, in one line."""
     line = Text(f"{outcome.status:<10}", STATUS_STYLES.get(outcome.status, ""))
     if outcome.failure is not None:
-        return line.append(visible(f"{outcome.path}: {outcome.failure.message}"), "default")
+        return line.append(
+            visible(f"{outcome.path or 'standard input'}: {outcome.failure.message}"), "default"
+        )
     line.append(visible(outcome.last or "-"), "bold default")
     if outcome.side is not None:
         line.append(f"  {outcome.side}", "not bold")

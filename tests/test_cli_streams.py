@@ -1,0 +1,131 @@
+"""Standard streams as scripts have them: pipes, closed, on a full disk, and a mesh on stdin."""
+
+from __future__ import annotations
+
+import hashlib
+import json
+import os
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+from tests import corpus
+from tests.conftest import ROOT, Footfit, Run
+
+BASH = shutil.which("bash")
+pytestmark = pytest.mark.skipif(BASH is None, reason="the redirections are those of bash")
+FULL = pytest.mark.skipif(not Path("/dev/full").exists(), reason="there is no /dev/full here")
+LIST = "footfit list-lasts --catalogue lasts.footfit"
+
+
+@pytest.fixture
+def shop(stocked: Path, foot: Path, tmp_path: Path) -> Path:
+    """A folder with a catalogue and a foot."""
+    shutil.copy(stocked, tmp_path / "lasts.footfit")
+    shutil.copy(foot, tmp_path / "foot.stl")
+    return tmp_path
+
+
+def bash(script: str, folder: Path, **variables: str) -> Run:
+    """What a script does in a shell where ``footfit`` is this version."""
+    start = f'set -o pipefail; footfit() {{ "{sys.executable}" -m footfit "$@"; }}; '
+    environment = {**os.environ, "HOME": str(folder), "PYTHONPATH": str(ROOT), **variables}
+    done = subprocess.run(
+        [str(BASH), "-c", start + script], cwd=folder, env=environment, capture_output=True
+    )
+    return Run(done.returncode, done.stdout.decode(), done.stderr.decode())
+
+
+@pytest.mark.parametrize(
+    "script",
+    [
+        "footfit -h | head -1",
+        "footfit match -h | grep -q pair",
+        "footfit --version | true",
+        "footfit --show-completion bash | true",
+        f"{LIST} | true",
+        f"{LIST} --json | true",
+    ],
+)
+def test_a_reader_that_goes_away_is_no_failure(script: str, shop: Path) -> None:
+    run = bash(script, shop)
+    assert (run.code, run.err) == (0, "")
+
+
+@pytest.mark.parametrize("script", ["footfit -h", "footfit --version", LIST])
+@pytest.mark.parametrize("stream", [">&-", pytest.param("> /dev/full", marks=FULL)])
+def test_a_lost_answer_is_a_failure_of_one_line(script: str, stream: str, shop: Path) -> None:
+    run = bash(f"{script} {stream}", shop)
+    assert (run.code, run.out) == (2, "")
+    (line,) = run.err.splitlines()
+    assert "bug" not in line
+    assert "stdout" in line
+    as_json = bash(f"{LIST} --json {stream}", shop)
+    assert json.loads(as_json.last_error)["exit"] == as_json.code == 2
+
+
+def test_what_a_command_writes_is_written_though_its_answer_is_lost(shop: Path) -> None:
+    run = bash("footfit measure foot.stl --quiet --csv foot.csv >&- 2>&-", shop)
+    assert (run.code, run.out, run.err) == (2, "", "")
+    assert "ball_girth" in (shop / "foot.csv").read_text()
+    copied = bash("footfit backup-catalogue copy.footfit --catalogue lasts.footfit >&-", shop)
+    assert copied.code == 2
+    assert (shop / "copy.footfit").exists()
+
+
+@pytest.mark.parametrize("stream", ["2>&-", pytest.param("2> /dev/full", marks=FULL)])
+def test_without_stderr_the_answer_and_the_code_are_the_same(stream: str, shop: Path) -> None:
+    assert bash(f"{LIST} {stream}", shop).out == bash(LIST, shop).out
+    assert bash(f"footfit measure none.stl {stream}", shop).code == 3
+    assert bash(f"footfit measure none.stl >&- {stream}", shop).code == 3
+
+
+@pytest.mark.parametrize("name", ["NO_COLOR", "FORCE_COLOR", "CI", "GITHUB_ACTIONS", "TERM"])
+def test_no_colour_goes_into_a_pipe(name: str, shop: Path) -> None:
+    run = bash(f"{LIST}; footfit measure none.stl", shop, **{name: "dumb"})
+    assert "\x1b" not in run.out + run.err
+
+
+def test_an_answer_is_utf_8_whatever_the_locale_is(shop: Path) -> None:
+    (shop / "größe.stl").write_bytes((shop / "foot.stl").read_bytes())
+    run = bash("footfit measure größe.stl", shop, PYTHONIOENCODING="ascii", LC_ALL="C.UTF-8")
+    assert "größe.stl" in run.out
+    assert "±" in run.out
+
+
+@pytest.mark.parametrize("kind", ["stl", "obj", "ply", "off"])
+def test_stdin_is_read_by_its_content(
+    kind: str, footfit: Footfit, foot: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    path = tmp_path / f"foot.{kind}"
+    assert footfit("align", foot, "-o", path).code == 0
+    with path.open("rb") as stream:
+        monkeypatch.setattr("sys.stdin", type("Stdin", (), {"buffer": stream}))
+        document = footfit("align", "-", "--json").document
+    assert document["mesh"]["path"] is None
+    assert document["mesh"]["sha256"] == hashlib.sha256(path.read_bytes()).hexdigest()
+
+
+@pytest.mark.parametrize(
+    ("data", "words"),
+    [
+        (corpus.stl()[:-9], "add --format"),
+        (b"dear last maker\n", "text without a mesh"),
+        (b"PK\x03\x04", "ZIP"),
+        (b"", "empty"),
+    ],
+)
+def test_what_stdin_does_not_say_is_asked_for(data: bytes, words: str, shop: Path) -> None:
+    (shop / "stdin").write_bytes(data)
+    run = bash("footfit measure - < stdin", shop)
+    assert (run.code, run.out) == (3, "")
+    assert words in run.err
+
+
+def test_a_closed_stdin_is_said(shop: Path) -> None:
+    run = bash("footfit measure - <&-", shop)
+    assert run.code == 3
+    assert "standard input is closed" in run.err
