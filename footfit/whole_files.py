@@ -23,10 +23,22 @@ def require_free(path: Path, *, replace: bool) -> None:
     """
     if path.is_dir():
         raise BadOption("is a folder; name a file in it", str(path))
-    if not path.parent.is_dir():
-        raise BadOption(f"the folder {path.parent} does not exist; make it first", str(path))
+    require_folder(path)
     if path.exists() and not replace:
         raise _exists(path)
+
+
+def require_folder(path: Path) -> None:
+    """Refuse a path whose folder is missing: it may be mistyped, so nothing makes the folder.
+
+    Raises
+    ------
+    BadOption
+        Its folder does not exist.
+    """
+    if not path.parent.is_dir():
+        words = f"the folder {path.parent} does not exist: check the path, or make the folder first"
+        raise BadOption(words, str(path))
 
 
 @contextmanager

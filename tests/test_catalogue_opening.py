@@ -16,6 +16,7 @@ from footfit.catalogue.file import opening
 from footfit.catalogue.file.engine import connect
 from footfit.catalogue.store import open_catalogue
 from footfit.errors import (
+    BadOption,
     CatalogueDamaged,
     CatalogueLocked,
     CatalogueNotWritable,
@@ -62,8 +63,9 @@ def test_an_edit_of_nothing_makes_nothing(tmp_path: Path, name: str) -> None:
     assert [file.name for file in tmp_path.iterdir()] == ["empty"]
 
 
-def test_writing_makes_the_file_and_its_folder(tmp_path: Path) -> None:
+def test_writing_makes_the_file_in_a_folder_of_any_name(tmp_path: Path) -> None:
     place = tmp_path / "a %41 folder?" / "lästs#1.footfit"
+    place.parent.mkdir()
     with open_catalogue(place, write=True) as catalogue:
         assert catalogue.names() == ()
     (tmp_path / "empty").touch()
@@ -75,10 +77,20 @@ def test_writing_makes_the_file_and_its_folder(tmp_path: Path) -> None:
     assert [file.name for file in place.parent.iterdir()] == [place.name]
 
 
-def test_a_folder_that_cannot_be_made_is_said(tmp_path: Path) -> None:
+@pytest.mark.parametrize("folder", ["none", "none/below"])
+def test_no_folder_is_made_for_a_catalogue(tmp_path: Path, folder: str) -> None:
+    with (
+        pytest.raises(BadOption, match=r"folder .* does not exist: check the path"),
+        open_catalogue(tmp_path / folder / "lasts", write=True),
+    ):
+        pass
+    assert not list(tmp_path.iterdir())
+
+
+def test_a_file_in_place_of_the_folder_is_said(tmp_path: Path) -> None:
     (tmp_path / "file").write_text("x")
     with (
-        pytest.raises(CatalogueNotWritable, match="folder"),
+        pytest.raises(CatalogueNotWritable, match="Not a directory"),
         open_catalogue(tmp_path / "file" / "lasts", write=True),
     ):
         pass

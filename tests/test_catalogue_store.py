@@ -29,7 +29,7 @@ SIDES = ("left", "right")
 @pytest.fixture
 def path(tmp_path: Path) -> Path:
     """Where a catalogue is to be."""
-    return tmp_path / "a folder" / "lasts.footfit"
+    return tmp_path / "lasts.footfit"
 
 
 @pytest.fixture
@@ -238,10 +238,27 @@ def test_replacing_the_reference_expresses_all_by_the_new_scan(catalogue: Catalo
     assert catalogue.findings() == [], "every paper transform follows the new OM_E"
 
 
+@pytest.mark.parametrize("damaged", [False, True])
+def test_the_only_last_is_removed_with_its_reference(path: Path, damaged: bool) -> None:
+    with open_catalogue(path, write=True) as opened:
+        opened.add(records.last("only", 1), records.mesh_copy(1))
+        if damaged:
+            with opened.file.atomic() as connection:
+                connection.exec_driver_sql("UPDATE last SET style = 'changed'")
+        outcome = opened.remove("only")
+        assert (outcome.last, outcome.left) == ("only", 0)
+        assert (opened.names(), opened.reference(), opened.findings()) == ((), None, [])
+        opened.add(records.last("next", 2))
+        reference = opened.reference()
+        assert reference is not None
+        assert reference.last == "next"
+        assert opened.findings() == []
+
+
 def test_the_reference_and_a_parent_are_not_removed(catalogue: Catalogue) -> None:
     catalogue.add(records.last("graded", 9, parent="last-1"))
     before = content_without_meshes(catalogue)
-    with pytest.raises(BadOption, match="set-reference"):
+    with pytest.raises(BadOption, match=r"another reference first.*set-reference"):
         catalogue.remove("last-0")
     with pytest.raises(BadOption, match="parent of 'graded'"):
         catalogue.remove("last-1")

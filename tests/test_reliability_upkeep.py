@@ -96,6 +96,9 @@ def test_a_restore_where_there_is_nothing_makes_the_catalogue(
     footfit: Footfit, stocked: Path, tmp_path: Path
 ) -> None:
     place = tmp_path / "new folder" / "lasts.footfit"
+    refused = footfit("restore-catalogue", stocked, "--catalogue", place)
+    assert (refused.code, list(tmp_path.iterdir())) == (2, [])
+    place.parent.mkdir()
     run = footfit("restore-catalogue", stocked, "--catalogue", place, "--json")
     assert run.document["kept"] is None
     assert content(place) == content(stocked)

@@ -12,7 +12,16 @@ from footfit.catalogue.file.copying import copy_into
 from footfit.catalogue.file.engine import SETTINGS, CatalogueFile, sqlite_errors_in_words
 from footfit.catalogue.file.migrate import Revisions, Schema
 from footfit.catalogue.file.opening import open_for_reading, open_for_writing
-from footfit.catalogue.rows.columns import FLARE, FRAME, LAST, MEASURE, MESH_COPY, SECTION, Table
+from footfit.catalogue.rows.columns import (
+    FLARE,
+    FRAME,
+    LAST,
+    MEASURE,
+    MESH_COPY,
+    REFERENCE,
+    SECTION,
+    Table,
+)
 from footfit.catalogue.rows.records import mesh_copy_of, record_of, sections_of
 from footfit.catalogue.rows.reference_last import (
     express,
@@ -71,13 +80,15 @@ def open_catalogue(
 
     Opened for reading, nothing is made or changed; ``older`` also accepts an older schema, which
     only :meth:`Catalogue.findings` and :meth:`Catalogue.copy_to` can read. Opened for writing, a
-    missing catalogue is made with its folder, unless ``create`` is False, and an older one is
+    missing catalogue is made in its folder, unless ``create`` is False, and an older one is
     upgraded after a copy was put beside it (``Catalogue.revisions``).
 
     Raises
     ------
     NoCatalogue
         There is no catalogue, and none may be made.
+    BadOption
+        There is no catalogue, and its folder is missing.
     NotACatalogue, NewerCatalogue, CatalogueDamaged, CatalogueLocked, CatalogueNotWritable
         The file is something else, from a later footfit, damaged, held or read-only.
     """
@@ -246,17 +257,22 @@ class Catalogue:
     def remove(self, name: str) -> RemoveOutcome:
         """Remove a last with everything that the catalogue holds of it.
 
+        If it is the only one, the catalogue has no reference until the next last is added.
+
         Raises
         ------
         UnknownLast, BadOption
-            There is no such last; it is the reference, or the parent of another last.
+            There is no such last; it is the reference of other lasts, or the parent of one.
         """
         with self.file.atomic() as connection:
             driver = driver_of(connection)
             key = last_id(driver, name)
-            require_removable(driver, key, name)
+            names = last_names(driver)
+            require_removable(driver, key, names)
+            if len(names) == 1:  # an empty catalogue has no reference
+                delete_rows(connection, REFERENCE, key)
             delete_rows(connection, LAST, key)
-        return RemoveOutcome(name)
+        return RemoveOutcome(names[key], len(names) - 1)
 
     def rename(self, name: str, new_name: str) -> RenameOutcome:
         """Give a last another name.

@@ -17,7 +17,7 @@ from footfit.report.terminal import (
     match_tables,
     scan_tables,
 )
-from footfit.results import Alignment, Match, Notice
+from footfit.results import Alignment, IngestOutcome, Match, Notice
 
 if TYPE_CHECKING:
     from rich.console import RenderableType
@@ -46,6 +46,18 @@ def _of_match(match: Match) -> Notices:
     return None, (*feet, *match.warnings)
 
 
+def _of_ingest(outcome: IngestOutcome) -> Notices:
+    """The path of a new catalogue, then the notes and the warnings of the file."""
+    made = outcome.new_catalogue
+    new = [Notice("new_catalogue", f"new catalogue: {made}")] if made else []
+    where = f"{outcome.path or '-'}: "
+    of_file = [
+        Notice(notice.code, where + notice.message)
+        for notice in (*outcome.notes, *outcome.warnings)
+    ]
+    return None, (*new, *of_file)
+
+
 class Form(NamedTuple):
     """The table and the notices of one type of result."""
 
@@ -72,9 +84,7 @@ FORMS: dict[type, Form] = {
         comparison_tables.compare_table,
         lambda comparison: _with_notes(comparison.foot.aligned.alignment, comparison.warnings),
     ),
-    results.IngestOutcome: Form(
-        scan_tables.ingest_line, lambda outcome: (outcome.path, (*outcome.notes, *outcome.warnings))
-    ),
+    results.IngestOutcome: Form(scan_tables.ingest_line, _of_ingest),
     results.Library: Form(
         catalogue_tables.list_lasts_table, lambda library: (None, library.warnings)
     ),

@@ -103,6 +103,20 @@ class Lasts:
 
         return open_catalogue(catalogue_path(self.catalogue))
 
+    def open_to_make(self, *, dry_run: bool = False) -> Catalogue:
+        """The catalogue for a method that makes one: it has its folder, except in a dry run.
+
+        Raises
+        ------
+        BadOption, CatalogueNotWritable
+            Its folder does not exist; the data folder cannot be made.
+        """
+        from footfit.cli.settings import make_folder_for
+
+        catalogue = self.open()
+        make_folder_for(catalogue.path, dry_run=dry_run)
+        return catalogue
+
 
 @dataclass(frozen=True, slots=True)
 class Scale:

@@ -56,11 +56,40 @@ def catalogue_path(option: Path | None) -> Path:
     if named:
         return Path(named).expanduser()
     from_settings = settings_catalogue(settings_path())
-    if from_settings is not None:
-        return from_settings
+    return data_folder() / CATALOGUE_NAME if from_settings is None else from_settings
+
+
+def data_folder() -> Path:
+    """The user's data folder, whether it exists or not."""
     import platformdirs
 
-    return Path(platformdirs.user_data_dir("footfit", appauthor=False)) / CATALOGUE_NAME
+    return Path(platformdirs.user_data_dir("footfit", appauthor=False))
+
+
+def make_folder_for(catalogue: Path, *, dry_run: bool = False) -> None:
+    """Make the data folder for a catalogue that is to lie in it; no other folder is made.
+
+    A ``dry_run`` only refuses what could not be made.
+
+    Raises
+    ------
+    BadOption
+        The catalogue's folder is another one and does not exist.
+    CatalogueNotWritable
+        The data folder cannot be made.
+    """
+    from footfit.errors import CatalogueNotWritable
+    from footfit.whole_files import require_folder
+
+    if catalogue.parent == data_folder():
+        if dry_run:
+            return
+        try:
+            catalogue.parent.mkdir(parents=True, exist_ok=True)
+        except OSError as error:
+            words = f"cannot be made, because its folder cannot be made ({error.strerror})"
+            raise CatalogueNotWritable(words, str(catalogue)) from error
+    require_folder(catalogue)
 
 
 def use_one_blas_thread() -> None:

@@ -19,6 +19,8 @@ class IngestOutcome(Document):
 
     ``path`` is None for standard input. ``failure`` says why a file was refused. ``notes`` are
     for people and are no warnings. ``dry_run``: this would be the outcome; nothing was stored.
+    ``new_catalogue`` is the path of the catalogue, if this ingest made it and this is its first
+    outcome.
     """
 
     path: str | None
@@ -31,6 +33,7 @@ class IngestOutcome(Document):
     reference: bool = False
     notes: tuple[Notice, ...] = ()
     dry_run: bool = False
+    new_catalogue: str | None = None
 
     schema = "ingest-last/1"
 
@@ -141,14 +144,15 @@ class RenameOutcome(Document):
 
 @dataclass(frozen=True, slots=True)
 class RemoveOutcome(Document):
-    """A last that was removed from the catalogue."""
+    """A last that was removed from the catalogue, and how many lasts are left in it."""
 
     last: str
+    left: int = 0
 
     schema = "remove-last/1"
 
     def _keys(self) -> Json:
-        return {"last": self.last, "status": "removed"}
+        return {"last": self.last, "status": "removed", "left": self.left}
 
 
 @dataclass(frozen=True, slots=True)

@@ -89,7 +89,11 @@ def _keys(connection: sqlite3.Connection) -> Iterator[Finding]:
 def _lasts(connection: sqlite3.Connection) -> Iterator[Finding]:
     for stored in stored_lasts(connection):
         if not stored.intact:
-            yield Finding("last", "its rows are not what was stored", stored.name)
+            yield Finding(
+                "last",
+                "its stored numbers were changed: ingest it again with --replace",
+                stored.name,
+            )
             continue
         for words in implausible(stored):
             yield Finding("range", words, stored.name)

@@ -44,11 +44,15 @@ class Schema:
 
 @dataclass(frozen=True, slots=True)
 class Revisions:
-    """The schema before and after an opening; ``backup`` is the copy that an upgrade made."""
+    """The schema before and after an opening; ``backup`` is the copy that an upgrade made.
+
+    ``made`` is True if the opening made the file.
+    """
 
     before: str
     after: str
     backup: str | None = None
+    made: bool = False
 
 
 def stored_revision(

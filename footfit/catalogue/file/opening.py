@@ -19,7 +19,8 @@ from footfit.catalogue.file.migrate import (
     stored_revision,
     upgrade,
 )
-from footfit.errors import CatalogueNotWritable, NoCatalogue
+from footfit.errors import NoCatalogue
+from footfit.whole_files import require_folder
 
 FIRST_STEPS = "type: footfit ingest-last FOLDER, or try: footfit demo"
 
@@ -79,6 +80,8 @@ def open_for_writing(
     ------
     NoCatalogue
         There is none, and it may not be made.
+    BadOption
+        There is none, and its folder is missing too.
     CatalogueNotWritable, CatalogueLocked
         The file or its folder cannot be written; another program holds the file.
     NotACatalogue, NewerCatalogue, CatalogueDamaged
@@ -89,7 +92,7 @@ def open_for_writing(
             revisions = _upgrade_if_older(path, schema, busy_timeout_s)
             connection = connect(path, "rw", busy_timeout_s)
         elif may_create:
-            revisions = Revisions(schema.head, schema.head)
+            revisions = Revisions(schema.head, schema.head, made=True)
             connection = _make(path, schema, busy_timeout_s)
         else:
             raise _no_catalogue(path)
@@ -120,11 +123,7 @@ def _upgrade_if_older(path: Path, schema: Schema, busy_timeout_s: float) -> Revi
 
 
 def _make(path: Path, schema: Schema, busy_timeout_s: float) -> sqlite3.Connection:
-    try:
-        path.parent.mkdir(parents=True, exist_ok=True)
-    except OSError as error:
-        words = f"cannot be made, because its folder cannot be made ({error.strerror})"
-        raise CatalogueNotWritable(words, str(path)) from error
+    require_folder(path)
     connection = connect(path, "rwc", busy_timeout_s)
     try:
         create(connection, schema)

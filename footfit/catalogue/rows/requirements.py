@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import sqlite3
+from collections.abc import Mapping
 
 from footfit.catalogue.rows.verified_rows import key_where, last_id, last_names, stored_lasts
 from footfit.errors import BadOption, NameTaken
@@ -61,24 +62,26 @@ def require_storable(name: str) -> None:
         raise BadOption(words) from error
 
 
-def require_removable(connection: sqlite3.Connection, key: int, name: str) -> None:
-    """Refuse to remove a last that others depend on.
+def require_removable(connection: sqlite3.Connection, key: int, names: Mapping[int, str]) -> None:
+    """Refuse to remove a last that others depend on; ``names`` are those of all lasts.
 
     Raises
     ------
     BadOption
-        It is the reference, or the parent of another last.
+        It is the reference of other lasts, or the parent of one.
     """
-    if connection.execute("SELECT 1 FROM reference WHERE last_id = ?", (key,)).fetchone():
+    name, alone = names[key], len(names) == 1
+    reference = connection.execute("SELECT 1 FROM reference WHERE last_id = ?", (key,)).fetchone()
+    if reference and not alone:
         raise BadOption(
-            f"{name!r} is the reference; choose another one first: footfit set-reference LAST"
+            f"{name!r} is the reference: choose another reference first, with footfit set-reference"
         )
     children = connection.execute(
         "SELECT name FROM last NOT INDEXED WHERE parent_id = ? ORDER BY name", (key,)
     ).fetchall()
     if children:
-        names = ", ".join(repr(child) for (child,) in children)
-        raise BadOption(f"{name!r} is the parent of {names}; remove those first")
+        children_names = ", ".join(repr(child) for (child,) in children)
+        raise BadOption(f"{name!r} is the parent of {children_names}; remove those first")
 
 
 def _parent_id(connection: sqlite3.Connection, labels: LastLabels, key: int | None) -> int | None:

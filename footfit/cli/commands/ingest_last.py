@@ -84,7 +84,7 @@ def ingest_last(
     mode = changed(mode, total=len(batch))
     say_notices(unused_rows(batch, rows), str(manifest), quiet=mode.quiet)
     refused: list[int] = []
-    outcomes = lasts.open().ingest_each(
+    outcomes = lasts.open_to_make(dry_run=dry_run).ingest_each(
         batch,
         replace=replace,
         dry_run=dry_run,

@@ -8,7 +8,7 @@ from footfit.cli import options
 def remove_last(
     last: str = options.LAST, *, lasts: options.Lasts, mode: options.OutputMode
 ) -> object:
-    """Remove a last from the catalogue. The reference last cannot be removed.
+    """Remove a last from the catalogue; the reference only if no other last is left.
 
     Example: footfit remove-last derby-42
     """

@@ -17,4 +17,4 @@ def restore_catalogue(
 
     Example: footfit restore-catalogue lasts-2026-05-01.footfit
     """
-    return lasts.open().restore(file)
+    return lasts.open_to_make().restore(file)

@@ -13,7 +13,7 @@ from footfit.catalogue.store import open_catalogue
 from footfit.errors import BadOption, NoCatalogue, UnreadableFile
 from footfit.pipeline.library.check import check, require_sound
 from footfit.results import BackupOutcome, CheckOutcome, RestoreOutcome
-from footfit.whole_files import give_name, require_free
+from footfit.whole_files import give_name, require_folder, require_free
 
 NO_BACKUP = "no backup was made; see footfit check-catalogue"
 NOT_RESTORED = "nothing was restored; the catalogue is as it was"
@@ -51,7 +51,7 @@ def restore(path: Path, backup: Path) -> RestoreOutcome:
     Raises
     ------
     UnreadableFile, BadOption
-        There is no such backup, or it is the catalogue itself.
+        There is no such backup, or it is the catalogue itself; the catalogue's folder is missing.
     CheckFailed
         The backup is damaged.
     CatalogueUnusable
@@ -60,7 +60,7 @@ def restore(path: Path, backup: Path) -> RestoreOutcome:
     _refuse_itself(path, backup, "name a backup of it")
     try:
         require_sound(check(backup), NOT_RESTORED)
-        path.parent.mkdir(parents=True, exist_ok=True)
+        require_folder(path)
         with open_catalogue(backup, older=True) as old, partial_beside(path) as whole:
             old.copy_to(whole)
             _bring_up_to_date(whole)
@@ -68,8 +68,6 @@ def restore(path: Path, backup: Path) -> RestoreOutcome:
             kept = put_in_place(whole, path, SETTINGS.busy_timeout_s)
     except NoCatalogue as error:
         raise UnreadableFile("there is no backup here; check the name", str(backup)) from error
-    except FileExistsError as error:
-        raise BadOption("the folder cannot be made; it is a file", str(path.parent)) from error
     return RestoreOutcome(
         str(path), str(backup), outcome.lasts, None if kept is None else str(kept)
     )

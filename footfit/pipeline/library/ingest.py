@@ -207,23 +207,25 @@ def ingest(
     """Ingest a batch into the catalogue at ``path``; yield each file's outcome after its commit.
 
     ``keep_mesh`` "full" keeps every face of a mesh; with ``replace`` also of a last that is stored
-    with a lighter copy. A missing catalogue is made. Signals are held off by ``hold_signals`` from
-    before a commit until the next outcome is asked for.
+    with a lighter copy. A missing catalogue is made, but not its folder. Signals are held off
+    by ``hold_signals`` from before a commit until the next outcome is asked for.
 
     Raises
     ------
-    CatalogueUnusable
-        The catalogue cannot be opened or written.
+    CatalogueUnusable, BadOption
+        The catalogue cannot be opened or written; its folder is missing.
     """
     with nullcontext() if dry_run else open_catalogue(path, write=True) as catalogue:
         holdings = Holdings(_stored_lasts(path) if catalogue is None else catalogue.lasts().records)
         again = replace and keep_mesh == "full"  # its copy may be a lighter one
         known = frozenset() if replace else frozenset(holdings.by_content)
         work_on = partial(new_last, known=known, keep_mesh=keep_mesh)
+        made = str(path) if catalogue is not None and catalogue.revisions.made else None
         for work in outcomes(work_on, batch, jobs):
             with hold_signals():
                 outcome = _store(work, holdings, catalogue, replace=replace, again=again)
-                yield dataclasses.replace(outcome, dry_run=dry_run)
+                yield dataclasses.replace(outcome, dry_run=dry_run, new_catalogue=made)
+                made = None
 
 
 def _stored_lasts(path: Path) -> Sequence[LastRecord]:

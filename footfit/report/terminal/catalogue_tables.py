@@ -156,8 +156,12 @@ def rename_last_line(outcome: results.RenameOutcome) -> Text:
 
 
 def remove_last_line(outcome: results.RemoveOutcome) -> Text:
-    """A last that was removed."""
-    return Text("removed  ").append(visible(outcome.last), "bold")
+    """A last that was removed; after the last one, what becomes of the catalogue."""
+    line = Text("removed  ").append(visible(outcome.last), "bold")
+    if outcome.left:
+        return line
+    words = "  the catalogue is empty: the next last that you ingest becomes the reference"
+    return line.append(words, "not bold")
 
 
 def export_last_line(outcome: results.ExportOutcome) -> Text:
