@@ -119,7 +119,7 @@ def in_shares(found: Floats, people: Feet, profile: FitProfile) -> Floats:
 
 
 def best_lasts(people: Feet, profile: FitProfile, widths: tuple[int, ...]) -> tuple[Ints, Ints]:
-    """The best last's verdict (n,) and its zones' (n, z), ranked as by a match: length first."""
+    """The best last's verdict (n,) and its zones' (n, z), ranked as by a match: by verdict."""
     columns = [Column(0, rule, rule.weight > 0) for rule in profile.zones]
     sds = np.array([_sd(rule.zone) for rule in profile.zones])
     size = np.round((people.values["length"] + profile.zones[0].target) / SIZE_MM).astype(int)
@@ -131,7 +131,7 @@ def best_lasts(people: Feet, profile: FitProfile, widths: tuple[int, ...]) -> tu
             scored = scores(room, spread, spread, columns)
             whole = worst_levels(scored.level, columns)
             out = whole == REJECT
-            key = (scored.level[:, 0] * 10.0 + whole) * 100.0 + fit_distance(scored)
+            key = (whole * 10.0 + scored.level[:, 0]) * 100.0 + fit_distance(scored)
             tried.append((np.where(out, 1e6, key), whole, scored.level))
     first = np.argmin([key for key, _, _ in tried], axis=0)
     rows = np.arange(len(size))

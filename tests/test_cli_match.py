@@ -49,7 +49,7 @@ def test_the_check_fails_with_seven_and_one_line(
     run = footfit(*command, "--profile", strict, "--fail-under", "acceptable")
     assert run.code == 7
     assert "no last that is acceptable or better" in run.last_error
-    assert "rank" not in run.err
+    assert "toe room" not in run.err
     run = footfit(*command, "--profile", strict, "--fail-under", "good", "--json")
     assert json.loads(run.last_error)["code"] == "check_failed"
     assert {c["verdict"] for c in run.document["candidates"]} <= {"poor"}
@@ -66,6 +66,21 @@ def test_a_check_beside_a_bad_mesh_has_the_code_of_different_failures(
     )
     assert run.code == 3
     assert "no last that is good" in run.last_error
+
+
+def test_the_first_last_of_a_real_pair_has_the_best_verdict(
+    footfit: Footfit, scans: Path, stocked: Path
+) -> None:
+    """A pair whose nearest last was poor stood before an acceptable one, and met the check."""
+    feet = (scans / "MHR_template_L.stl", scans / "MHR_template_R.stl")
+    command = ("match", *feet, "--pair", "--catalogue", stocked, "--top", "9", "--json")
+    run = footfit(*command, "--fail-under", "acceptable")
+    order = ["good", "acceptable", "poor"]
+    verdicts = [candidate["verdict"] for candidate in run.document["candidates"]]
+    assert verdicts == sorted(verdicts, key=order.index)
+    assert len(set(verdicts)) > 1, "this pair has lasts of several verdicts"
+    assert run.document["best_verdict"] == verdicts[0]
+    assert run.code == (0 if verdicts[0] in order[:2] else 7)
 
 
 @pytest.mark.parametrize(

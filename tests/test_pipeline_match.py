@@ -145,10 +145,29 @@ def test_the_verdict_is_the_worst_zone(girth_mm: float, verdict: str) -> None:
     assert zone(one, "length").verdict == "good"
 
 
-def test_the_length_comes_first_whatever_the_other_zones_say() -> None:
+def test_the_verdict_comes_first_whatever_the_toe_room_says() -> None:
     found = answer(last("long", 278.0), last("tight", 275.0, ball_girth=231.0))
-    assert [c.last for c in found.candidates] == ["tight", "long"]
-    assert [c.verdict for c in found.candidates] == ["poor", "acceptable"]
+    assert [c.last for c in found.candidates] == ["long", "tight"]
+    assert [c.verdict for c in found.candidates] == ["acceptable", "poor"]
+    why = found.candidates[1].why
+    assert why.endswith("ball girth 9.0 mm tighter than asked, behind long by that")
+
+
+def test_among_equal_verdicts_a_good_toe_room_comes_first() -> None:
+    wide = last("wide", 276.5, ball_girth=247.5, ball_width=104.0, heel_width=71.0)
+    found = answer(last("long", 277.5), wide)
+    assert [c.verdict for c in found.candidates] == ["acceptable", "acceptable"]
+    assert [c.last for c in found.candidates] == ["wide", "long"]
+    assert found.candidates[0].distance > found.candidates[1].distance
+    assert found.candidates[1].why == "17.5 mm toe room (asked 13): further off than wide"
+
+
+def test_a_last_that_was_not_judged_in_full_stands_behind_its_verdict() -> None:
+    found = answer(last("lacking", ball_girth=None), last("long", 278.0, ball_girth=246.0))
+    assert [c.last for c in found.candidates] == ["long", "lacking"]
+    assert [c.verdict for c in found.candidates] == ["acceptable", "acceptable"]
+    assert found.candidates[1].why == "13.0 mm toe room (asked 13); not judged: ball girth"
+    assert meets(found, "acceptable")
 
 
 @given(st.floats(-10, 10), st.floats(-15, 15))
@@ -365,13 +384,13 @@ def test_where_nothing_fits_the_nearest_three_say_what_they_miss_by() -> None:
     assert "nothing_fits" in [n.code for n in found.warnings]
 
 
-def test_a_check_asks_for_the_best_of_the_candidates() -> None:
+def test_a_check_asks_for_the_first_last() -> None:
     good, fair, none = answer(last("a")), answer(last("a", 279)), answer(last("a", 300))
     assert [meets(m, "good") for m in (good, fair, none)] == [True, False, False]
     assert [meets(m, "acceptable") for m in (good, fair, none)] == [True, True, False]
-    behind = answer(last("long", 278.0), last("tight", 275.0, ball_girth=231.0), top=1)
-    assert behind.candidates[0].verdict == "poor"
-    assert meets(behind, "acceptable"), "a last that is not shown counts too"
+    by_flare = answer(last("far", 330, 8), last("near", 273, 9), by="flare", top=0)
+    assert [c.verdict for c in by_flare.candidates] == ["reject", "good"]
+    assert not meets(by_flare, "acceptable"), "the first row is what a reader takes"
 
 
 def test_the_profile_is_in_the_answer_with_its_hash() -> None:

@@ -16,7 +16,7 @@ from tools.answer_differences import answer_differences, compare, differences, r
 from tools.answer_runs import cube, subject, table, two_feet
 
 ANSWER: dict[str, Any] = {
-    "schema": "footfit.match/1",
+    "schema": "footfit.match/2",
     "verdict": "good",
     "length_mm": 251.5,
     "mirrored": True,

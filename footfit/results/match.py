@@ -87,8 +87,8 @@ class Match(Document):
     """One customer's answer: one foot, or two with ``--pair``.
 
     ``nearest`` are the lasts that come nearest if none fits. ``size_system`` is the one that was
-    asked for. ``best_verdict`` is the best of all ranked lasts that were judged in every required
-    zone, shown or not; None by shape, or if there is no such last.
+    asked for. ``best_verdict`` is the verdict of the first last; None if that was not judged in
+    every required zone, if there is none, or by shape.
     """
 
     feet: tuple[Profiled, ...]
@@ -112,7 +112,7 @@ class Match(Document):
         *("profile", "profile_sha256", *HEEL_COLUMNS),
     )
 
-    schema = "match/1"
+    schema = "match/2"
 
     def _keys(self) -> Json:
         count = sum(count for _, count in self.rejected)

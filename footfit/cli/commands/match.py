@@ -47,7 +47,7 @@ def match(
         "Put the feet into each shown last, and say in mm where it is tight or loose.",
     ),
     fail_under: Least | None = options.option(
-        "--fail-under", "Exit with 7 if a customer has no last that is at least this."
+        "--fail-under", "Exit with 7 if the first last of a customer is not at least this."
     ),
     html: Path | None = options.output_file("--html", "Write a page that opens in any browser."),
     csv: Path | None = options.CSV,
@@ -106,7 +106,7 @@ def checked_code(matches: Sequence[Match], least: Least, code: int, *, as_json: 
     Raises
     ------
     CheckFailed
-        A customer has no last that is at least ``least``, and nothing else failed.
+        The first last of a customer is not at least ``least``, and nothing else failed.
     """
     from footfit.cli.console import error_line, say
     from footfit.errors import CheckFailed
@@ -118,9 +118,8 @@ def checked_code(matches: Sequence[Match], least: Least, code: int, *, as_json: 
         return code
     first = under[0].feet[0].aligned.alignment.info.path
     who = f"{len(under)} of {len(matches)} customers" if len(matches) > 1 else "this customer"
-    verb = "have" if len(under) > 1 else "has"
     better = "" if least == "good" else " or better"
-    error = CheckFailed(f"{who} {verb} no last that is {least}{better}", first)
+    error = CheckFailed(f"no last that is {least}{better} comes first for {who}", first)
     if not code:
         raise error
     say(error_line(error, as_json=as_json))

@@ -146,22 +146,18 @@ def _refuse_unknown_length(feet: Sequence[results.Profiled]) -> None:
 
 
 def _best_verdict(judged: ranking.JudgedLasts, ranked: ranking.Ranking) -> results.Verdict | None:
-    """The best verdict of the ranked lasts, which need not be the first's: length comes first.
+    """The verdict of the first last, if it was judged in every required zone.
 
-    A last without a verdict in a required zone is left out: what is not known is not a pass.
+    What is not known is not a pass. By fit no other last has a better verdict.
     """
-    if judged.by == "shape":
+    if judged.by == "shape" or not ranked.rows:
         return None
-    required = [
-        i for i, column in enumerate(judged.columns) if column.counts and column.rule.required
-    ]
-    sound: Bools = np.all(judged.known[:, required], axis=1)
-    levels = [int(judged.level[i]) for i in ranked.rows if sound[i]]
-    return VERDICTS[min(levels)] if levels else None
+    first = ranked.rows[0]
+    return VERDICTS[judged.level[first]] if judged.sound[first] else None
 
 
 def meets(match: results.Match, least: results.Verdict) -> bool:
-    """Is there a last at least as good as ``least``?"""
+    """Is the first last at least as good as ``least``?"""
     best = match.best_verdict
     return best is not None and VERDICTS.index(best) <= VERDICTS.index(least)
 
@@ -244,16 +240,24 @@ def _why(
     if ranked.tier[place] == ranked.tier[0]:
         return reasons.best_sentence(zones) + unknown
     name = judged.lasts[first].labels.name
-    return reasons.behind_sentence(zones, _costs(judged, row, first), name) + unknown
+    costs = _costs(judged, row, first)
+    if not judged.sound[row] and judged.sound[first] and max(costs) < WORSE_VERDICT:
+        return reasons.toe_room_words(zones) + unknown
+    return reasons.behind_sentence(zones, costs, name) + unknown
 
 
 def _costs(judged: ranking.JudgedLasts, row: int, first: int) -> list[float]:
     """How much more each column adds to a last's distance than to the first's; 0 if it does not
-    count. If the last's verdict is worse, the zones of a worse verdict come before all others.
+    count. Zones that make the last's verdict worse than the first's, or else its toe room, come
+    before all others.
     """
     score = np.square(np.nan_to_num(judged.scores.score[[row, first]], nan=UNKNOWN_SCORE))
-    level = np.maximum(judged.scores.level[[row, first]], 0)
-    worse = (level[0] > level[1]) & (judged.level[row] > judged.level[first])
+    level = judged.scores.level[row]
+    worse = np.zeros(len(judged.columns), dtype=bool)
+    if judged.level[row] > judged.level[first]:
+        worse = level == judged.level[row]
+    elif judged.toe_room_level[row] > judged.toe_room_level[first]:
+        worse[judged.length_column] = True
     counts = np.array([column.counts for column in judged.columns])
     cost = judged.scores.weight * (score[0] - score[1]) + np.where(worse, WORSE_VERDICT, 0.0)
     return np.where(counts, cost, 0.0).tolist()  # type: ignore[no-any-return]

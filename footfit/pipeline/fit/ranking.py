@@ -76,6 +76,24 @@ class JudgedLasts:
         """Which columns each last could be judged in, (n, z)."""
         return np.isfinite(self.scores.score)
 
+    @property
+    def sound(self) -> Bools:
+        """Which lasts were judged in every required zone, (n,)."""
+        required = [i for i, c in enumerate(self.columns) if c.counts and c.rule.required]
+        every: Bools = np.all(self.known[:, required], axis=1)
+        return every
+
+    @property
+    def length_column(self) -> int:
+        """The column of the governing foot's length."""
+        return next(i for i, c in enumerate(self.columns) if c.rule.zone == "length" and c.counts)
+
+    @property
+    def toe_room_level(self) -> Ints:
+        """The verdict of each last on the toe room of the foot that governs the length, (n,)."""
+        level: Ints = self.scores.level[:, self.length_column]
+        return level
+
     def mirrored(self, row: int) -> bool:
         """Is the last of the other side than the foot that governs the length?"""
         return self.lasts[row].side.side != self.feet[self.longer].aligned.alignment.side.side
@@ -226,14 +244,15 @@ def _twins(last: LastRecord, other: LastRecord) -> bool:
 def ranking(judged: JudgedLasts, tie_sds: float) -> Ranking:
     """The order of the lasts.
 
-    By fit the rejects and the lasts without a toe room are left out, and the length comes first:
-    the verdict on it, then the whole verdict, then the distance.
+    By fit the rejects and the lasts without a toe room are left out. The verdict comes first, then
+    whether every required zone was judged, then the verdict on the toe room, then the distance.
     """
     if judged.by != "fit":
         rows = _by_distance(judged, range(len(judged.lasts)))
         one = np.zeros(len(judged.lasts), dtype=np.int64)
         return Ranking(tuple(rows), tuple(tiers(rows, judged.distance, one, judged.spread, 1.0)))
-    group = judged.scores.level[:, _length_column(judged)] * len(VERDICTS) + judged.level
+    group = 2 * judged.level + ~judged.sound
+    group = len(VERDICTS) * group + judged.toe_room_level
     kept = [i for i in with_toe_room(judged) if judged.level[i] < REJECT]
     rows = sorted(_by_distance(judged, kept), key=lambda i: group[i])
     tier = tiers(rows, judged.distance, group, judged.spread, tie_sds)
@@ -249,14 +268,8 @@ def _by_distance(judged: JudgedLasts, rows: Iterable[int]) -> list[int]:
 
 def with_toe_room(judged: JudgedLasts) -> list[int]:
     """The rows whose toe room is known: the length is the gate, so no other last is judged."""
-    level: list[int] = judged.scores.level[:, _length_column(judged)].tolist()
+    level: list[int] = judged.toe_room_level.tolist()
     return [row for row, known in enumerate(level) if known != NOT_JUDGED]
-
-
-def _length_column(judged: JudgedLasts) -> int:
-    """The column of the governing foot's length."""
-    lengths = [i for i, c in enumerate(judged.columns) if c.rule.zone == "length" and c.counts]
-    return lengths[0]
 
 
 def nearest(judged: JudgedLasts, count: int) -> list[int]:

@@ -66,12 +66,12 @@ def best_sentence(zones: Sequence[ZoneFit]) -> str:
     """Why the first is first: its toe room, and what it is furthest off in."""
     others = _notable(zones)
     worst = judged_words(others[0]) if others else "near the target in every zone judged"
-    return f"{_toe_room(zones)}; {worst}"
+    return f"{toe_room_words(zones)}; {worst}"
 
 
 def behind_sentence(zones: Sequence[ZoneFit], costs: Sequence[float], first: str) -> str:
     """Why a last stands behind the first: the zone that costs it most, by ``costs``."""
-    room = _toe_room(zones)
+    room = toe_room_words(zones)
     worst, cost = max(zip(zones, costs, strict=True), key=lambda pair: pair[1])
     if cost <= 0.0 or worst.score is None:
         return f"{room}; a little further off in several zones than {first}"
@@ -90,10 +90,11 @@ def missed_sentence(zones: Sequence[ZoneFit], rules: Sequence[ZoneRule]) -> str:
         miss = max(rule.poor[0] - value, value - rule.poor[1])
         unit = UNIT_WORDS[zone.unit]
         words.append(f"{judged_words(zone)}, {miss:.1f}{unit} past the limit")
-    return "; ".join(words) or _toe_room(zones)
+    return "; ".join(words) or toe_room_words(zones)
 
 
-def _toe_room(zones: Sequence[ZoneFit]) -> str:
+def toe_room_words(zones: Sequence[ZoneFit]) -> str:
+    """The toe room of the foot that governs the length, in words."""
     return next(judged_words(zone) for zone in zones if zone.zone == "length" and zone.counts)
 
 

@@ -29,7 +29,7 @@ from footfit.results import Candidate, Match, Profiled, ZoneFit
 from footfit.results.values import NOT_YET
 
 LIKENESS = {
-    "fit": "order: good toe room first, then what fits better; distance: how far the zones are "
+    "fit": "order: the verdict, then the toe room, then the distance: how far the zones are "
     "from what the profile asks (0 = the target, 1 = the edge of good); lasts that are tied are "
     "not told apart by the measures",
     "flare": "distance: how far the flare profile is from the foot's (0 = the same), at any size",
