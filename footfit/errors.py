@@ -7,6 +7,8 @@ Below `FootfitError` stands a class for each exit code from 2 to 7, and below it
 from __future__ import annotations
 
 import re
+from collections.abc import Iterator
+from contextlib import contextmanager
 from enum import IntEnum
 from typing import ClassVar
 
@@ -37,6 +39,8 @@ class FootfitError(Exception):
         The line without the path, which the command line puts in front.
     path : str, optional
         The file (or the catalogue) that the line is about.
+    details : str
+        The numbers behind the message, which ``--verbose`` shows.
     """
 
     code: ClassVar[str] = "error"
@@ -47,18 +51,20 @@ class FootfitError(Exception):
         if "code" not in vars(cls):
             cls.code = re.sub(r"(?<!^)(?=[A-Z])", "_", cls.__name__).lower()
 
-    def __init__(self, message: str, path: str | None = None) -> None:
+    def __init__(self, message: str, path: str | None = None, details: str = "") -> None:
         super().__init__(message)
         self.message = message
         self.path = path
+        self.details = details
 
-    def __reduce__(self) -> tuple[type[FootfitError], tuple[str, str | None]]:
-        """Pickle with both arguments, so that a worker's error arrives whole."""
-        return type(self), (self.message, self.path)
+    def __reduce__(self) -> tuple[type[FootfitError], tuple[str, str | None, str]]:
+        """Pickle with all arguments, so that a worker's error arrives whole."""
+        return type(self), (self.message, self.path, self.details)
 
     def at(self, path: str | None) -> FootfitError:
         """The same error, naming ``path`` where it names none yet."""
-        return self if self.path is not None else type(self)(self.message, path)
+        named = self.path is not None or path is None
+        return self if named else type(self)(self.message, path, self.details)
 
     def to_dict(self) -> dict[str, object]:
         """``footfit.error/1``: the last line of stderr, and a failed mesh's line on stdout."""
@@ -70,6 +76,15 @@ class FootfitError(Exception):
             "message": self.message,
             "path": self.path,
         }
+
+
+@contextmanager
+def errors_at(path: str | None) -> Iterator[None]:
+    """Name ``path`` in every error of the block that names no file yet."""
+    try:
+        yield
+    except FootfitError as error:
+        raise error.at(path) from error.__cause__
 
 
 class UsageError(FootfitError):

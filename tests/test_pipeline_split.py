@@ -33,6 +33,20 @@ def test_several_feet_are_refused_with_what_to_type(footfit: Footfit, both: Path
     assert "--split" in run.last_error
 
 
+@pytest.mark.parametrize(
+    "command", [("ingest-last", "BOTH"), ("compare", "BOTH", "FOOT"), ("compare", "FOOT", "BOTH")]
+)
+def test_a_command_without_split_does_not_advise_it(
+    command: tuple[str, ...], footfit: Footfit, both: Path, foot: Path, tmp_path: Path
+) -> None:
+    named = {"BOTH": both, "FOOT": foot}
+    run = footfit(*(named.get(word, word) for word in command), "--catalogue", tmp_path / "c")
+    assert run.code == 5
+    assert str(both) in run.last_error
+    assert "--split" not in run.err
+    assert "save each in a file of its own" in run.last_error
+
+
 def test_split_gives_each_foot_as_if_it_came_alone(footfit: Footfit, both: Path) -> None:
     lines = footfit("flare", both, "--split", "--json").lines
     assert [line["mesh"]["path"] for line in lines] == [f"{both}#1", f"{both}#2"]

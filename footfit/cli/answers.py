@@ -13,7 +13,7 @@ import typer
 from footfit.cli.console import answer, error_line, is_terminal, say, say_notices, show
 from footfit.cli.options import STDOUT
 from footfit.cli.signals import LISTENER
-from footfit.errors import BadOption, FootfitError
+from footfit.errors import BadOption, FootfitError, SeveralFeet
 
 if TYPE_CHECKING:
     from footfit.cli.options import Batch, OutputMode, Scale
@@ -72,7 +72,7 @@ def answer_outcomes(
             if result is None:
                 assert outcome.error is not None
                 errors.append(outcome.error)
-                line = error_line(outcome.error, as_json=mode.json)
+                line = error_line(_advised(outcome.error), as_json=mode.json, verbose=mode.verbose)
                 if mode.json and mode.answers:
                     answer(line)
                 say_failure(line)
@@ -87,6 +87,13 @@ def answer_outcomes(
         say(f"{len(errors)} of {mode.total} meshes failed", quiet=mode.quiet or mode.json)
     outputs.write_csv(tables)
     return common_code(int(error.exit) for error in errors)
+
+
+def _advised(error: FootfitError) -> FootfitError:
+    """The error, with the advice to use --split: only commands that take many meshes have it."""
+    if not isinstance(error, SeveralFeet):
+        return error
+    return SeveralFeet(f"{error.message}, or add --split to take them apart", error.path)
 
 
 def answer_result(result: Any, mode: OutputMode, outputs: Outputs) -> None:

@@ -18,6 +18,7 @@ from footfit.cli.console import (
     say,
 )
 from footfit.cli.signals import CODES, LISTENER, Stopped
+from footfit.cli.usage_words import plain_words
 from footfit.errors import BadOption, ExitCode, FootfitError
 
 REPORT_TO = "please report it with the command that you typed (docs/exit-codes.md says how)"
@@ -46,7 +47,7 @@ def _run(application: Callable[..., Any], arguments: Sequence[str]) -> int:
     except FootfitError as error:
         if isinstance(error, AnswerLost) and sys.stdout is not None:
             drop_stdout()
-        say(error_line(error, as_json=as_json))
+        say(error_line(error, as_json=as_json, verbose=verbose))
         return int(error.exit)
     except ReaderGone:
         drop_stdout()
@@ -56,11 +57,13 @@ def _run(application: Callable[..., Any], arguments: Sequence[str]) -> int:
             return int(ExitCode.OK)
         raise
     except Exception as error:  # noqa: BLE001 - no traceback may reach the user
-        return _say_unexpected(error, as_json=as_json, verbose=verbose)
+        return _say_unexpected(error, arguments, as_json=as_json, verbose=verbose)
     return code if isinstance(code, int) else int(ExitCode.OK)
 
 
-def _say_unexpected(error: Exception, *, as_json: bool, verbose: bool) -> int:
+def _say_unexpected(
+    error: Exception, arguments: Sequence[str], *, as_json: bool, verbose: bool
+) -> int:
     """Say a usage error of the command-line library, or a bug; return the exit code."""
     words = getattr(error, "format_message", None)
     if words is not None and getattr(error, "exit_code", None) == int(ExitCode.USAGE):
@@ -71,8 +74,9 @@ def _say_unexpected(error: Exception, *, as_json: bool, verbose: bool) -> int:
             with suppress(ReaderGone, AnswerLost):
                 answer(message)
             message = "No command given"
-        message = " ".join(message.split()).removesuffix(".")
-        say(error_line(BadOption(f"{message}. See {command} -h"), as_json=as_json))
+        message = plain_words(" ".join(message.split()), arguments)
+        stop = "" if message.endswith("?") else "."
+        say(error_line(BadOption(f"{message}{stop} See {command} -h"), as_json=as_json))
         return int(ExitCode.USAGE)
     if verbose:
         import traceback

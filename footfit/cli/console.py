@@ -121,8 +121,13 @@ def say_notices(notices: Iterable[Notice], path: str | None, *, quiet: bool) -> 
         say(f"{where}{notice.message}", quiet=quiet)
 
 
-def error_line(error: FootfitError, *, as_json: bool) -> str:
-    """An error as one line: words, or the ``footfit.error/1`` document."""
+def error_line(error: FootfitError, *, as_json: bool, verbose: bool = False) -> str:
+    """An error as one line: words, or the ``footfit.error/1`` document.
+
+    ``verbose`` adds the numbers behind it.
+    """
+    if verbose and error.details:
+        error = type(error)(f"{error.message}: {error.details}", error.path)
     if as_json:
         return json_line(error.to_dict())
     where = f"{error.path}: " if error.path else ""

@@ -37,11 +37,21 @@ def option(
     *more: str,
     default: Any = None,
     panel: str | None = None,
-    **limits: float,
+    **more_settings: Any,
 ) -> Any:
     """An option with a value, by its flags; the help shows its default, if there is one."""
-    shown: dict[str, Any] = {"metavar": metavar, "rich_help_panel": panel, "help": help, **limits}
+    shown: dict[str, Any] = {"metavar": metavar, "rich_help_panel": panel, "help": help}
+    shown |= more_settings
     return typer.Option(default, flag, *more, show_default=default not in (None, ...), **shown)
+
+
+def _possible_length(value: float | None) -> float | None:
+    """The known length, checked before any file is opened."""
+    if value is not None:
+        from footfit.meshes.units import check_unit_options
+
+        check_unit_options("auto", value)
+    return value
 
 
 def switch(flag: str, help: str, *, panel: str | None = None) -> Any:
@@ -130,11 +140,10 @@ class Scale:
     )
     known_length: float | None = member(
         "--known-length",
-        "Scale a scan without a true scale to this heel-to-toe length in mm.",
+        "Scale a scan without a true scale to this heel-to-toe length in mm, from 110 to 370.",
         "MM",
         panel=READING,
-        min=110,
-        max=370,
+        callback=_possible_length,
     )
     format: FormatName | None = member(
         "--format",
@@ -258,6 +267,11 @@ class OutputMode:
     quiet: bool = member(
         "--quiet", "Print the answer only, and no messages.", **SWITCH, panel=ANSWER
     )
-    verbose: bool = member("--verbose", "Show the traceback of a bug.", **SWITCH, panel=ANSWER)
+    verbose: bool = member(
+        "--verbose",
+        "Show the numbers behind a refusal, and the traceback of a bug.",
+        **SWITCH,
+        panel=ANSWER,
+    )
     total: int = 1
     answers: bool = True

@@ -5,11 +5,12 @@ from __future__ import annotations
 import os
 from pathlib import Path
 
-from footfit.errors import BadOption
+from footfit.errors import BadOption, BadProfile
 
 ENVIRONMENT_NAME = "FOOTFIT_CATALOGUE"
 SETTINGS_NAME = "settings.toml"
 CATALOGUE_NAME = "lasts.footfit"
+SLASHES = "write / in the place of \\ in the path"
 
 
 def settings_path() -> Path:
@@ -25,20 +26,35 @@ def settings_catalogue(path: Path) -> Path | None:
     Raises
     ------
     BadOption
-        The file is not TOML, or the value is not text.
+        The file is not TOML, has an unknown key, or the value is not text.
     """
     import tomllib
+
+    from footfit.pipeline.fit.toml_tables import check_keys
 
     if not path.is_file():
         return None
     try:
-        value = tomllib.loads(path.read_text(encoding="utf-8")).get("catalogue")
-    except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
-        raise BadOption(f"is not valid TOML ({error}); correct or remove it", str(path)) from error
+        text = path.read_text(encoding="utf-8-sig")
+        table = tomllib.loads(text)
+        check_keys(table, {"catalogue"}, "the file")
+    except tomllib.TOMLDecodeError as error:
+        advice = SLASHES if "\\" in text else "correct or remove it"
+        raise BadOption(f"is not valid TOML ({error}); {advice}", str(path)) from error
+    except UnicodeDecodeError as error:
+        raise BadOption("is not UTF-8 text; save it as UTF-8", str(path)) from error
+    except OSError as error:
+        words = f"cannot be read ({error.strerror}); correct or remove it"
+        raise BadOption(words, str(path)) from error
+    except BadProfile as error:
+        raise BadOption(error.message, str(path)) from error
+    value = table.get("catalogue")
     if value is None:
         return None
     if not isinstance(value, str) or not value:
         raise BadOption('needs a line like: catalogue = "lasts.footfit"', str(path))
+    if not value.isprintable():  # as in "C:\temp"
+        raise BadOption(f"has a control character in the path; {SLASHES}", str(path))
     return path.parent / Path(value).expanduser()
 
 

@@ -122,6 +122,25 @@ def settled_units(
     return Units(name, "detected", scale, (Notice("units_detected", message),))
 
 
+def _impossible_length(known_mm: float) -> str:
+    """What is wrong with a known length, and what may have been meant, as in another unit.
+
+    Examples
+    --------
+    >>> _impossible_length(25.2)
+    'the known length of 25.2 mm is too short; this is in mm: did you mean 252?'
+    >>> _impossible_length(4000.0)
+    'the known length of 4000 mm is too long; it is 110-370 mm'
+    """
+    low, high = UNIT_SETTINGS.possible_mm
+    words = f"the known length of {known_mm:g} mm is too {'short' if known_mm < low else 'long'}"
+    meant = [known_mm * scale for scale in (*UNIT_SCALES.values(), 0.1)]
+    for least, most in (UNIT_SETTINGS.length_mm, UNIT_SETTINGS.possible_mm):
+        if close := [mm for mm in meant if least <= mm <= most]:
+            return f"{words}; this is in mm: did you mean {close[0]:.0f}?"
+    return f"{words}; it is {low:.0f}-{high:.0f} mm"
+
+
 def check_unit_options(wanted: str, known_length_mm: float | None) -> None:
     """Refuse unit options that cannot be carried out, before a file is opened.
 
@@ -136,6 +155,6 @@ def check_unit_options(wanted: str, known_length_mm: float | None) -> None:
         return
     low, high = UNIT_SETTINGS.possible_mm
     if not low <= known_length_mm <= high:
-        raise BadOption(f"the known length must be {low:.0f}-{high:.0f} mm")
+        raise BadOption(_impossible_length(known_length_mm))
     if wanted != "auto":
         raise BadOption("--units and --known-length exclude each other: give only one of them")

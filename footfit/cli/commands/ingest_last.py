@@ -97,7 +97,7 @@ def ingest_last(
             tell(outcome, mode)
             if outcome.failure is not None:
                 refused.append(int(outcome.failure.exit))
-                tell_failure(error_line(outcome.failure, as_json=mode.json))
+                tell_failure(error_line(outcome.failure, as_json=mode.json, verbose=mode.verbose))
     if dry_run:
         say("a dry run: nothing was stored", quiet=mode.quiet)
     raise typer.Exit(common_code(refused))

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import math
 import re
+import unicodedata
 from dataclasses import dataclass
 
 PARIS_POINT_MM = 20.0 / 3.0
@@ -184,7 +185,10 @@ def size_words(size: float, system: SizeSystem) -> str:
     return f"{system.title} {size:g}"
 
 
-_LABEL = re.compile(r"\s*(\d+(?:[.,]\d+)?)\s*(1/2|½)?\s*([cky])?\s*", re.IGNORECASE)
+_LABEL = re.compile(
+    r"\s*(\d+(?:[.,]\d+)?)(?:\s*([¼½¾⅓⅔])|\s+([1-3])[/⁄]([234]))?\s*([cky])?\s*", re.IGNORECASE
+)
+"""A number, a fraction in one character or in three (42⅔, 42 2/3), and a child's letter."""
 
 
 def label_check(
@@ -218,12 +222,23 @@ def label_check(
 
 
 def _labelled(label: str | None) -> tuple[float, bool] | None:
-    """The number of a label, and whether the label says that it is a child's (12C, 12K)."""
+    """The number of a label, and whether the label says that it is a child's (12C, 12K).
+
+    Examples
+    --------
+    >>> [_labelled(label)[0] for label in ("6½", "6,5", "6.5 ", "6 1/2")]
+    [6.5, 6.5, 6.5, 6.5]
+    >>> [round(_labelled(label)[0], 3) for label in ("42⅔", "42 2/3", "42 ⅔")], _labelled("42W")
+    ([42.667, 42.667, 42.667], None)
+    """
     parts = _LABEL.fullmatch(label or "")
     if parts is None:
         return None
-    number = float(parts[1].replace(",", ".")) + (0.5 if parts[2] else 0.0)
-    return number, (parts[3] or "").lower() in ("c", "k")
+    fraction = unicodedata.numeric(parts[2]) if parts[2] else 0.0
+    if parts[3]:
+        fraction = int(parts[3]) / int(parts[4])
+    number = float(parts[1].replace(",", ".")) + fraction
+    return number, (parts[5] or "").lower() in ("c", "k")
 
 
 def label_words(check: LabelCheck) -> str:

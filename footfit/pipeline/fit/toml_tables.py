@@ -31,11 +31,11 @@ def text_of(path: Path, title: str) -> str:
     try:
         if path.stat().st_size > LARGEST_BYTES:
             raise BadProfile(f"is too large for a {title}", str(path))
-        return path.read_text(encoding="utf-8")
+        return path.read_text(encoding="utf-8-sig")
     except OSError as error:
         raise UnreadableFile(f"cannot be read: {error.strerror}", str(path)) from error
     except UnicodeDecodeError as error:
-        raise BadProfile("is not UTF-8 text", str(path)) from error
+        raise BadProfile("is not UTF-8 text; save it as UTF-8", str(path)) from error
 
 
 def value_of(text: str, path: str | None, of_table: Callable[[Mapping[str, Any]], T]) -> T:

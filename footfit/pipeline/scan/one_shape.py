@@ -72,11 +72,7 @@ def shape_in(scan: Scan, windows: Windows) -> PosedShape:
     else:
         shape = _the_one_foot(body, alike, windows)
     if not shape.pose.accepted:
-        raise NotAFoot(
-            f"the shape is neither a foot nor a last (cost {shape.pose.cost:.2f},"
-            f" margin {shape.pose.margin:.2f}{_opening_words(shape)}): check that the file holds"
-            " one whole foot or last"
-        )
+        raise _no_foot(shape)
     if shape.sheet:
         raise HalfScan("this is a sheet, like a scan of the sole alone: scan the whole foot")
     return shape
@@ -112,12 +108,21 @@ def _alone(scan: Scan, shape: PosedShape, number: int, notices: tuple[Notice, ..
     return Scan(info, shape.vertices, shape.faces, notices + shape.notices, pose=pose)
 
 
-def _opening_words(shape: PosedShape) -> str:
-    """How wide the surface is open, if that is wide enough to be a part of something."""
+def _no_foot(shape: PosedShape) -> NotAFoot:
+    """What to say of a shape that fits no template; one that is wide open is a part of something.
+
+    The numbers behind it are the error's details.
+    """
     rims = [shape.vertices[rim] for rim in boundary_loops(shape.faces)]
     widest = max((extent_of(rim) for rim in rims), default=0.0)
     share = widest / float(np.ptp(shape.vertices, axis=0).max())
-    return f", open over {100 * share:.0f} % of its size" if share > PIECES.wide_open else ""
+    numbers = f"cost {shape.pose.cost:.2f}, margin {shape.pose.margin:.2f}"
+    if share > PIECES.wide_open:
+        numbers += f", open over {100 * share:.0f} % of its size"
+        words = "part of the foot is missing; scan again"
+    else:
+        words = "the shape is neither a foot nor a last: check that the file holds one of them"
+    return NotAFoot(f"{words} (the numbers with --verbose)", details=numbers)
 
 
 @dataclass(frozen=True, slots=True)
@@ -161,7 +166,7 @@ def _the_one_foot(body: _Body, alike: list[Piece], windows: Windows) -> PosedSha
     feet = _shapes_among(alike, windows, body.notices)
     if _beside(feet):
         raise SeveralFeet(
-            f"the file holds {len(feet)} feet or lasts: add --split to take them apart"
+            f"the file holds {len(feet)} feet or lasts: save each in a file of its own"
         )
     if not feet:
         return _posed(*whole_body)

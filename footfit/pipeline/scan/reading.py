@@ -8,7 +8,7 @@ from dataclasses import replace
 from typing import Literal, cast
 
 from footfit import results
-from footfit.errors import FootfitError, UnknownUnits
+from footfit.errors import FootfitError, UnknownUnits, errors_at
 from footfit.meshes.file_bytes import file_bytes
 from footfit.meshes.read import file_mesh
 from footfit.meshes.read_limits import LIMITS
@@ -55,6 +55,11 @@ def read(source: Source, reading: ReadingOptions = AS_FOUND) -> results.Scan:
     check_scanner(reading.scanner)
     if source.scan is not None:
         return source.scan
+    with errors_at(source.path):
+        return _read(source, reading)
+
+
+def _read(source: Source, reading: ReadingOptions) -> results.Scan:
     file = file_mesh(source_bytes(source), source.path, source.format)
     return scan_of(file, source.path, reading.units, reading.known_length_mm)
 
@@ -65,14 +70,15 @@ def prepared_source(source: Source, reading: ReadingOptions) -> results.Prepared
     If no unit makes it as long as a foot, its shape is looked at first. Half a foot, a cube or two
     feet in one file is then refused for what it is, and only a foot or last for its unknown unit.
     """
-    try:
-        scan = read(source, reading)
-    except UnknownUnits:
-        prepared_scan(read(source, replace(reading, known_length_mm=ANY_LENGTH_MM)))
-        raise
-    side = cast(Literal["auto", "left", "right"], reading.side)
-    scan = replace(scan, info=replace(scan.info, scanner=reading.scanner))
-    return prepared_scan(scan, side, reading.known_length_mm, reading.stance_labels)
+    with errors_at(source.path):
+        try:
+            scan = read(source, reading)
+        except UnknownUnits:
+            prepared_scan(read(source, replace(reading, known_length_mm=ANY_LENGTH_MM)))
+            raise
+        side = cast(Literal["auto", "left", "right"], reading.side)
+        scan = replace(scan, info=replace(scan.info, scanner=reading.scanner))
+        return prepared_scan(scan, side, reading.known_length_mm, reading.stance_labels)
 
 
 def aligned_source(
