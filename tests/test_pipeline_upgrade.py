@@ -11,7 +11,7 @@ import pytest
 
 from footfit.catalogue.rows.array_blobs import definition_text
 from footfit.catalogue.rows.columns import FLARE
-from footfit.catalogue.rows.verified_rows import last_id
+from footfit.catalogue.rows.last_names import last_id
 from footfit.catalogue.rows.writing import driver_of, seal, update_row
 from footfit.catalogue.store import open_catalogue
 from footfit.errors import NoCatalogue

@@ -237,6 +237,11 @@ class Catalogue:
         """Every intact last, by name; ``warnings`` name the damaged ones."""
         return lasts.list_lasts(self.path)
 
+    def name(self, name: str) -> str:
+        """The name of a last as it is stored, for one in any case; raises UnknownLast."""
+        with store.open_catalogue(self.path) as catalogue:
+            return catalogue.name(name)
+
     def last(self, name: str) -> results.StoredLast:
         """All that is stored of one last, except its mesh; raises UnknownLast."""
         return lasts.last(self.path, name)

@@ -22,6 +22,7 @@ from footfit.catalogue.rows.columns import (
     SECTION,
     Table,
 )
+from footfit.catalogue.rows.last_names import last_id
 from footfit.catalogue.rows.records import mesh_copy_of, record_of, sections_of
 from footfit.catalogue.rows.reference_last import (
     express,
@@ -29,13 +30,16 @@ from footfit.catalogue.rows.reference_last import (
     reference_of,
     stored_reference,
 )
-from footfit.catalogue.rows.requirements import place_of, require_removable, require_storable
+from footfit.catalogue.rows.requirements import (
+    place_of,
+    require_free_name,
+    require_removable,
+    require_storable,
+)
 from footfit.catalogue.rows.search import StoredLasts, verified_records
 from footfit.catalogue.rows.summary import summary
 from footfit.catalogue.rows.verified_rows import (
     intact_last,
-    key_where,
-    last_id,
     last_names,
     row_digest,
     rows,
@@ -49,7 +53,7 @@ from footfit.catalogue.rows.writing import (
     write_owned,
     write_sealed,
 )
-from footfit.errors import CatalogueDamaged, NameTaken, UnknownLast
+from footfit.errors import CatalogueDamaged, UnknownLast
 from footfit.results import (
     CatalogueFacts,
     Finding,
@@ -122,6 +126,11 @@ class Catalogue:
         """The name of every last, damaged ones too, sorted."""
         with self.file.reading() as connection:
             return tuple(sorted(last_names(connection).values()))
+
+    def name(self, name: str) -> str:
+        """The stored name of the last that a name means; raises UnknownLast."""
+        with self.file.reading() as connection:
+            return last_names(connection)[last_id(connection, name)]
 
     def record(self, name: str) -> LastRecord:
         """One last.
@@ -242,8 +251,8 @@ class Catalogue:
         Raises
         ------
         NameTaken
-            The catalogue has a last of that name and ``replace`` is False, or it has the same
-            file under another name.
+            The catalogue has a last of that name and ``replace`` is False, or of a name that
+            differs only in case, or it has the same file under another name.
         UnknownLast, BadOption
             Its parent is not in the catalogue; its name cannot be stored.
         """
@@ -280,17 +289,16 @@ class Catalogue:
         Raises
         ------
         UnknownLast, NameTaken, BadOption
-            There is no such last; the new name is taken, or cannot be stored.
+            There is no such last; another has the new name, in any case; it cannot be stored.
         """
         with self.file.atomic() as connection:
             require_storable(new_name)
             driver = driver_of(connection)
-            key = intact_last(driver, last_id(driver, name)).id
-            if key_where(driver, "name", new_name) not in (None, key):
-                raise NameTaken(f"{new_name!r} is in the catalogue; choose another name")
-            update_row(connection, LAST, key, {"name": new_name})
-            seal(connection, key)
-        return RenameOutcome(new_name, name)
+            stored = intact_last(driver, last_id(driver, name))
+            require_free_name(driver, new_name, stored.id)
+            update_row(connection, LAST, stored.id, {"name": new_name})
+            seal(connection, stored.id)
+        return RenameOutcome(new_name, stored.name)
 
     def set_reference(self, name: str) -> ReferenceOutcome:
         """Make a last the reference, and rewrite the ``paper_transform`` of every last.

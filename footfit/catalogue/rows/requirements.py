@@ -5,7 +5,8 @@ from __future__ import annotations
 import sqlite3
 from collections.abc import Mapping
 
-from footfit.catalogue.rows.verified_rows import key_where, last_id, last_names, stored_lasts
+from footfit.catalogue.rows.last_names import caseless, composed, id_of_same_name, last_id
+from footfit.catalogue.rows.verified_rows import key_where, last_names, stored_lasts
 from footfit.errors import BadOption, NameTaken
 from footfit.results import LastLabels, LastRecord
 
@@ -21,7 +22,7 @@ def place_of(
     Raises
     ------
     NameTaken
-        Another last has the name or the content.
+        Another last has the name, or one that differs only in case, or the content.
     UnknownLast, BadOption
         The parent is not in the catalogue, or it is the last itself or one of its descendants;
         the name cannot be stored.
@@ -29,9 +30,9 @@ def place_of(
     name, sha256 = record.labels.name, record.info.sha256
     require_storable(name)
     holder = key_where(connection, "content_sha256", sha256)
-    if holder is not None and last_names(connection)[holder] != name:
+    if holder is not None and composed(last_names(connection)[holder]) != composed(name):
         raise same_scan(last_names(connection)[holder])
-    key = key_where(connection, "name", name)
+    key = id_of_same_name(connection, name)
     parent_id = _parent_id(connection, record.labels, key)
     if key is not None and not replace:
         (stored,) = stored_lasts(connection, key)
@@ -60,6 +61,19 @@ def require_storable(name: str) -> None:
     except UnicodeEncodeError as error:
         words = f"{name!r} cannot be stored as a name; give another one with --name"
         raise BadOption(words) from error
+
+
+def require_free_name(connection: sqlite3.Connection, name: str, key: int) -> None:
+    """Refuse a name for the last of that ``key`` that another last has, in any case.
+
+    Raises
+    ------
+    NameTaken
+        Another last has it.
+    """
+    for other, stored in last_names(connection).items():
+        if other != key and caseless(stored) == caseless(name):
+            raise NameTaken(f"{stored!r} is in the catalogue: choose another name")
 
 
 def require_removable(connection: sqlite3.Connection, key: int, names: Mapping[int, str]) -> None:

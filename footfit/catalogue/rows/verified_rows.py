@@ -12,7 +12,7 @@ from dataclasses import dataclass
 
 from footfit.catalogue.rows.columns import FLARE, FRAME, LAST, MEASURE, NOTICE, Table
 from footfit.catalogue.rows.digests import Row, digest, hash_content
-from footfit.errors import CatalogueDamaged, UnknownLast
+from footfit.errors import CatalogueDamaged
 
 
 @dataclass(frozen=True, slots=True)
@@ -131,24 +131,6 @@ def last_names(connection: sqlite3.Connection) -> dict[int, str]:
     """The name of every last, damaged ones too, by its key."""
     pairs = connection.execute("SELECT id, name FROM last NOT INDEXED")
     return {key: shown_name(name) for key, name in pairs}
-
-
-def last_id(connection: sqlite3.Connection, name: str) -> int:
-    """The key of the last of that name.
-
-    Raises
-    ------
-    UnknownLast
-        There is none; the message gives the nearest name.
-    """
-    from difflib import get_close_matches
-
-    key = key_where(connection, "name", name)
-    if key is not None:
-        return key
-    close = get_close_matches(name, last_names(connection).values(), n=1)
-    nearest = f" (the nearest is {close[0]!r})" if close else ""
-    raise UnknownLast(f"no last is named {name!r}{nearest}; see footfit list-lasts")
 
 
 def key_where(connection: sqlite3.Connection, column: str, value: str) -> int | None:

@@ -34,12 +34,13 @@ def export_last(
     kinds = (*MESH_KINDS, "json")
     refuse_existing(output, force=force, kinds=kinds)
     catalogue, kind = lasts.open(), file_kind(output, kinds)
+    name = catalogue.name(last)
     if kind == "json":
-        outcome = ExportOutcome(last, str(output))
-        data: bytes | str = json_line(catalogue.last(last).to_dict()) + "\n"
+        outcome = ExportOutcome(name, str(output))
+        data: bytes | str = json_line(catalogue.last(name).to_dict()) + "\n"
     else:
-        copy = catalogue.mesh(last)
-        outcome = ExportOutcome(last, str(output), copy.faces, copy.error_mm)
+        copy = catalogue.mesh(name)
+        outcome = ExportOutcome(name, str(output), copy.faces, copy.error_mm)
         data = files.mesh_file(copy, kind)
     write_output(output, data, force=force)
     tell(outcome, mode)

@@ -10,6 +10,7 @@ from functools import partial
 from pathlib import Path
 from typing import Literal
 
+from footfit.catalogue.rows.last_names import caseless, composed, differs_in_case
 from footfit.catalogue.rows.requirements import same_scan
 from footfit.catalogue.store import Catalogue, open_catalogue
 from footfit.errors import BadOption, ExitCode, FootfitError, NameTaken, NoCatalogue
@@ -142,21 +143,41 @@ def new_last(
 
 
 class Holdings:
-    """The lasts of the catalogue, kept up to date during a batch (also in a dry run)."""
+    """The lasts of the catalogue, kept up to date during a batch (also in a dry run).
+
+    A name is the same however its accents are written. One that differs in case is not, and is
+    refused.
+    """
 
     def __init__(self, records: Iterable[LastRecord]) -> None:
         self.by_name: dict[str, LastRecord] = {}
         self.by_content: dict[str, str] = {}
+        self.spellings: dict[str, str] = {}
         for record in records:
             self.put(record)
 
     def put(self, record: LastRecord) -> None:
         """Add a last, or replace the one of its name."""
-        old = self.by_name.get(record.labels.name)
+        name = composed(record.labels.name)
+        old = self.by_name.get(name)
         if old is not None:
             self.by_content.pop(old.info.sha256, None)
-        self.by_name[record.labels.name] = record
+        self.by_name[name] = record
         self.by_content[record.info.sha256] = record.labels.name
+        self.spellings[caseless(name)] = record.labels.name
+
+    def named(self, name: str) -> LastRecord | None:
+        """The last of that name.
+
+        Raises
+        ------
+        NameTaken
+            There is none, but one whose name differs only in case.
+        """
+        record, spelling = self.by_name.get(composed(name)), self.spellings.get(caseless(name))
+        if record is None and spelling is not None:
+            raise differs_in_case(spelling)
+        return record
 
     def status(self, sha256: str, entry: Entry, *, replace: bool) -> str:
         """What becomes of a file with that content: "added", "unchanged" or "replaced".
@@ -166,14 +187,14 @@ class Holdings:
         NameTaken
             Another last has the name, or the content is stored under another name.
         """
-        labels = entry.labels
-        holder = self.by_content.get(sha256)
-        if holder is not None and holder != labels.name:
+        holder, name = self.by_content.get(sha256), entry.labels.name
+        if holder is not None and composed(holder) != composed(name):
             raise same_scan(holder)
-        old = self.by_name.get(labels.name)
+        old = self.named(name)
         if old is None:
             return "added"
-        same = holder == labels.name
+        labels = dataclasses.replace(entry.labels, name=old.labels.name)
+        same = holder is not None
         if same and old.labels == labels and _reads_alike(old, entry.reading):
             return "unchanged"
         if replace:
@@ -182,7 +203,7 @@ class Holdings:
         if same:
             difference = "read otherwise" if old.labels == labels else "with other labels"
             scan = f"the same scan {difference}"
-        raise NameTaken(f"{labels.name!r} is in the catalogue with {scan}; add --replace or --name")
+        raise NameTaken(f"{name!r} is in the catalogue with {scan}; add --replace or --name")
 
 
 def _reads_alike(old: LastRecord, reading: ReadingOptions) -> bool:
@@ -252,8 +273,9 @@ def _store(
         return IngestOutcome(path, "refused", failure=work.error)
     try:
         status = holdings.status(new.sha256, entry, replace=replace)
-        if status == "unchanged" and not again:
-            return _success(path, status, holdings.by_name[name])
+        held = holdings.named(name)
+        if held is not None and status == "unchanged" and not again:
+            return _success(path, status, held)
         if new.record is None:  # it was known when the batch began, and is not any more
             new = new_last(entry)
         assert new.record is not None
@@ -264,7 +286,10 @@ def _store(
             except NameTaken:  # another process stored it meanwhile: look again, and say so
                 holdings = Holdings(catalogue.lasts().records)
                 status = holdings.status(new.sha256, entry, replace=replace)
-                return _success(path, status, holdings.by_name[name])
+                held = holdings.named(name)
+                if held is None:  # the last of that name is damaged
+                    raise
+                return _success(path, status, held)
         holdings.put(new.record)
         status = "replaced" if status == "unchanged" else status
     except FootfitError as error:
