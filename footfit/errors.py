@@ -205,6 +205,14 @@ class SideUndecided(GeometryRefused):
     """The side cannot be told from the shape, and the answer depends on it."""
 
 
+class SideContradicted(GeometryRefused):
+    """The side that was given is surely not the side that the shape shows."""
+
+
+class SameSide(UsageError):
+    """The two feet of a pair are of one side."""
+
+
 class NoSole(GeometryRefused):
     """The scan has no sole, and the answer needs one."""
 

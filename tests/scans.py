@@ -27,9 +27,11 @@ def aligned(
     side: Literal["auto", "left", "right"] = "auto",
     reference: Reference | None = None,
     known_length_mm: float | None = None,
+    force_side: bool = False,
 ) -> AlignedScan:
     """A scan prepared and aligned."""
-    return aligned_scan(prepared_scan(scan, side, known_length_mm), method, reference)
+    prepared = prepared_scan(scan, side, known_length_mm, force_side=force_side)
+    return aligned_scan(prepared, method, reference)
 
 
 def aligned_of(alignment: Alignment, vertices_mm: Floats, faces: Ints) -> AlignedScan:

@@ -200,10 +200,13 @@ def test_a_match_asks_what_the_command_asks(request, stocked: Path, foot: Path) 
 
 
 def test_a_pair_is_a_list_of_two(stocked: Path, foot: Path) -> None:
-    profiled = footfit.flare(foot)
-    assert len(footfit.match([profiled, profiled], stocked).feet) == 2
+    left = footfit.flare(foot)
+    right = footfit.align(SAMPLES / "feet" / "mh007_R.stl")
+    assert len(footfit.match([left, right], stocked).feet) == 2
+    with pytest.raises(errors.SameSide, match="both left feet"):
+        footfit.match([left, left], stocked)
     with pytest.raises(errors.BadOption, match="not 3"):
-        footfit.match([profiled] * 3, stocked)
+        footfit.match([left] * 3, stocked)
 
 
 def test_ingest_says_what_became_of_each_file(tmp_path: Path) -> None:

@@ -19,6 +19,7 @@ from footfit.errors import (
     NoReference,
     NotAFoot,
     SeveralFeet,
+    SideContradicted,
     UnknownUnits,
 )
 from footfit.geometry.mesh.moments import printed_covariance, surface_second_moment
@@ -222,9 +223,13 @@ def test_a_known_length_settles_the_scale(last, factor):
 # ---------------------------------------------------------------- sides
 
 
-def test_a_given_side_wins_and_a_contradiction_is_said(last):
+def test_a_given_side_that_the_shape_surely_contradicts_is_refused_unless_it_is_forced(last):
     agreed = aligned(scan_of(*last), side="right").alignment
-    against = aligned(scan_of(*last), side="left").alignment
+    with pytest.raises(
+        SideContradicted, match=r"given as left.* right one \(score \+.*--force-side"
+    ):
+        aligned(scan_of(*last), side="left")
+    against = aligned(scan_of(*last), side="left", force_side=True).alignment
     assert (agreed.side.side, agreed.side.source, agreed.side.confidence) == (
         "right",
         "given",
@@ -236,9 +241,10 @@ def test_a_given_side_wins_and_a_contradiction_is_said(last):
     np.testing.assert_array_equal(agreed.transform, against.transform)
 
 
-def test_a_last_without_a_side_is_undecided():
+def straight_last(flare_deg=0.0):
+    """A last whose two halves are mirror images but for its flare."""
     spec = LastSpec(
-        flare_deg=0.0,
+        flare_deg=flare_deg,
         toe_turn_deg=0.0,
         waist_cut_mm=0.0,
         joint_bulge_mm=0.0,
@@ -248,7 +254,21 @@ def test_a_last_without_a_side_is_undecided():
         rings=60,
         segments=40,
     )
-    found = aligned(scan_of(*last_mesh(spec))).alignment
+    return scan_of(*last_mesh(spec))
+
+
+@pytest.mark.parametrize("side", ["left", "right"])
+def test_a_side_given_wins_over_a_doubtful_detection(side):
+    doubtful = straight_last(flare_deg=2.0)
+    detected = aligned(doubtful).alignment  # its score is 0.97; 2.5 is sure
+    assert (detected.side.side, detected.side.confidence) == ("right", "low")
+    known = aligned(doubtful, side=side).alignment
+    assert (known.side.side, known.side.source) == (side, "given")
+    assert ("side_contradicted" in codes(known)) == (side == "left")
+
+
+def test_a_last_without_a_side_is_undecided():
+    found = aligned(straight_last()).alignment
     assert abs(found.side.score) < 0.5  # measured 0.28
     assert found.side.side is None
     assert found.side.confidence == "undecided"

@@ -336,7 +336,6 @@ def test_the_larger_foot_of_a_pair_governs_the_length() -> None:
         assert [c.last for c in found.candidates] == ["b"]
         governs = [zone(found.candidates[0], "length", i).counts for i in (0, 1)]
         assert governs == [foot is large for foot in feet]
-    assert "same_side" in [n.code for n in answer(last("a"), feet=(foot(), foot())).warnings]
 
 
 def test_the_wider_foot_of_a_pair_counts_too() -> None:

@@ -125,7 +125,7 @@ def test_split_closes_the_holes_of_each_foot_once(
 
 def test_mirroring_before_or_after_filling_gives_the_same_numbers(foot_with_holes: Path) -> None:
     """The prepared copy of a left foot against a copy that is mirrored first, then closed."""
-    found = aligned(read_scan(foot_with_holes), side="left")
+    found = aligned(read_scan(foot_with_holes), side="left", force_side=True)
     vertices, faces = mirrored(found.vertices_mm, found.faces)
     assert not is_closed(faces)
     first = closed_mesh(vertices, faces, found.alignment.extent_mm)

@@ -19,7 +19,7 @@ from footfit.api.inputs import (
     heel_options,
     reading_options,
 )
-from footfit.api.scans import profiled_shape, sources
+from footfit.api.scans import aligned_shape, profiled_shape, sources
 from footfit.catalogue import store
 from footfit.catalogue.file.opening import FIRST_STEPS
 from footfit.errors import BadOption, NoReference
@@ -80,9 +80,12 @@ class Catalogue:
             No last passes the filters, or there is none.
         BadOption
             There is no such profile or size system, or there are more than two feet.
+        SameSide
+            Both feet of the pair are of one side.
         InputError, GeometryRefused
             As `flare`; HalfScan if the length of a foot is not known.
         """
+        from footfit.pipeline.customers.pair_sides import pair_of_feet
         from footfit.pipeline.fit.compare import with_surface_clearance
         from footfit.pipeline.fit.match import matched
 
@@ -90,7 +93,7 @@ class Catalogue:
         given: list[Any] = feet if isinstance(feet, list) else [feet]
         if len(given) not in (1, 2):
             raise BadOption(f"a match takes one foot, or the two of one customer, not {len(given)}")
-        shapes = [profiled_shape(foot, question) for foot in given]
+        shapes = pair_of_feet([aligned_shape(foot, question) for foot in given])
         answer = matched(shapes, self._choice(question), asked)
         if asked.surfaces_in is None:
             return answer
@@ -111,7 +114,7 @@ class Catalogue:
         BadOption
             A pair does not have two feet; there is no such profile or size system.
         """
-        from footfit.pipeline.fit.match import customers
+        from footfit.pipeline.customers.matches import customers
 
         asked, reading = self._question(question), reading_options(question)
         library = self._choice(question)

@@ -98,7 +98,8 @@ def measure(shape: Shape, **reading: Unpack[ReadingKeywords]) -> MeasuredScan:
     """
     from footfit.pipeline.scan.measure import measured_scan
 
-    return measured_scan(_aligned_shape(shape, reading))
+    aligned = aligned_shape(shape, reading)
+    return measured_scan(aligned.aligned if isinstance(aligned, Profiled) else aligned)
 
 
 def curvature(
@@ -179,13 +180,13 @@ def profiled_shape(shape: Shape, reading: Mapping[str, Any]) -> Profiled:
     """A shape as a match takes it; ``reading`` may hold other keys too."""
     from footfit.pipeline.scan.flare import profiled_scan
 
-    return shape if isinstance(shape, Profiled) else profiled_scan(_aligned_shape(shape, reading))
+    aligned = aligned_shape(shape, reading)
+    return aligned if isinstance(aligned, Profiled) else profiled_scan(aligned)
 
 
-def _aligned_shape(shape: Shape, reading: Mapping[str, Any]) -> AlignedScan:
-    if isinstance(shape, Profiled):
-        return shape.aligned
-    if isinstance(shape, AlignedScan):
+def aligned_shape(shape: Shape, reading: Mapping[str, Any]) -> AlignedScan | Profiled:
+    """A shape, aligned; what is aligned or profiled already stays as it is."""
+    if isinstance(shape, AlignedScan | Profiled):
         return shape
     from footfit.pipeline.scan.reading import aligned_source
 

@@ -166,6 +166,12 @@ class Reading(Scale):
         default="auto",
         panel=READING,
     )
+    force_side: bool = member(
+        "--force-side",
+        "Take the given side even if the shape is surely of the other side.",
+        **SWITCH,
+        panel=READING,
+    )
     scanner: ScannerName | None = member(
         "--scanner",
         "Say what kind of scanner was used: each total ± then holds the scanner's own uncertainty.",
@@ -174,7 +180,8 @@ class Reading(Scale):
 
     def keywords(self) -> dict[str, Any]:
         """The options as the functions of `footfit.api` take them."""
-        return {**Scale.keywords(self), "side": self.side, "scanner": self.scanner}
+        side = {"side": self.side, "force_side": self.force_side}
+        return {**Scale.keywords(self), **side, "scanner": self.scanner}
 
 
 @dataclass(frozen=True, slots=True)

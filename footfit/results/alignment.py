@@ -30,6 +30,11 @@ class SideVerdict:
     score: float
     source: str
 
+    @property
+    def shown(self) -> SideName:
+        """The side that the shape shows, however doubtful it is."""
+        return "right" if self.score >= 0 else "left"
+
     def to_dict(self) -> Json:
         """Three keys, which a document has at its top level."""
         score = part({"word": self.confidence, "score": self.score})

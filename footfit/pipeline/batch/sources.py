@@ -44,6 +44,7 @@ class Source:
 class ReadingOptions:
     """How to read a scan; "auto" is decided by its shape and reported.
 
+    ``force_side`` takes a ``side`` that the shape surely contradicts.
     ``heel_height_mm``, ``toe_spring_mm`` and ``platform_mm`` are what people say of how a last
     stands. ``scanner`` is the kind of scanner that made it.
     """
@@ -51,6 +52,7 @@ class ReadingOptions:
     units: str = "auto"
     known_length_mm: float | None = None
     side: str = "auto"
+    force_side: bool = False
     heel_height_mm: float | None = None
     toe_spring_mm: float | None = None
     platform_mm: float | None = None

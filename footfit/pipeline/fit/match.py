@@ -2,24 +2,20 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, field
-from functools import partial
 from pathlib import Path
 
 import numpy as np
 
 from footfit import results
-from footfit.errors import BadOption, HalfScan, NoCandidate
+from footfit.errors import HalfScan, NoCandidate
 from footfit.geometry.numeric.arrays import Bools
-from footfit.pipeline.batch.runs import Outcome, outcomes
-from footfit.pipeline.batch.sources import ReadingOptions, Source
 from footfit.pipeline.fit import ranking, reasons
 from footfit.pipeline.fit.fit_profile import fit_profile
 from footfit.pipeline.fit.heel_model import heel_question
 from footfit.pipeline.fit.scoring import UNKNOWN_SCORE, VERDICTS
 from footfit.pipeline.scan.measure import unusual_measures
-from footfit.pipeline.scan.reading import profiled_source
 from footfit.results.heel import FLARE, heel_words
 
 NEAREST_NAMED = 3
@@ -89,49 +85,6 @@ def matched(
         best_verdict=_best_verdict(judged, ranked),
         heel=judged.heels.question,
     )
-
-
-def customers(
-    sources: Sequence[Source],
-    reading: ReadingOptions,
-    library: results.Library,
-    question: Question,
-    *,
-    pair: bool = False,
-    jobs: int = 1,
-) -> Iterator[Outcome[Source, results.Match]]:
-    """Each customer's answer, in order: one per scan, or one for a ``pair`` of scans.
-
-    Raises
-    ------
-    BadOption
-        A pair of other than two scans.
-    """
-    if pair and len(sources) != 2:
-        raise BadOption(f"--pair takes two different scans of one customer, not {len(sources)}")
-    feet = outcomes(partial(profiled_source, reading=reading), sources, jobs)
-    for group in [list(feet)] if pair else ([foot] for foot in feet):
-        yield _answered(group, library, question)
-
-
-def _answered(
-    feet: Sequence[Outcome[Source, results.Profiled]], library: results.Library, question: Question
-) -> Outcome[Source, results.Match]:
-    """One customer's outcome; the first foot that failed is the customer's failure."""
-    source = feet[0].item
-    errors = [foot.error for foot in feet if foot.error is not None]
-    if errors:
-        return Outcome(source, None, errors[0])
-    shapes = [foot.value for foot in feet if foot.value is not None]
-    try:
-        answer = matched(shapes, library, question)
-    except HalfScan as error:
-        return Outcome(source, None, error)
-    if question.surfaces_in is not None:
-        from footfit.pipeline.fit.compare import with_surface_clearance
-
-        answer = with_surface_clearance(answer, question.surfaces_in)
-    return Outcome(source, answer, None)
 
 
 def _refuse_unknown_length(feet: Sequence[results.Profiled]) -> None:
@@ -272,7 +225,6 @@ def _notices(
     """What the reader must know beside the table."""
     feet = judged.feet
     kinds = [foot.aligned.alignment.pose.kind for foot in feet]
-    sides = {foot.aligned.alignment.side.side for foot in feet}
     notices = [
         notice
         for foot, kind in zip(feet, kinds, strict=True)
@@ -284,8 +236,6 @@ def _notices(
     if judged.by != "shape" and "last" in kinds:
         words = "its shape is like a last's; use --by shape for a last"
         notices.append(results.Notice("looks_like_a_last", words))
-    if len(feet) == 2 and len(sides) == 1:
-        notices.append(results.Notice("same_side", f"both feet of the pair are {sides.pop()} feet"))
     differ = reasons.pair_notice(feet, size_system)
     if differ is not None:
         notices.append(differ)

@@ -8,7 +8,7 @@ from typing import Literal
 
 import numpy as np
 
-from footfit.errors import HalfScan
+from footfit.errors import HalfScan, SideContradicted
 from footfit.geometry.flare.levelled_bottom import low_length
 from footfit.geometry.measures.landmarks import Shape
 from footfit.geometry.measures.measure_table import measure_named
@@ -67,6 +67,8 @@ def prepared_scan(
     side: Literal["auto", "left", "right"] = "auto",
     known_length_mm: float | None = None,
     labels: StanceLabels = NO_LABELS,
+    *,
+    force_side: bool = False,
 ) -> PreparedScan:
     """The one foot or last of a scan, as every method takes it.
 
@@ -76,14 +78,18 @@ def prepared_scan(
         Its unit may be provisional (``units_source`` "detected"): the length found confirms or
         corrects it.
     side : {"auto", "left", "right"}
-        A side given wins; a contradiction is a notice.
+        A side given wins over a doubtful detection, with a notice.
     known_length_mm : float, optional
         The measured length that the shape is scaled to: a stick measures the foot, not its mesh.
     labels : StanceLabels
         What people say of how a last stands.
+    force_side : bool
+        A side given wins over a sure detection too.
 
     Raises
     ------
+    SideContradicted
+        If the shape surely has another side than the one given.
     NotAFoot, SeveralFeet, HalfScan
         If it is not one whole foot or last.
     UnknownUnits, ImplausibleSize
@@ -102,7 +108,7 @@ def prepared_scan(
     info = settled_unit.info_with_unit(scan.info, frame.extent, frame.length, known_length_mm)
     info = replace(info, vertices=len(shape.vertices), faces=len(shape.faces))
     factor = info.unit_scale / scan.info.unit_scale
-    verdict = _verdict(frame, side)
+    verdict = _verdict(frame, side, forced=force_side)
     vertices_mm, faces = right_copy(factor * frame.points, closed.faces, verdict.side)
     kind = frame.quality.kind
     standing = stance_of(vertices_mm, faces, kind, labels)
@@ -135,6 +141,28 @@ def prepared_scan(
         faces=faces,
         standing=standing,
         warnings=tuple(dict.fromkeys(notices)),
+    )
+
+
+def on_side(prepared: PreparedScan, side: SideVerdict, notice: Notice) -> PreparedScan:
+    """A prepared scan, taken as one of a side that the shape alone did not decide; ``notice`` says
+    why.
+    """
+    mirrored = (side.side == "left") != (prepared.side.side == "left")
+    shape = prepared.vertices_mm, prepared.faces
+    vertices_mm, faces = right_copy(*shape, "left") if mirrored else shape
+    kind = prepared.pose.kind
+    standing = stance_of(vertices_mm, faces, kind, NO_LABELS)
+    kept = (each for each in prepared.warnings if each.code != "low_side_confidence")
+    return replace(
+        prepared,
+        side=side,
+        vertices_mm=vertices_mm,
+        faces=faces,
+        standing=standing,
+        stance=last_stance(Shape(vertices_mm, faces, kind, standing)),
+        standing_transform=None if standing is None else standing.standing_transform,
+        warnings=(*kept, notice),
     )
 
 
@@ -227,8 +255,14 @@ class _Frame:
         )
 
 
-def _verdict(frame: _Frame, side: str) -> SideVerdict:
-    """The side detected, or the one given with what the shape says of it."""
+def _verdict(frame: _Frame, side: str, *, forced: bool) -> SideVerdict:
+    """The side detected, or the one given with what the shape says of it.
+
+    Raises
+    ------
+    SideContradicted
+        The shape surely has another side than the one given, which is not ``forced``.
+    """
     score = side_score(frame.surface.points, frame.extent)
     word: Confidence = confidence(score)
     detected: SideName = "right" if score >= 0 else "left"
@@ -236,6 +270,11 @@ def _verdict(frame: _Frame, side: str) -> SideVerdict:
         return SideVerdict(None if word == "undecided" else detected, word, score, "detected")
     given: SideName = "left" if side == "left" else "right"
     contradicted = word != "undecided" and detected != given
+    if contradicted and word == "sure" and not forced:
+        raise SideContradicted(
+            f"the side is given as {given}, but the shape is surely a {detected} one"
+            f" (score {score:+.1f}): check the file and the side, or add --force-side"
+        )
     return SideVerdict(given, "low" if contradicted else "sure", score, "given")
 
 
@@ -272,9 +311,11 @@ def _side_notices(verdict: SideVerdict) -> tuple[Notice, ...]:
     """A side that is not sure, or that the shape contradicts."""
     if verdict.confidence == "sure":
         return ()
-    score = f"(score {verdict.score:.2f})"
+    score = f"(score {verdict.score:+.1f})"
     if verdict.source == "given":
-        words = f"the side is given as {verdict.side}, but the shape looks like the other {score}"
+        surely = "is surely" if confidence(verdict.score) == "sure" else "looks like"
+        shape = f"the shape {surely} a {verdict.shown} one {score}"
+        words = f"the side is given as {verdict.side}, but {shape}: check the file and the side"
         return (Notice("side_contradicted", words),)
     doubt = "undecided" if verdict.side is None else "not sure"
     words = f"the side is {doubt} {score}: give --side left or --side right"

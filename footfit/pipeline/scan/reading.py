@@ -65,7 +65,7 @@ def _read(source: Source, reading: ReadingOptions) -> results.Scan:
 
 
 def prepared_source(source: Source, reading: ReadingOptions) -> results.PreparedScan:
-    """Read and prepare one mesh.
+    """Read and prepare one mesh; an error names its file.
 
     If no unit makes it as long as a foot, its shape is looked at first. Half a foot, a cube or two
     feet in one file is then refused for what it is, and only a foot or last for its unknown unit.
@@ -78,7 +78,8 @@ def prepared_source(source: Source, reading: ReadingOptions) -> results.Prepared
             raise
         side = cast(Literal["auto", "left", "right"], reading.side)
         scan = replace(scan, info=replace(scan.info, scanner=reading.scanner))
-        return prepared_scan(scan, side, reading.known_length_mm, reading.stance_labels)
+        known_length_mm, labels = reading.known_length_mm, reading.stance_labels
+        return prepared_scan(scan, side, known_length_mm, labels, force_side=reading.force_side)
 
 
 def aligned_source(

@@ -22,6 +22,7 @@ FILTERS = (
     text.file_name,
     text.measured_text,
     text.plain,
+    text.side_doubts,
     text.class_words,
     text.signed,
     text.tie_words,

@@ -20,6 +20,7 @@ from footfit.report.wording.text import (
     file_name,
     is_scanned_last,
     plain,
+    side_doubts,
     signed,
     size_text,
     tie_words,
@@ -45,7 +46,7 @@ VERDICT, NUMBERS, COLUMN_GAP = 3, 3, 2
 
 def match_table(match: Match) -> RenderableType:
     """The feet, the ranked lasts with reasons, and why others were left out."""
-    parts: list[RenderableType] = []
+    parts: list[RenderableType] = [Text(words, "bold red") for words in side_doubts(match)]
     for foot in match.feet:
         parts.append(_foot_line(foot, match))
         if foot.length_mm is not None and not is_scanned_last(foot, match):

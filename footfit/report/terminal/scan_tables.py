@@ -85,6 +85,8 @@ def side_words(side: results.SideVerdict) -> str:
     """
     if side.side is None:
         return f"undecided (score {signed(side.score)})"
+    if side.source == "given" and side.confidence != "sure":
+        return f"{side.side} (given; the shape looks {side.shown}, score {signed(side.score)})"
     if side.source == "given":
         return f"{side.side} (given)"
     return f"{side.side} ({side.source}, {side.confidence}, score {signed(side.score)})"

@@ -172,3 +172,13 @@ def size_text(labels: LastLabels | Candidate) -> str:
 def is_scanned_last(shape: Profiled, match: Match) -> bool:
     """Whether a search by shape was made with a last: then it is spoken of as one."""
     return match.by == "shape" and shape.aligned.alignment.pose.kind == "last"
+
+
+def side_doubts(match: Match) -> list[str]:
+    """What the reader of a match must know first: each given side that the shape contradicts."""
+    return [
+        f"{file_name(foot.aligned.alignment.info.path)}: {notice.message}"
+        for foot in match.feet
+        for notice in foot.aligned.alignment.warnings
+        if notice.code == "side_contradicted"
+    ]

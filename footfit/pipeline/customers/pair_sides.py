@@ -1,0 +1,76 @@
+"""The sides of a pair: a left and a right foot, and a doubtful one gives way to the other."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from pathlib import Path
+
+from footfit.errors import SameSide
+from footfit.pipeline.scan.align import aligned_scan
+from footfit.pipeline.scan.flare import profiled_scan
+from footfit.pipeline.scan.preparation import on_side
+from footfit.results import AlignedScan, Notice, Profiled, SideName, SideVerdict
+
+OTHER: dict[SideName, SideName] = {"left": "right", "right": "left"}
+Foot = AlignedScan | Profiled
+"""A foot; it is not profiled yet if its side is undecided."""
+
+
+def pair_of_feet(feet: Sequence[Foot]) -> tuple[Profiled, ...]:
+    """One foot, or the two of a customer on two sides, profiled.
+
+    If both seem to be of one side, the foot that is less surely so is taken as the other one.
+
+    Raises
+    ------
+    SameSide
+        Both feet are surely, or by what was given, of one side.
+    SideUndecided
+        Neither foot shows which side it is.
+    """
+    if len(feet) == 2:
+        feet = _on_two_sides(*feet)
+    return tuple(foot if isinstance(foot, Profiled) else profiled_scan(foot) for foot in feet)
+
+
+def _on_two_sides(first: Foot, second: Foot) -> tuple[Foot, Foot]:
+    sides = _side(first), _side(second)
+    known = {verdict.side for verdict in sides} - {None}
+    if known in ({"left", "right"}, set()):
+        return first, second
+    weaker, stronger = sorted(sides, key=_firmness)
+    assert stronger.side is not None
+    paths = [_aligned(foot).alignment.info.path or "-" for foot in (first, second)]
+    if _firmness(weaker)[0]:
+        raise SameSide(
+            f"this foot and {paths[1]} are both {stronger.side} feet, and a pair has a left and a"
+            " right one: check the two files, or match each foot alone",
+            paths[0],
+        )
+    if weaker is sides[0]:
+        return _taken_as(first, OTHER[stronger.side], Path(paths[1]).name), second
+    return first, _taken_as(second, OTHER[stronger.side], Path(paths[0]).name)
+
+
+def _firmness(verdict: SideVerdict) -> tuple[bool, float]:
+    """Whether a side does not give way; if both do, the higher score stays."""
+    firm = verdict.source == "given" or verdict.confidence == "sure"
+    return firm, abs(verdict.score) if verdict.side else 0.0
+
+
+def _taken_as(foot: Foot, side: SideName, other: str) -> AlignedScan:
+    prepared = _aligned(foot).prepared
+    verdict = SideVerdict(side, "low", prepared.side.score, "pair")
+    words = (
+        f"the side is not sure (score {verdict.score:+.1f}): it is taken as {side}, because {other}"
+        f" is the {OTHER[side]} foot of the pair"
+    )
+    return aligned_scan(on_side(prepared, verdict, Notice("side_from_pair", words)))
+
+
+def _side(foot: Foot) -> SideVerdict:
+    return _aligned(foot).alignment.side
+
+
+def _aligned(foot: Foot) -> AlignedScan:
+    return foot.aligned if isinstance(foot, Profiled) else foot
