@@ -17,9 +17,9 @@ import pytest
 
 from footfit.geometry.fit.clearance import ZoneClearance
 from footfit.pipeline.batch.sources import ReadingOptions, Source
+from footfit.pipeline.customers.matches import customers
 from footfit.pipeline.drawables import best_comparisons
 from footfit.pipeline.fit.candidates import choice
-from footfit.pipeline.customers.matches import customers
 from footfit.pipeline.fit.match import Question
 from footfit.report.csv import csv_text
 from footfit.report.page.compare_page import compare_page
