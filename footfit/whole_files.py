@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
+import errno
 import os
 import tempfile
 from collections.abc import Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from pathlib import Path
 
 from footfit.errors import BadOption, OutputExists
@@ -71,15 +72,35 @@ def give_name(partial: Path, final: Path, *, replace: bool) -> None:
     OSError
         The system refuses.
     """
-    partial.chmod(0o666 & ~_umask())
+    with suppress(PermissionError):  # FAT keeps no permissions
+        partial.chmod(0o666 & ~_umask())
     try:
         if replace:
             partial.replace(final)
-        else:  # link refuses to replace a file that was made meanwhile; rename does not
-            os.link(partial, final)
+        else:
+            _give_free_name(partial, final)
     except FileExistsError as error:
         raise _exists(final) from error
     sync(final.parent)
+
+
+def _give_free_name(partial: Path, final: Path) -> None:
+    """Name a file, but never replace one that was made meanwhile: link refuses to, rename does not.
+
+    FAT and some network drives have no links. There the name is taken by an empty file first. A
+    kill at that moment leaves the empty file.
+    """
+    try:
+        os.link(partial, final)
+    except FileExistsError:
+        raise
+    except OSError:
+        os.close(os.open(final, os.O_CREAT | os.O_EXCL | os.O_WRONLY))
+        try:
+            partial.replace(final)
+        except OSError:
+            final.unlink()
+            raise
 
 
 def sync(path: Path) -> None:
@@ -96,6 +117,9 @@ def sync(path: Path) -> None:
     descriptor = os.open(path, os.O_RDONLY if is_folder else os.O_RDWR)
     try:
         os.fsync(descriptor)
+    except OSError as error:  # some network drives keep no list of names to wait for
+        if not is_folder or error.errno not in (errno.EINVAL, errno.ENOTSUP):
+            raise
     finally:
         os.close(descriptor)
 

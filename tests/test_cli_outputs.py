@@ -2,13 +2,16 @@
 
 from __future__ import annotations
 
+import errno
 import os
+import stat
 from pathlib import Path
 
 import pytest
 
 from footfit.cli.outputs import OutputFile, Outputs, refuse_existing, write_output
 from footfit.errors import BadOption, OutputExists
+from footfit.whole_files import give_name, partial_beside
 
 
 def test_a_file_is_written_whole_with_the_usual_permissions(tmp_path: Path) -> None:
@@ -77,4 +80,35 @@ def test_a_failed_write_leaves_the_old_file_and_no_remains(
     with pytest.raises(BadOption, match="No space left"):
         write_output(path, "yours", force=True)
     assert path.read_text() == "mine"
+    assert list(tmp_path.iterdir()) == [path]
+
+
+def test_a_drive_without_links_permissions_and_folder_lists_takes_a_file(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """As FAT on a stick, and some network drives; a file that comes meanwhile is kept there too."""
+    fsync = os.fsync
+
+    def refuse(*_: object, **__: object) -> None:
+        raise PermissionError(1, "Operation not permitted")
+
+    def sync_of_files(descriptor: int) -> None:
+        if stat.S_ISDIR(os.fstat(descriptor).st_mode):
+            raise OSError(errno.EINVAL, "Invalid argument")
+        fsync(descriptor)
+
+    monkeypatch.setattr(os, "link", refuse)
+    monkeypatch.setattr(os, "chmod", refuse)
+    monkeypatch.setattr(os, "fsync", sync_of_files)
+    path = tmp_path / "x.csv"
+    write_output(path, "first", force=False)
+    assert path.read_text() == "first"
+    write_output(path, "second", force=True)
+    assert path.read_text() == "second"
+    with partial_beside(path) as partial, pytest.raises(OutputExists):
+        give_name(partial, path, replace=False)
+    assert (path.read_text(), list(tmp_path.iterdir())) == ("second", [path])
+    monkeypatch.setattr(os, "replace", refuse)
+    with pytest.raises(BadOption, match="not permitted"):
+        write_output(tmp_path / "y.csv", "third", force=False)
     assert list(tmp_path.iterdir()) == [path]

@@ -96,7 +96,11 @@ class Listener:
         numbers = [number for number in CODES if signal.getsignal(number) != signal.SIG_IGN]
         before = {number: signal.signal(number, self._receive) for number in numbers}
         if not hasattr(signal, "pthread_kill"):  # not POSIX: the handlers alone
-            yield
+            try:
+                yield
+            finally:
+                for number, handler in before.items():
+                    signal.signal(number, handler)
             return
         read_end, write_end = os.pipe()
         os.set_blocking(write_end, False)
