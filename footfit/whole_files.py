@@ -20,8 +20,10 @@ def require_free(path: Path, *, replace: bool) -> None:
     OutputExists
         There is a file, and it may not be replaced.
     BadOption
-        The path is a folder, or its folder does not exist.
+        The path is a folder or ``-``, or its folder does not exist.
     """
+    if path == Path("-"):
+        raise BadOption("- stands for stdout, and this goes to a file; name the file")
     if path.is_dir():
         raise BadOption("is a folder; name a file in it", str(path))
     require_folder(path)

@@ -12,6 +12,7 @@ import pytest
 from footfit.cli.outputs import OutputFile, Outputs, refuse_existing, write_output
 from footfit.errors import BadOption, OutputExists
 from footfit.whole_files import give_name, partial_beside
+from tests.conftest import Footfit
 
 
 def test_a_file_is_written_whole_with_the_usual_permissions(tmp_path: Path) -> None:
@@ -112,3 +113,36 @@ def test_a_drive_without_links_permissions_and_folder_lists_takes_a_file(
     with pytest.raises(BadOption, match="not permitted"):
         write_output(tmp_path / "y.csv", "third", force=False)
     assert list(tmp_path.iterdir()) == [path]
+
+
+@pytest.mark.parametrize(
+    "arguments",
+    [
+        ("align", "FOOT", "-o", "FOOT", "--force"),
+        ("measure", "FOOT", "--csv", "./FOOT", "--force"),
+        ("measure", "both.stl#2", "FOOT", "--csv", "FOOT", "--force"),
+        ("match", "FOOT", "--csv", "FOOT", "--force"),
+        ("compare", "x.stl", "FOOT", "--html", "FOOT", "--force"),
+        ("measure", "FOOT", "--csv", "lasts.footfit", "--force"),
+        ("compare", "FOOT", "x", "--html", "lasts.footfit", "--force"),
+        ("match", "FOOT", "--html", "a.html", "--csv", "./a.html"),
+        ("compare", "FOOT", "x", "--html", "a", "--csv", "a"),
+        ("compare", "FOOT", "x", "--html", "-"),
+        ("compare", "FOOT", "x", "--csv", "-", "--json"),
+    ],
+)
+def test_no_output_replaces_a_scan_a_catalogue_or_another_output(
+    arguments: tuple[str, ...],
+    footfit: Footfit,
+    foot: Path,
+    catalogue: Path,
+    tmp_path: Path,
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "foot.stl").write_bytes(foot.read_bytes())
+    kept = {path: path.read_bytes() for path in tmp_path.iterdir()}
+    run = footfit(*(word.replace("FOOT", "foot.stl") for word in arguments))
+    assert run.code == 2
+    assert len(run.err.splitlines()) == 1
+    assert {path: path.read_bytes() for path in tmp_path.iterdir()} == kept

@@ -89,6 +89,36 @@ def test_no_colour_goes_into_a_pipe(name: str, shop: Path) -> None:
     assert "\x1b" not in run.out + run.err
 
 
+@pytest.mark.skipif(not hasattr(os, "openpty"), reason="there is no terminal to be had here")
+@pytest.mark.parametrize("name", ["TERM", "NO_COLOR"])
+def test_a_terminal_is_shown_whole_tables_and_colours_unless_it_has_none(
+    name: str, shop: Path
+) -> None:
+    """A terminal of 20 columns wraps the lines; no column of the table is lost for it."""
+    program = (
+        "import fcntl, os, struct, sys, termios; from footfit.__main__ import main;"
+        "near, far = os.openpty(); os.dup2(far, 1);"
+        "fcntl.ioctl(1, termios.TIOCSWINSZ, struct.pack('HHHH', 30, 20, 0, 0));"
+        "sys.stdout = open(1, 'w', closefd=False); sys.argv = ['footfit', *sys.argv[1:]]\n"
+        "try: main()\n"
+        "finally: os.write(2, os.read(near, 100_000))"
+    )
+    (shop / "shown.py").write_text(program)
+    script = f'"{sys.executable}" shown.py list-lasts --catalogue lasts.footfit'
+    coloured = bash(script, shop, TERM="xterm", NO_COLOR="")
+    plain = bash(script, shop, **({"TERM": "xterm", "NO_COLOR": "1"} | {name: "dumb"}))
+    assert (coloured.code, plain.code) == (0, 0), coloured.err
+    assert "\x1b[" in coloured.err
+    assert "\x1b" not in plain.err
+    assert [line.rstrip() for line in plain.err.splitlines()] == bash(LIST, shop).out.splitlines()
+
+
+def test_a_line_stays_one_line(footfit: Footfit, catalogue: Path) -> None:
+    name = "[bold red]" + "very long " * 15
+    run = footfit("rename-last", "derby-40", name.strip(), "--catalogue", catalogue)
+    assert run.out.splitlines() == [f"renamed  derby-40 to {name.strip()}"]
+
+
 def test_an_answer_is_utf_8_whatever_the_locale_is(shop: Path) -> None:
     (shop / "größe.stl").write_bytes((shop / "foot.stl").read_bytes())
     run = bash("footfit measure größe.stl", shop, PYTHONIOENCODING="ascii", LC_ALL="C.UTF-8")

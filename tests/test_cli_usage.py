@@ -34,6 +34,9 @@ from tests.conftest import Footfit
         (("measure", "-j.OBJ"), "write ./-j.OBJ"),
         (("measure", "--foot.glb", "x.stl"), "write ./--foot.glb"),
         (("measure", "-feet"), "write ./-feet"),
+        (("show-last", "-x"), "before a name that begins with - write --"),
+        (("--json", "list-lasts"), "there is no option --json before a command"),
+        (("ingest-last", "x.stl", "--size", ""), "--size is empty (an unset variable?)"),
     ],
 )
 def test_a_usage_error_says_what_to_type(
@@ -110,6 +113,7 @@ def test_a_byte_order_mark_in_the_settings_is_passed_over(settings_file: Path) -
         (b"catalogue = x\n", "not valid TOML"),
         (b'catalogue = "C:\\Users\\x"\n', "write / in the place of"),
         (b'catalogue = "C:\\temp\\x"\n', "write / in the place of"),
+        (b'catalogue = "~nobody_here/x"\n', "write the whole path"),
         ('catalogue = "x"\n'.encode("utf-16"), "save it as UTF-8"),
     ],
 )

@@ -47,6 +47,7 @@ def answer_scans(
     outputs.refuse(as_json=mode.json)
     sources = sources_of(meshes, reading, split=batch.split, quiet=mode.quiet)
     outputs.require_one(sources)
+    outputs.keep(sources)
     outcomes = scans.outcomes(verb, sources, jobs=batch.jobs, **reading.keywords(), **options)
     raise typer.Exit(answer_outcomes(outcomes, replace(mode, total=len(sources)), outputs))
 
@@ -119,9 +120,10 @@ def sources_of(
     from footfit.pipeline.batch.sources import left_out, stdin_source
 
     if "-" not in meshes:
+        sources = scans.sources(list(meshes), split=split, **reading.keywords())
         for mesh in meshes:
             say_notices(left_out(mesh), mesh, quiet=quiet)
-        return scans.sources(list(meshes), split=split, **reading.keywords())
+        return sources
     if list(meshes) != ["-"]:
         raise BadOption("- reads one mesh from standard input; give it alone")
     stream = None if sys.stdin is None else sys.stdin.buffer

@@ -19,6 +19,9 @@ if TYPE_CHECKING:
     from footfit.results import Notice
 
 PLAIN_WIDTH = 80
+"""The width of tables in a file or a pipe. A narrower table loses columns, so a terminal that is
+narrower wraps the lines itself.
+"""
 
 
 class ReaderGone(Exception):
@@ -101,8 +104,8 @@ def show(renderable: RenderableType) -> None:
 
     colour = is_terminal(sys.stdout) and not os.environ.get("NO_COLOR")
     seen = sys.stdout is not None and sys.stdout.isatty()
-    width = shutil.get_terminal_size().columns if seen else PLAIN_WIDTH
-    answer(terminal_text(renderable, width=width, colour=colour))
+    columns = shutil.get_terminal_size().columns if seen else PLAIN_WIDTH
+    answer(terminal_text(renderable, width=max(columns, PLAIN_WIDTH), colour=colour))
 
 
 def say(message: str, *, quiet: bool = False) -> None:

@@ -5,13 +5,16 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Sized
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from footfit.cli.console import answer
 from footfit.cli.options import STDOUT
-from footfit.errors import BadOption
+from footfit.errors import BadOption, CatalogueUnusable
 from footfit.pipeline.export import file_kind
 from footfit.whole_files import give_name, partial_beside, require_free, sync
+
+if TYPE_CHECKING:
+    from footfit.pipeline.batch.sources import Source
 
 
 @dataclass(frozen=True, slots=True)
@@ -42,7 +45,8 @@ class Outputs:
         Raises
         ------
         OutputExists, BadOption
-            As `refuse_existing`; also if ``--csv -`` and ``--json`` are given together.
+            As `refuse_existing`; also if ``--csv -`` and ``--json`` are given together, or if two
+            outputs have one name.
         """
         for file in self.files:
             refuse_existing(file.path, force=self.force, kinds=file.kinds)
@@ -50,6 +54,31 @@ class Outputs:
             raise BadOption("--csv - and --json both write to stdout; give --csv a file")
         if self.csv != STDOUT:
             refuse_existing(self.csv, force=self.force)
+        paths = [path.absolute() for path in self._paths()]
+        for path in self._paths():
+            if paths.count(path.absolute()) > 1:
+                raise BadOption("is named for two outputs; name two files", str(path))
+
+    def _paths(self) -> list[Path]:
+        """Every file that is written."""
+        paths = [file.path for file in self.files] + [self.csv]
+        return [path for path in paths if path is not None and path != STDOUT]
+
+    def keep(self, sources: Iterable[Source]) -> None:
+        """Refuse an output that would replace one of the meshes that are read.
+
+        Raises
+        ------
+        BadOption
+            The scan would be lost, also with --force.
+        """
+        there = [path for path in self._paths() if path.exists()]
+        for source in sources if there else ():
+            name = source.path or ""
+            read = Path(name if Path(name).exists() else name.rpartition("#")[0])
+            for path in there:
+                if read.is_file() and path.samefile(read):
+                    raise BadOption("is the scan itself; name another file to write", str(path))
 
     def require_one(self, meshes: Sized, unless: str = "") -> None:
         """Refuse one file for several meshes; ``unless`` names another solution.
@@ -94,7 +123,8 @@ def refuse_existing(path: Path | None, *, force: bool, kinds: tuple[str, ...] = 
     OutputExists
         The file exists and ``force`` is not given.
     BadOption
-        The folder does not exist, the path is a folder or not valid, or the suffix is wrong.
+        The folder does not exist, the path is a folder or not valid, or the suffix is wrong; or
+        the file is a catalogue, which no --force replaces.
     """
     if path is None:
         return
@@ -104,6 +134,17 @@ def refuse_existing(path: Path | None, *, force: bool, kinds: tuple[str, ...] = 
         raise BadOption(f"cannot be written: {error.strerror}", str(path)) from error
     if kinds:
         file_kind(path, kinds)
+    if _is_catalogue(path):
+        raise BadOption("is a catalogue of lasts; name another file to write", str(path))
+
+
+def _is_catalogue(path: Path) -> bool:
+    from footfit.catalogue.file.file_signature import kind_of_file
+
+    try:
+        return path.exists() and kind_of_file(path) in ("catalogue", "interrupted")
+    except CatalogueUnusable:
+        return False
 
 
 def write_output(path: Path, data: bytes | str, *, force: bool) -> None:

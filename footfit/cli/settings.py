@@ -55,7 +55,22 @@ def settings_catalogue(path: Path) -> Path | None:
         raise BadOption('needs a line like: catalogue = "lasts.footfit"', str(path))
     if not value.isprintable():  # as in "C:\temp"
         raise BadOption(f"has a control character in the path; {SLASHES}", str(path))
-    return path.parent / Path(value).expanduser()
+    return path.parent / _expanded(value, str(path))
+
+
+def _expanded(text: str, origin: str) -> Path:
+    """A path with ``~`` as the home folder.
+
+    Raises
+    ------
+    BadOption
+        There is no such home folder.
+    """
+    try:
+        return Path(text).expanduser()
+    except RuntimeError as error:
+        words = f"the home folder of {text} is not known; write the whole path"
+        raise BadOption(words, origin) from error
 
 
 def catalogue_path(option: Path | None) -> Path:
@@ -70,7 +85,7 @@ def catalogue_path(option: Path | None) -> Path:
         return option
     named = os.environ.get(ENVIRONMENT_NAME)
     if named:
-        return Path(named).expanduser()
+        return _expanded(named, ENVIRONMENT_NAME)
     from_settings = settings_catalogue(settings_path())
     return data_folder() / CATALOGUE_NAME if from_settings is None else from_settings
 

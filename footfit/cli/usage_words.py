@@ -32,6 +32,8 @@ def plain_words(message: str, arguments: Sequence[str] = ()) -> str:
         if argument[:1] == "-" and is_file:
             words = f"{argument} is taken for an option: for a file of this name write"
             return f"{words} ./{argument}"
+    if arguments and arguments[0].startswith("--") and message.startswith("No such option"):
+        return f"there is no option {arguments[0]} before a command: write it after the command"
     for pattern, words_of in _KNOWN:
         if match := pattern.fullmatch(message):
             return words_of(match)
@@ -62,8 +64,11 @@ def _one_of(match: re.Match[str]) -> str:
 
 def _no_option(match: re.Match[str]) -> str:
     options = re.findall(r"--[\w-]+", match["options"] or "")
-    close = get_close_matches(match["name"], options, n=1, cutoff=0.0)
-    return f"there is no option {match['name']}" + (f"; did you mean {close[0]}?" if close else "")
+    close = get_close_matches(match["name"], options, n=1)
+    words = f"there is no option {match['name']}"
+    if not close and not match["name"].startswith("--"):
+        return f"{words}; before a name that begins with - write --"
+    return f"{words}; did you mean {close[0]}?" if close else words
 
 
 def _no_command(match: re.Match[str]) -> str:

@@ -55,7 +55,7 @@ def require_storable(name: str) -> None:
         It is blank, or not a text that UTF-8 can hold.
     """
     if not name.strip():
-        raise BadOption("a last needs a name that is not blank; give one with --name")
+        raise BadOption("a last needs a name that is not blank; type one")
     try:
         name.encode("utf-8")
     except UnicodeEncodeError as error:

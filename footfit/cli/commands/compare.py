@@ -40,6 +40,7 @@ def compare(
     from footfit.cli.answers import answer_result, sources_of
     from footfit.cli.outputs import OutputFile, Outputs
     from footfit.errors import BadOption
+    from footfit.pipeline.batch.sources import Source
     from footfit.pipeline.export import PICTURE_KINDS
     from footfit.report.pictures.heat_figure import HEAT_KINDS
     from footfit.results import Comparison
@@ -50,10 +51,11 @@ def compare(
         OutputFile(html, (), lambda comparison, _: files.page(comparison)),
     )
     outputs = Outputs(written, Comparison, csv, force)
-    outputs.refuse(as_json=False)
+    outputs.refuse(as_json=mode.json)
     sources = sources_of([foot], reading, quiet=mode.quiet)
     if len(sources) != 1:
         raise BadOption(f"holds {len(sources)} meshes; name one foot", foot)
+    outputs.keep([*sources, Source(last)])
     if Path(last).is_file():
         comparison = scans.compare(sources[0], last, **reading.keywords())
     else:

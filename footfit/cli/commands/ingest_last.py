@@ -66,6 +66,7 @@ def ingest_last(
     from footfit.cli.answers import failures_last, sources_of, tell, watched_items
     from footfit.cli.console import error_line, say, say_notices
     from footfit.cli.signals import LISTENER
+    from footfit.errors import BadOption
     from footfit.pipeline.batch.runs import common_code
     from footfit.pipeline.batch.sources import ReadingOptions
     from footfit.pipeline.library import manifest as manifests
@@ -75,6 +76,10 @@ def ingest_last(
     given: dict[str, Any] = {
         label: manifests.label_mm(value, label) for label, value in standing.keywords().items()
     }
+    texts = {"name": name, "style": style, "size": size, "size-system": size_system}
+    for flag, text in {**texts, "width-label": width_label}.items():
+        if text is not None and not text.strip():
+            raise BadOption(f"--{flag} is empty (an unset variable?); leave it out, or fill it in")
     labels = LastLabels(name or "", style, size, size_system, width_label, **given)
     rows = manifests.read_manifest(manifest) if manifest else []
     sources = sources_of(paths or [], reading, quiet=mode.quiet) if paths else []

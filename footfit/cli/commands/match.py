@@ -80,6 +80,7 @@ def match(
     outputs.refuse(as_json=mode.json)
     sources = sources_of(feet, reading, split=batch.split, quiet=mode.quiet)
     customers = 1 if pair else len(sources)
+    outputs.keep(sources)
     outputs.require_one(range(customers), unless="--pair for one customer's two feet")
     answers = catalogue.match_each(
         sources,

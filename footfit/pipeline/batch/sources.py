@@ -161,9 +161,9 @@ def _expanded(argument: str, *, alone: bool) -> list[str]:
         return [argument]
     paths = sorted(str(path) for path in files if path.suffix.lower() in MESH_SUFFIXES)
     if not paths and alone:
-        others = "".join(f"; {notice.message}" for notice in left_out(argument))
-        words = f"holds no mesh file ({READ_KINDS}); name a file or folder"
-        raise UnreadableFile(others[2:] or words, argument)
+        others = "".join(notice.message for notice in left_out(argument))
+        others = others or f"name a file or folder with {READ_KINDS}"
+        raise UnreadableFile(f"holds no mesh file; {others}", argument)
     return paths or [argument]
 
 

@@ -32,7 +32,10 @@ STATUS_STYLES = {"added": "green", "replaced": "green", "unchanged": "dim", "ref
 
 
 def terminal_text(renderable: RenderableType, width: int = 80, colour: bool = False) -> str:
-    """What a terminal of ``width`` columns would show, with ANSI colours or as plain text."""
+    """What a terminal of ``width`` columns would show, with ANSI colours or as plain text.
+
+    A text is one line, however long it is: scripts count the lines.
+    """
     target = io.StringIO()
     console = Console(
         file=target,
@@ -44,7 +47,7 @@ def terminal_text(renderable: RenderableType, width: int = 80, colour: bool = Fa
         emoji=False,
         markup=False,
     )
-    console.print(renderable)
+    console.print(renderable, soft_wrap=isinstance(renderable, Text))
     return "\n".join(line.rstrip() for line in target.getvalue().splitlines()) + "\n"
 
 
