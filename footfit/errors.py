@@ -175,6 +175,10 @@ class UnknownLast(NotInCatalogue):
     """The catalogue has no last of this name."""
 
 
+class UnknownFit(NotInCatalogue):
+    """The fit log has no entry of this code or id."""
+
+
 class NoReference(NotInCatalogue):
     """A method of the paper needs a reference last, and none is set."""
 

@@ -102,7 +102,7 @@ def test_the_writer_adds_keys_hashes_and_the_version_alone() -> None:
     """Every other value comes from a record, and says where in it."""
     added = {column.name for _, column in COLUMNS if not column.path}
     assert added == {
-        *("id", "last_id", "parent_id", "position"),
+        *("id", "last_id", "number", "parent_id", "position"),
         *("footfit_version", "record_sha256", "sha256"),
     }
 

@@ -12,13 +12,14 @@ from footfit.catalogue.checks.plausible_values import implausible, implausible_v
 from footfit.catalogue.checks.schema_comparison import expected_objects, stored_objects
 from footfit.catalogue.file.migrate import Schema
 from footfit.catalogue.rows.array_blobs import array_of, definition_text
-from footfit.catalogue.rows.columns import REFERENCE, SEALED
+from footfit.catalogue.rows.columns import FIT, REFERENCE, SEALED
 from footfit.catalogue.rows.reference_last import stored_reference, transform_by
 from footfit.catalogue.rows.verified_rows import (
     LastRows,
     last_names,
     row_digest,
     rows,
+    shown_name,
     stored_lasts,
 )
 from footfit.errors import CatalogueDamaged
@@ -126,6 +127,20 @@ def _sealed_rows(connection: sqlite3.Connection) -> Iterator[Finding]:
                 yield Finding("range", words, name)
 
 
+def _fits(connection: sqlite3.Connection) -> Iterator[Finding]:
+    """The entries of the fit log; an older schema has none."""
+    if not connection.execute("SELECT 1 FROM sqlite_master WHERE name = 'fit'").fetchone():
+        return
+    for row in rows(connection, FIT):
+        if row.get("sha256") != row_digest(FIT, row):
+            yield Finding(
+                "fit", f"the fit entry {shown_name(row.get('id'))} is not what was stored"
+            )
+            continue
+        for words in implausible_values(FIT, row):
+            yield Finding("range", words)
+
+
 def _reference(connection: sqlite3.Connection) -> Iterator[Finding]:
     reference, lasts = stored_reference(connection), stored_lasts(connection)
     if reference is None:
@@ -157,6 +172,7 @@ CHECKS: tuple[Check, ...] = (
     _lasts,
     _definitions,
     _sealed_rows,
+    _fits,
     _reference,
 )
 """All checks but the one of the schema, in the order of their findings."""

@@ -40,6 +40,7 @@ class Settings:
     for_writers: tuple[str, ...] = (
         "PRAGMA journal_mode = DELETE",
         "PRAGMA synchronous = EXTRA",
+        "PRAGMA secure_delete = ON",
     )
 
 
@@ -209,6 +210,17 @@ class CatalogueFile:
             raise CatalogueNotWritable("was opened for reading only", str(self.path))
         with sqlite_errors_in_words(self.path), self._engine.begin() as connection:
             yield connection
+
+    def compact(self) -> None:
+        """Write the file anew without its free pages: nothing that was deleted is left in them.
+
+        Raises
+        ------
+        CatalogueLocked, CatalogueNotWritable, CatalogueDamaged
+            The file is as it was.
+        """
+        with sqlite_errors_in_words(self.path):
+            self.connection.execute("VACUUM")
 
     def close(self) -> None:
         """Close the file; nothing is pending outside of the two blocks above."""

@@ -42,6 +42,12 @@ def definition_text(definition: FlareDefinition) -> str:
     return json.dumps(asdict(definition), sort_keys=True, separators=(",", ":"))
 
 
+def json_text(value: Any) -> str:
+    """A plain value as canonical JSON: a mapping, a list, or a tuple of dataclasses."""
+    plain = [asdict(item) for item in value] if isinstance(value, tuple) else dict(value)
+    return json.dumps(plain, sort_keys=True, separators=(",", ":"), allow_nan=False)
+
+
 @lru_cache(maxsize=64)
 def definition_of(text: str) -> FlareDefinition:
     """The definition of a stored text.

@@ -10,6 +10,7 @@ Nothing here opens SQLAlchemy, because ``match`` reads the catalogue without it.
 from __future__ import annotations
 
 import dataclasses
+import json
 import math
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
@@ -19,7 +20,13 @@ from pathlib import PurePath
 from typing import Any, Literal, TypeVar, cast
 
 from footfit.catalogue.rows import rules
-from footfit.catalogue.rows.array_blobs import array_of, blob, definition_of, definition_text
+from footfit.catalogue.rows.array_blobs import (
+    array_of,
+    blob,
+    definition_of,
+    definition_text,
+    json_text,
+)
 from footfit.catalogue.rows.digests import Row
 from footfit.catalogue.rows.rules import Rule, choice, number
 from footfit.geometry.fit.stations import STATIONS
@@ -66,6 +73,7 @@ FLAG = Kind("flag", bool, choice(0, 1), bool)
 BYTES = Kind("blob", bytes, rules.BYTES)
 FILE_NAME = Kind("text", lambda path: _text(PurePath(path).name), rules.TEXT)
 DEFINITION = Kind("text", definition_text, rules.TEXT, definition_of)
+JSON = Kind("text", json_text, rules.JSON, json.loads)
 VECTOR, SERIES, POINTS, EDGES = _array(3), _array(), _array(-1, 2), _array(-1, 3)
 ROTATION, TRANSFORM = _array(3, 3), _array(4, 4)
 
@@ -131,8 +139,8 @@ class Table:
 
     @property
     def last_key(self) -> str:
-        """The column that says which last a row belongs to."""
-        return "id" if self.name == "last" else "last_id"
+        """The column that says which last a row belongs to; the key of what belongs to none."""
+        return {"last": "id", "fit": "number"}.get(self.name, "last_id")
 
     def row(self, record: object, **added: object) -> Row:
         """The row of a record, with the values that the writer adds."""
@@ -316,4 +324,32 @@ REFERENCE = Table(
 )
 """The one reference last: OM_E (Eq. 6), and its centroid in its canonical frame."""
 
-TABLES = (LAST, FRAME, FLARE, MEASURE, NOTICE, MESH_COPY, SECTION, REFERENCE)
+FIT = Table(
+    "fit",
+    (
+        Column("number", INTEGER, key=True, hashed=False),
+        Column("id", TEXT, "id", rules.NOT_BLANK, unique=True),
+        Column("recorded", TEXT, "recorded", rules.NOT_BLANK),
+        Column("wearer", TEXT, "wearer", rules.NOT_BLANK, nullable=True),
+        Column("last", TEXT, "last", rules.NOT_BLANK),
+        Column("last_sha256", TEXT, "last_sha256", rules.SHA256),
+        Column("foot_sha256", TEXT, "foot_sha256", rules.SHA256),
+        Column("side", TEXT, "side", choice("left", "right"), nullable=True),
+        Column("profile", TEXT, "profile", rules.NOT_BLANK),
+        Column("profile_version", INTEGER, "profile_version"),
+        Column("profile_sha256", TEXT, "profile_sha256", rules.SHA256),
+        Column("worn", JSON, "worn"),
+        Column("zones", JSON, "zones"),
+        Column("ratings", JSON, "ratings"),
+        Column("comfort", REAL, "comfort", number(0.0, 100.0), nullable=True),
+        Column("outcome", TEXT, "outcome", choice("kept", "returned", "altered"), nullable=True),
+        Column("alteration", TEXT, "alteration", nullable=True),
+        Column("hours", REAL, "hours", number(0.0), nullable=True),
+        Column("days", REAL, "days", number(0.0), nullable=True),
+        Column("footfit_version", TEXT, "footfit_version"),
+        Column("sha256", TEXT, rule=rules.SHA256, hashed=False),
+    ),
+)
+"""One entry of the fit log. It names its last by name and hash, and outlives it."""
+
+TABLES = (LAST, FRAME, FLARE, MEASURE, NOTICE, MESH_COPY, SECTION, REFERENCE, FIT)

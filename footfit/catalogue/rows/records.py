@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+import json
 from collections.abc import Mapping
 from operator import itemgetter
+from typing import Any
 
 from footfit.catalogue.file.engine import LACKS
 from footfit.catalogue.rows.columns import (
+    FIT,
     FLARE,
     FRAME,
     LAST,
@@ -23,6 +26,7 @@ from footfit.geometry.fit.stations import STATIONS, NamedSection
 from footfit.geometry.flare.definition import FlareProfile
 from footfit.results import (
     Eigenframe,
+    FitEntry,
     LastLabels,
     LastRecord,
     Measure,
@@ -31,6 +35,7 @@ from footfit.results import (
     MeshInfo,
     Notice,
     PoseQuality,
+    RatedZone,
     Reference,
     ShapeSections,
     SideVerdict,
@@ -59,6 +64,7 @@ _stations = {
     )
     for station in STATIONS
 }
+_fit = FIT.reader("", FitEntry, zones=lambda row: _rated_zones(json.loads(row["zones"])))
 _reference = REFERENCE.reader("", Reference, last=itemgetter("last"))
 
 
@@ -106,3 +112,21 @@ def sections_of(row: Row) -> ShapeSections:
 def reference_from(row: Row, name: str) -> Reference:
     """The reference of its verified row, and the name of its last."""
     return _reference(row | {"last": name})
+
+
+def fit_entry_of(row: Row) -> FitEntry:
+    """The entry of the fit log of its verified row.
+
+    Raises
+    ------
+    CatalogueDamaged
+        The table has lost a column, or the row holds what no entry has.
+    """
+    try:
+        return _fit(row)
+    except (KeyError, TypeError, ValueError) as error:
+        raise CatalogueDamaged(LACKS) from error
+
+
+def _rated_zones(stored: list[dict[str, Any]]) -> tuple[RatedZone, ...]:
+    return tuple(RatedZone(**zone) for zone in stored)

@@ -6,6 +6,7 @@ these rules do.
 
 from __future__ import annotations
 
+import json
 import math
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -90,6 +91,7 @@ def _are_moments(data: bytes) -> bool:
 
 
 TEXT = Rule("a text", lambda value: isinstance(value, str))
+JSON = Rule("JSON", lambda value: isinstance(json.loads(value), dict | list))
 WHOLE = Rule("a whole number", lambda value: isinstance(value, int))
 BYTES = Rule("bytes", lambda value: isinstance(value, bytes))
 ABOVE_ZERO = Rule("above zero", lambda value: number(0.0).holds(value) and value != 0)

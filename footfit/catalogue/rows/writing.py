@@ -9,6 +9,7 @@ import sqlite3
 from typing import TYPE_CHECKING
 
 from footfit.catalogue.rows.columns import (
+    FIT,
     FLARE,
     FRAME,
     LAST,
@@ -19,7 +20,7 @@ from footfit.catalogue.rows.columns import (
 )
 from footfit.catalogue.rows.digests import Row
 from footfit.catalogue.rows.verified_rows import row_digest, rows, stored_lasts
-from footfit.results import LastRecord, Reference
+from footfit.results import FitEntry, LastRecord, Reference
 from footfit.version import __version__
 
 if TYPE_CHECKING:
@@ -78,6 +79,13 @@ def write_reference(connection: sa.Connection, key: int, reference: Reference) -
     row = REFERENCE.row(reference, id=1, last_id=key, sha256="")
     connection.execute(_sql(REFERENCE).insert(), row)
     _seal_row(connection, key, REFERENCE)
+
+
+def add_fit(connection: sa.Connection, entry: FitEntry) -> None:
+    """Add an entry to the fit log, sealed."""
+    row = FIT.row(entry, sha256="")
+    key = connection.execute(_sql(FIT).insert(), row).lastrowid
+    _seal_row(connection, key, FIT)
 
 
 def update_row(connection: sa.Connection, table: Table, key: int, values: Row) -> None:
