@@ -19,10 +19,10 @@ from footfit.results.fit import FitProfile as FitProfile
 from footfit.results.fit import FootFit as FootFit
 from footfit.results.fit import ZoneFit as ZoneFit
 from footfit.results.fit import ZoneRule as ZoneRule
-from footfit.results.fit_log import FitEntry as FitEntry
-from footfit.results.fit_log import FitList as FitList
-from footfit.results.fit_log import ForgetOutcome as ForgetOutcome
-from footfit.results.fit_log import RatedZone as RatedZone
+from footfit.results.fit_entries import FitEntry as FitEntry
+from footfit.results.fit_entries import FitList as FitList
+from footfit.results.fit_entries import ForgetOutcome as ForgetOutcome
+from footfit.results.fit_entries import RatedZone as RatedZone
 from footfit.results.heel import HeelChange as HeelChange
 from footfit.results.heel import HeelModel as HeelModel
 from footfit.results.heel import HeelQuestion as HeelQuestion
