@@ -12,7 +12,7 @@ from footfit.catalogue.file.copying import copy_into
 from footfit.catalogue.file.engine import SETTINGS, CatalogueFile, sqlite_errors_in_words
 from footfit.catalogue.file.migrate import Revisions, Schema
 from footfit.catalogue.file.opening import open_for_reading, open_for_writing
-<<<<<<< HEAD
+from footfit.catalogue.fit_log import FitLog
 from footfit.catalogue.rows.columns import (
     FLARE,
     FRAME,
@@ -24,10 +24,6 @@ from footfit.catalogue.rows.columns import (
     Table,
 )
 from footfit.catalogue.rows.last_names import last_id
-=======
-from footfit.catalogue.fit_log import FitLog
-from footfit.catalogue.rows.columns import FLARE, FRAME, LAST, MEASURE, MESH_COPY, SECTION, Table
->>>>>>> 674e6ca (Learn targets from ratings, and keep a fit log in the catalogue)
 from footfit.catalogue.rows.records import mesh_copy_of, record_of, sections_of
 from footfit.catalogue.rows.reference_last import (
     express,

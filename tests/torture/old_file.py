@@ -14,14 +14,14 @@ from footfit.catalogue.store import open_catalogue
 from footfit.geometry.fit.stations import NamedSection
 from footfit.meshes.copies.compact_copy import compact_copy
 from footfit.results import ShapeSections
-from tests import answers, records
+from tests import answers, fits, records
 from tests.torture.migrations import DATA, HEAD
 
 LASTS = 4
 
 
 def store(path: Path) -> None:
-    """Write a small catalogue with both sides, a parent, notices, measures and mesh copies."""
+    """Write a small catalogue with both sides, a parent, notices, measures, mesh copies and a fit log."""
     vertices, faces = answers.tube(260.0, rings=24, sides=16)
     copy = compact_copy(vertices, faces)
     section = NamedSection(np.eye(4), vertices[:16, 1:])
@@ -31,6 +31,7 @@ def store(path: Path) -> None:
             side, parent = ("right", "left")[seed % 2], "last-0" if seed == 3 else None
             record = records.last(f"last-{seed}", seed, side=side, parent=parent)
             catalogue.add(record, copy, sections)
+            catalogue.fit_log.add(fits.entry(seed))
 
 
 if __name__ == "__main__":
