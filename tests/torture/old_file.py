@@ -21,7 +21,7 @@ LASTS = 4
 
 
 def store(path: Path) -> None:
-    """Write a small catalogue with both sides, a parent, notices, measures, mesh copies and a fit log."""
+    """Write a small catalogue with everything that a catalogue can hold."""
     vertices, faces = answers.tube(260.0, rings=24, sides=16)
     copy = compact_copy(vertices, faces)
     section = NamedSection(np.eye(4), vertices[:16, 1:])
