@@ -17,6 +17,8 @@ from footfit.results.compare import SizeDifference as SizeDifference
 from footfit.results.compare import SurfaceClearance as SurfaceClearance
 from footfit.results.fit import FitProfile as FitProfile
 from footfit.results.fit import FootFit as FootFit
+from footfit.results.fit import ToeBox as ToeBox
+from footfit.results.fit import ToeFit as ToeFit
 from footfit.results.fit import ZoneFit as ZoneFit
 from footfit.results.fit import ZoneRule as ZoneRule
 from footfit.results.fit_entries import FitEntry as FitEntry

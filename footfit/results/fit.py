@@ -3,9 +3,13 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 from footfit.results.heel import HeelChange
 from footfit.results.values import Json, Measured, Part, SideName, Verdict, exact, fields, part
+
+if TYPE_CHECKING:
+    from footfit.geometry.numeric.arrays import Floats, Ints
 
 
 @dataclass(frozen=True, slots=True)
@@ -61,7 +65,7 @@ class ZoneFit(Part):
     ``clearance`` is in ``unit``, and ``target`` is what the profile asks. ``score`` is 0 at the
     target and 1 at the edge of good; - is tight and + is loose. ``verdict`` and ``score`` are None
     if the clearance is not measured. ``counts`` is False if the other foot of the pair governs this
-    zone, or if its weight is 0.
+    zone, or if its weight is 0. ``place`` is where in the zone that is: "big toe, inner wall".
     """
 
     zone: str
@@ -71,8 +75,52 @@ class ZoneFit(Part):
     score: float | None
     verdict: Verdict | None
     counts: bool
+    place: str | None = None
 
     not_written = ("zone",)
+
+
+@dataclass(frozen=True, slots=True)
+class ToeFit(Part):
+    """One toe against the wall of a last at toe height, in plan.
+
+    ``clearance`` is in mm to the nearest wall, + is space and - is how far the toe stands through
+    it. ``wall`` is "inner", "outer" or "front".
+    """
+
+    toe: str
+    wall: str
+    clearance: Measured
+
+    not_written = ("toe",)
+
+    @property
+    def place(self) -> str:
+        """The toe and the wall in words."""
+        return f"{self.toe}, {self.wall} wall"
+
+
+@dataclass(frozen=True, slots=True)
+class ToeBox(Part):
+    """The toes of one foot in one last, the big toe first, and their outlines in plan.
+
+    ``outline_mm`` (m, 2) are points of the foot's outline, along the last's bottom and to the
+    medial side, as a right shape, and ``toe`` (m,) is the place in ``toes`` of each. ``wall_mm``
+    (k, 3) are the way along the last's bottom and its lateral and medial edge there.
+    """
+
+    toes: tuple[ToeFit, ...]
+    outline_mm: Floats
+    toe: Ints
+    wall_mm: Floats
+
+    def _keys(self) -> Json:
+        return {each.toe.replace(" ", "_"): each for each in self.toes}
+
+    @property
+    def tightest(self) -> ToeFit:
+        """The toe with the least clearance."""
+        return min(self.toes, key=lambda each: each.clearance.value or 0.0)
 
 
 @dataclass(frozen=True, slots=True)
@@ -80,12 +128,14 @@ class FootFit(Part):
     """One foot of the customer in one last; ``verdict`` is the worst of the zones that count.
 
     ``heel`` is what the last's heel changes of the foot; None for a foot that is taken as scanned.
+    ``toe_box`` is None if the toes were not judged; the zone "toes" then says why.
     """
 
     side: SideName | None
     verdict: Verdict
     zones: tuple[ZoneFit, ...]
     heel: HeelChange | None = None
+    toe_box: ToeBox | None = None
 
     def _keys(self) -> Json:
         return fields(self) | {"zones": part({zone.zone: zone for zone in self.zones})}

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from pathlib import Path
 
 from footfit.errors import FootfitError
 from footfit.results.alignment import Reference
@@ -219,13 +220,17 @@ class RestoreOutcome(Document):
 
 @dataclass(frozen=True, slots=True)
 class Library(Document):
-    """The lasts to choose from, and the state of their catalogue."""
+    """The lasts to choose from, and the state of their catalogue.
+
+    ``file`` is the catalogue that their sections are read from, None if there is none.
+    """
 
     lasts: tuple[LastRecord, ...]
     total: int
     reference: str | None
     rejected: tuple[tuple[str, int], ...] = ()
     warnings: tuple[Notice, ...] = ()
+    file: Path | None = None
 
     columns = (
         *("last", *LABELS, "heel_height_mm", "family", "parent", "side"),

@@ -64,7 +64,9 @@ def matched(
     if question.by == "fit":
         _refuse_unknown_length(feet)
     profile = question.profile or fit_profile()
-    judged = ranking.judged_lasts(feet, library.lasts, profile, question.by, question.heel)
+    judged = ranking.judged_lasts(
+        feet, library.lasts, profile, question.by, question.heel, library.file
+    )
     ranked = ranking.ranking(judged, profile.tie_sds)
     shown = range(len(ranked.rows))[: question.top or None]
     near = [] if ranked.rows else ranking.nearest(judged, NEAREST_NAMED)

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
+from pathlib import Path
 
 import numpy as np
 
@@ -25,7 +26,16 @@ from footfit.pipeline.fit.scoring import (
     tiers,
     worst_levels,
 )
-from footfit.pipeline.fit.zones import LENGTH_SD_MM, ZONES, Clearances, clearances
+from footfit.pipeline.fit.toe_box import last_toes, with_toe_boxes
+from footfit.pipeline.fit.zones import (
+    LENGTH_SD_MM,
+    TOE_BOX,
+    TOES,
+    ZONES,
+    Clearances,
+    clearances,
+    is_length,
+)
 from footfit.results import (
     FitProfile,
     FlareDifference,
@@ -34,6 +44,7 @@ from footfit.results import (
     LastRecord,
     Profiled,
     SearchBy,
+    ToeBox,
     ZoneFit,
 )
 from footfit.results.heel import AS_SCANNED, FLARE
@@ -52,6 +63,7 @@ class JudgedLasts:
 
     ``level`` (n,) indexes VERDICTS; ``distance`` (n,) is what the search goes by, and ``spread``
     how sure it is: by flare or shape that of a rescan. ``heels`` are those of the lasts.
+    ``toe_boxes`` hold each foot's toes by row, of the lasts that no other zone rejects.
     """
 
     feet: tuple[Profiled, ...]
@@ -65,6 +77,7 @@ class JudgedLasts:
     flare: tuple[FlareDifference, ...]
     distance: Floats
     spread: Spread
+    toe_boxes: tuple[Mapping[int, ToeBox], ...]
 
     @property
     def longer(self) -> int:
@@ -119,8 +132,12 @@ def judged_lasts(
     profile: FitProfile,
     by: SearchBy,
     heel: HeelQuestion = AS_SCANNED,
+    file: Path | None = None,
 ) -> JudgedLasts:
-    """Every last, judged for one customer; of two feet the longer governs the length."""
+    """Every last, judged for one customer; of two feet the longer governs the length.
+
+    ``file`` is the catalogue that the lasts' sections are read from.
+    """
     longer = governing(feet)
     chosen = own_side(lasts, feet[longer].aligned.alignment.side.side)
     columns = tuple(
@@ -130,6 +147,11 @@ def judged_lasts(
     )
     heels = heels_of(AS_SCANNED if by == "shape" else heel, chosen)
     room = clearances(feet, chosen, columns, heels)
+    boxes: tuple[Mapping[int, ToeBox], ...] = tuple({} for _ in feet)
+    if by != "shape" and any(rule.zone in TOE_BOX for rule in profile.zones):
+        rows = _passing(room, columns)
+        toes = dict(zip(rows, last_toes(file, [chosen[row] for row in rows]), strict=True))
+        room, boxes = with_toe_boxes(room, columns, feet, toes, heels)
     judged = scores(room.value, room.foot_sd, room.last_sd, columns, room.heel_sd)
     flare = flare_differences(feet, chosen, heels)
     return JudgedLasts(
@@ -144,7 +166,17 @@ def judged_lasts(
         flare=tuple(flare),
         distance=_distance(by, judged, flare, feet[longer], chosen),
         spread=distance_spread(judged) if by == "fit" else rescan_spread(len(chosen)),
+        toe_boxes=boxes,
     )
+
+
+def _passing(room: Clearances, columns: Sequence[Column]) -> list[int]:
+    """The rows of the lasts that have a toe room and that no zone rejects."""
+    level = scores(room.value, room.foot_sd, room.last_sd, columns, room.heel_sd).level
+    lengths = [place for place, column in enumerate(columns) if is_length(column)]
+    known = (level[:, lengths] != NOT_JUDGED).all(axis=1)
+    rows: list[int] = np.flatnonzero(known & (worst_levels(level, columns) < REJECT)).tolist()
+    return rows
 
 
 def governing(feet: Sequence[Profiled]) -> int:
@@ -306,12 +338,14 @@ def foot_fits(judged: JudgedLasts, row: int) -> tuple[FootFit, ...]:
         verdict = VERDICTS[worst_levels(level, [judged.columns[i] for i in places])[0]]
         zones = tuple(_zone_fit(judged, row, place) for place in places)
         side, heel = foot.aligned.alignment.side.side, heel_change(judged.heels, row, foot)
-        fits.append(FootFit(side, verdict, zones, heel))
+        toes = judged.toe_boxes[index].get(row)
+        fits.append(FootFit(side, verdict, zones, heel, toes))
     return tuple(fits)
 
 
 def _zone_fit(judged: JudgedLasts, row: int, place: int) -> ZoneFit:
     column, level = judged.columns[place], judged.scores.level[row, place]
+    toes = judged.toe_boxes[column.foot].get(row) if column.rule.zone == TOES else None
     return ZoneFit(
         zone=column.rule.zone,
         unit=ZONES[column.rule.zone].unit,
@@ -320,4 +354,5 @@ def _zone_fit(judged: JudgedLasts, row: int, place: int) -> ZoneFit:
         score=float(judged.scores.score[row, place]) if level != NOT_JUDGED else None,
         verdict=VERDICTS[level] if level != NOT_JUDGED else None,
         counts=column.counts,
+        place=None if toes is None else toes.tightest.place,
     )

@@ -18,7 +18,7 @@ from footfit.geometry.flare.profile_distance import DISTANCE
 from footfit.geometry.numeric.arrays import Floats
 from footfit.pipeline.fit.heels import Heels, full_change
 from footfit.pipeline.fit.scoring import Column
-from footfit.results import LastRecord, Measure, Measured, Profiled
+from footfit.results import HeelModel, LastRecord, Measure, Measured, Profiled
 from footfit.results.heel import FLARE
 
 LENGTH_SD_MM = 0.5
@@ -31,6 +31,11 @@ BALL_SHARE = 0.72
 STEEPEST = 0.6
 """The sine of the steepest pitch that counts: a heel of 110 mm."""
 
+
+TOE_HEIGHT, TOES = "toe_height", "toes"
+TOE_BOX = frozenset({TOE_HEIGHT, TOES})
+"""Zones that are read from kept sections, once no other zone rejects the last."""
+NOT_READ = "not looked at: another zone rejects the last"
 
 HEEL_RULES = {"ball_line": "ball_length", "flare": FLARE}
 """Zones whose rule of the heel model has another name than the zone."""
@@ -63,7 +68,8 @@ ZONES: dict[str, Zone] = {
         Zone("short_heel_girth", "short heel girth", "mm", "tighter", "looser"),
         Zone("long_heel_girth", "long heel girth", "mm", "tighter", "looser"),
         Zone("heel_width", "heel width", "mm", "narrower", "wider"),
-        Zone("toe_height", "toe height", "mm", "lower", "higher"),
+        Zone(TOE_HEIGHT, "toe height", "mm", "lower", "higher"),
+        Zone(TOES, "toes", "mm", "tighter", "looser"),
         Zone("instep_height", "instep height", "mm", "lower", "higher"),
         Zone("flare", "flare", "deg", "less inward", "more inward"),
         Zone("plan", "plan curve", "ratio", "nearer", "further"),
@@ -77,7 +83,8 @@ Reasons = tuple[tuple[str | None, ...], ...]
 
 @dataclass(frozen=True, slots=True)
 class Clearance:
-    """The last minus the foot in one zone, with the spread that each of the two brings.
+    """The last minus the foot in one zone, with the spread that each of the two brings, and that
+    of the heel model.
 
     ``value`` is NaN where it is not measured; ``reason`` then says why.
     """
@@ -86,6 +93,7 @@ class Clearance:
     foot_sd: float = 0.0
     last_sd: float = 0.0
     reason: str | None = None
+    heel_sd: float = 0.0
 
 
 @dataclass(frozen=True, slots=True)
@@ -111,6 +119,17 @@ class Clearances:
         spreads = (self.foot_sd, self.last_sd, self.heel_sd)
         sd = math.hypot(*(float(spread[row, place]) for spread in spreads))
         return Measured(float(self.value[row, place]), sd)
+
+    def with_cells(self, cells: Mapping[tuple[int, int], Clearance]) -> Clearances:
+        """The same with other clearances at some rows and columns."""
+        names = ("value", "foot_sd", "last_sd", "heel_sd")
+        arrays = {name: getattr(self, name).copy() for name in names}
+        reasons = [list(row) for row in self.reasons]
+        for (row, place), cell in cells.items():
+            for name in names:
+                arrays[name][row, place] = getattr(cell, name)
+            reasons[row][place] = cell.reason
+        return Clearances(**arrays, reasons=tuple(map(tuple, reasons)))
 
 
 def clearances(
@@ -170,12 +189,17 @@ def is_length(column: Column) -> bool:
     return column.rule.zone == "length"
 
 
+def length_only_words(model: HeelModel) -> str:
+    """Why girths are not judged in a heel that is higher than the heel model knows."""
+    return f"over {model.largest_drop_mm:g} mm of drop only the length is judged"
+
+
 def _with_length_only(reasons: Reasons, columns: Sequence[Column], heels: Heels) -> Reasons:
     """The reasons, with those of lasts whose heel is higher than the heel model knows."""
     model = heels.question.model
     if model is None or not heels.length_only.any():
         return reasons
-    words = f"over {model.largest_drop_mm:g} mm of drop only the length is judged"
+    words = length_only_words(model)
     only = tuple(None if is_length(column) else words for column in columns)
     return tuple(
         tuple(first or second for first, second in zip(row, only, strict=True)) if over else row
@@ -219,23 +243,24 @@ def _clearance(foot: ZoneShape, last: ZoneShape, zone: str) -> Clearance:
     """The clearance in a zone, as both were measured; of the ball line that of the balls, in mm."""
     if zone in _SPECIAL:
         return _SPECIAL[zone](foot, last)
-    return _difference(foot, last, "ball_length" if zone == "ball_line" else zone)
+    return measure_difference(foot, last, "ball_length" if zone == "ball_line" else zone)
 
 
-def _missing(reason: str) -> Clearance:
+def missing(reason: str) -> Clearance:
+    """No clearance, for this reason."""
     return Clearance(math.nan, reason=reason)
 
 
-def _difference(foot: ZoneShape, last: ZoneShape, name: str) -> Clearance:
+def measure_difference(foot: ZoneShape, last: ZoneShape, name: str) -> Clearance:
     """The last's measure minus the foot's, if both have it and mean the same by it."""
     for kind, shape in (("foot", foot), ("last", last)):
         if name not in shape.measures:
-            return _missing(f"not measured on the {kind}")
+            return missing(f"not measured on the {kind}")
         if shape.measured_mm(name) is None:
             reason = shape.measures[name].measured.reason or "not measured"
-            return _missing(f"the {kind}: {reason}")
+            return missing(f"the {kind}: {reason}")
     if foot.measures[name].definition != last.measures[name].definition:
-        return _missing("measured by another definition; type: footfit upgrade-catalogue")
+        return missing("measured by another definition; type: footfit upgrade-catalogue")
     ours, theirs = foot.measures[name].measured, last.measures[name].measured
     assert ours.value is not None
     assert theirs.value is not None
@@ -246,11 +271,11 @@ def _length(foot: ZoneShape, last: ZoneShape) -> Clearance:
     """The toe room: functional lengths where both are measured, else lengths, along the bottom of
     the last. A last in the foot's place, as in a search by shape, is measured along its bottom too.
     """
-    room = _difference(foot, last, "functional_length")
+    room = measure_difference(foot, last, "functional_length")
     if room.reason is not None:  # lengths of other versions differ by tenths of a mm
         foot_mm, last_mm = foot.measured_mm("length"), last.measured_mm("length")
         if foot_mm is None or last_mm is None:
-            return _difference(foot, last, "length")
+            return measure_difference(foot, last, "length")
         room = Clearance(last_mm - foot_mm, LENGTH_SD_MM, LENGTH_SD_MM)
     return replace(room, value=room.value + pitch_gain_mm(last) - pitch_gain_mm(foot))
 
@@ -295,7 +320,7 @@ def _plan(foot: ZoneShape, last: ZoneShape) -> Clearance:
     """The root mean square of the plan curvatures' difference over the distance's stations."""
     ours, theirs = foot.flare.curvature.get("plan"), last.flare.curvature.get("plan")
     if ours is None or theirs is None or len(ours) != len(theirs):
-        return _missing("the plan curve is not measurable")
+        return missing("the plan curve is not measurable")
     low, high = DISTANCE.stations
     inside = (foot.flare.stations >= low) & (foot.flare.stations <= high)
     rms = float(np.sqrt(np.mean(np.square(theirs[inside] - ours[inside]))))
@@ -306,4 +331,6 @@ _SPECIAL: dict[str, Callable[[ZoneShape, ZoneShape], Clearance]] = {
     "length": _length,
     "flare": _flare,
     "plan": _plan,
+    TOE_HEIGHT: lambda _foot, _last: missing(NOT_READ),
+    TOES: lambda _foot, _last: missing(NOT_READ),
 }

@@ -82,6 +82,7 @@ def library(path: Path, style: str | None = None, size_system: str | None = None
             *map(_outdated, stored.outdated),
             *_other_measures(current),
         ),
+        file=path,
     )
 
 
