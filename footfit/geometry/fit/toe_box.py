@@ -53,8 +53,8 @@ class ToesPlan:
     """The edges of a shape's toes in plan, up to its front.
 
     ``edges_mm`` (k, 3): along the bottom from its rearmost point, and the lateral and the medial
-    edge there. At the front, which is the last row, the two edges meet. ``seat_mm`` (2,) is the
-    middle of the seat, along and aside.
+    edge there; the last row is the front. ``seat_mm`` (2,) is the middle of the seat, along and
+    aside.
     """
 
     edges_mm: Floats
@@ -146,10 +146,9 @@ def toes_in_lasts(foot: ToesPlan, lasts: Walls, toe_room_mm: Floats, scale: Floa
 
 
 def _closed(outline_mm: Floats) -> Floats:
-    """Edges (k, 3) with a last row at the front, where they meet in the middle."""
+    """Edges (k, 3) with one more row at the front, which lies half a mm ahead."""
     front_mm = outline_mm[-1, 0] / NAMED_SECTIONS.toes_to
-    middle_mm = outline_mm[-1, 1:].mean()
-    return np.concatenate([outline_mm, [[front_mm, middle_mm, middle_mm]]])
+    return np.concatenate([outline_mm, [[front_mm, *outline_mm[-1, 1:]]]])
 
 
 def _middles(edges_mm: Floats, x: Floats) -> Floats:
@@ -173,7 +172,7 @@ def _toe_points(foot: ToesPlan) -> tuple[Floats, Ints]:
         np.column_stack([x, edge])[x > begin]
         for edge, begin in zip((outer, inner), begins, strict=True)
     ]
-    corners = np.concatenate([sides[0], sides[1][-2::-1]])
+    corners = np.concatenate([sides[0], sides[1][::-1]])
     steps = np.linalg.norm(np.diff(corners, axis=0), axis=1)
     arc = np.concatenate([[0.0], np.cumsum(steps)])
     even = np.arange(0.0, arc[-1], TOE_BOX.step_mm)
@@ -221,7 +220,7 @@ def _wall_distances(points_mm: Floats, edges_mm: Floats) -> tuple[Floats, Ints]:
     wall is the nearest.
     """
     outer, inner = edges_mm[:, :, [0, 1]], edges_mm[:, ::-1, [0, 2]]
-    ring = np.concatenate([outer, inner[:, 1:]], axis=1)
+    ring = np.concatenate([outer, inner], axis=1)
     start, way = ring[:, :-1], np.diff(ring, axis=1)
     from_start = points_mm[:, :, None] - start[:, None]  # (n, m, segments, 2)
     squares = np.maximum(np.square(way).sum(axis=2), 1e-12)[:, None]

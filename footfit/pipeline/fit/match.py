@@ -15,6 +15,8 @@ from footfit.pipeline.fit import ranking, reasons
 from footfit.pipeline.fit.fit_profile import fit_profile
 from footfit.pipeline.fit.heel_model import heel_question
 from footfit.pipeline.fit.scoring import UNKNOWN_SCORE, VERDICTS
+from footfit.pipeline.fit.toe_box import NOT_STORED
+from footfit.pipeline.fit.zones import NOT_READ, TOE_BOX
 from footfit.pipeline.scan.measure import unusual_measures
 from footfit.results.heel import FLARE, heel_words
 
@@ -248,13 +250,32 @@ def _notices(
         notices.append(
             results.Notice("nothing_fits", "no last fits: the length of no last is known")
         )
+    if judged.by == "fit":
+        notices += _not_judged(judged)
+    return tuple(notices)
+
+
+def _not_judged(judged: ranking.JudgedLasts) -> list[results.Notice]:
+    """The zones that count and that no last was judged in, and what to do about the toe box."""
+    reasons_of = list(zip(*judged.clearances.reasons, strict=True))
     known: Bools = np.any(judged.known, axis=0)
     unknown = [
-        c.rule.zone
-        for c, any_last in zip(judged.columns, known, strict=True)
-        if c.counts and not any_last
+        column.rule.zone
+        for place, column in enumerate(judged.columns)
+        if column.counts and not known[place] and set(reasons_of[place]) != {NOT_READ}
     ]
-    if unknown and judged.by == "fit":
+    stored_not = {
+        judged.lasts[row].labels.name
+        for row, reasons_there in enumerate(judged.clearances.reasons)
+        if NOT_STORED in reasons_there
+    }
+    notices = []
+    if stored_not:
+        unknown = [zone for zone in unknown if zone not in TOE_BOX]
+        lasts = "1 last" if len(stored_not) == 1 else f"{len(stored_not)} lasts"
+        words = f"the toe box of {lasts} is not judged: {NOT_STORED}"
+        notices.append(results.Notice("sections_not_stored", words))
+    if unknown:
         zones = reasons.zone_list(tuple(dict.fromkeys(unknown)))
         notices.append(results.Notice("not_judged", f"not judged, for lack of a measure: {zones}"))
-    return tuple(notices)
+    return notices

@@ -56,9 +56,24 @@ def zone_words(zone: str, clearance: float, target: float, sd: float = 0.0) -> s
     return f"{kind.label} {abs(off):.1f} mm {word} than asked"
 
 
+def place_words(place: str, clearance_mm: float) -> str:
+    """A toe and the wall beside it, in words.
+
+    Examples
+    --------
+    >>> place_words("big toe, inner wall", -3.2), place_words("little toe, outer wall", 1.4)
+    ('big toe 3.2 mm through the inner wall', 'little toe 1.4 mm from the outer wall')
+    """
+    toe, _, wall = place.partition(", ")
+    way = "through" if clearance_mm < 0.0 else "from"
+    return f"{toe} {abs(clearance_mm):.1f} mm {way} the {wall}"
+
+
 def judged_words(zone: ZoneFit) -> str:
     """One zone that has a clearance, in words."""
     assert zone.clearance.value is not None
+    if zone.place is not None:
+        return place_words(zone.place, zone.clearance.value)
     return zone_words(zone.zone, zone.clearance.value, zone.target, zone.clearance.sd or 0.0)
 
 
