@@ -50,7 +50,7 @@ def board(length_mm: float = 270.0, outer_mm: float = -45.0, inner_mm: float = 4
 
 def middle(outer_mm: float, inner_mm: float) -> Floats:
     """The centre line of a board."""
-    return STRAIGHT + [0.0, 0.5 * (outer_mm + inner_mm)]
+    return STRAIGHT + np.array([0.0, 0.5 * (outer_mm + inner_mm)])
 
 
 def foot(
