@@ -14,7 +14,7 @@ import numpy as np
 
 from footfit.catalogue.store import open_catalogue
 from footfit.errors import CatalogueDamaged, UnknownLast
-from footfit.geometry.fit import toe_box
+from footfit.geometry.fit import toe_walls
 from footfit.geometry.fit.named_sections import toes_outline_mm
 from footfit.geometry.fit.stations import STATIONS
 from footfit.geometry.measures.heights import HEIGHTS
@@ -146,23 +146,23 @@ def toe_boxes(
     known: dict[int, ToeBox | str] = {row: r for row, r in reasons.items() if r is not None}
     if isinstance(ours, str) or not rows:
         return known
-    walls = toe_box.walls([_last_plan(lasts[row]) for row in rows])
+    walls = toe_walls.walls([_last_plan(lasts[row]) for row in rows])
     changes = [surface_change(heels, row) for row in rows]
     scale = 1.0 + np.array([(change.length, change.ball_width) for change in changes])
-    inside = toe_box.toes_in_lasts(ours, walls, rooms_mm[rows], scale)
+    inside = toe_walls.toes_in_lasts(ours, walls, rooms_mm[rows], scale)
     width_sd_mm = 0.5 * full_change(heels.question.model, foot, "ball_width")[1]
     for at, row in enumerate(rows):
         sd_mm = math.hypot(TOES_SD_MM, TOES_SD_MM, heels.share[row] * width_sd_mm)
-        values = zip(toe_box.TOES, inside.wall[at], inside.value_mm[at], strict=True)
+        values = zip(toe_walls.TOES, inside.wall[at], inside.value_mm[at], strict=True)
         toes = tuple(
-            ToeFit(toe, toe_box.WALLS[wall], Measured(float(value) - cavity_mm, sd_mm))
+            ToeFit(toe, toe_walls.WALLS[wall], Measured(float(value) - cavity_mm, sd_mm))
             for toe, wall, value in values
         )
         known[row] = ToeBox(toes, inside.outline_mm[at], inside.toe, walls.edges_mm[at])
     return known
 
 
-def _foot_plan(foot: Profiled) -> toe_box.ToesPlan | str:
+def _foot_plan(foot: Profiled) -> toe_walls.ToesPlan | str:
     """A foot's toes in plan, or why they are not known: the toe height says what was scanned."""
     height = foot_shape(foot).measures.get(TOE_HEIGHT)
     if height is None or height.measured.value is None:
@@ -174,7 +174,7 @@ def _foot_plan(foot: Profiled) -> toe_box.ToesPlan | str:
     if outline_mm is None:
         return f"the foot: {OPEN.format(place='toes')}"
     middle_mm = foot.flare.centre_line * foot.aligned.alignment.extent_mm
-    return toe_box.foot_plan(outline_mm, middle_mm - np.array([shape.x_mm(0.0), 0.0]))
+    return toe_walls.foot_plan(outline_mm, middle_mm - np.array([shape.x_mm(0.0), 0.0]))
 
 
 def _lacking(last: LastToes) -> str | None:
@@ -184,12 +184,12 @@ def _lacking(last: LastToes) -> str | None:
     return f"the last: {OPEN.format(place='toes')}" if last.kept.toes_outline_mm is None else None
 
 
-def _last_plan(last: LastToes) -> toe_box.ToesPlan:
+def _last_plan(last: LastToes) -> toe_walls.ToesPlan:
     """The toes of a last in plan, of one whose toes are known."""
     assert not isinstance(last.kept, str)
     assert last.kept.toes_outline_mm is not None
     middle_mm = last.record.flare.centre_line * last.record.extent_mm
-    return toe_box.last_plan(last.kept.toes_outline_mm, middle_mm)
+    return toe_walls.last_plan(last.kept.toes_outline_mm, middle_mm)
 
 
 def _tightest(box: ToeBox | str) -> Clearance:

@@ -10,9 +10,9 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from footfit.geometry.fit import toe_box
+from footfit.geometry.fit import toe_walls
 from footfit.geometry.fit.named_sections import toes_outline_mm
-from footfit.geometry.fit.toe_box import TOE_BOX, TOES, WALLS, ToesInLasts, ToesPlan
+from footfit.geometry.fit.toe_walls import TOE_BOX, TOES, WALLS, ToesInLasts, ToesPlan
 from footfit.geometry.flare.definition import FlareDefinition
 from footfit.geometry.flare.flattened import flattened
 from footfit.geometry.measures.landmarks import Shape
@@ -45,7 +45,7 @@ def edges(length_mm: float, outer_mm: float, inner_mm: float) -> Floats:
 
 
 def board(length_mm: float = 270.0, outer_mm: float = -45.0, inner_mm: float = 40.0) -> ToesPlan:
-    return toe_box.last_plan(edges(length_mm, outer_mm, inner_mm), middle(outer_mm, inner_mm))
+    return toe_walls.last_plan(edges(length_mm, outer_mm, inner_mm), middle(outer_mm, inner_mm))
 
 
 def middle(outer_mm: float, inner_mm: float) -> Floats:
@@ -63,13 +63,13 @@ def foot(
     outline = edges(250.0, outer_mm, inner_mm)
     outline[outline[:, 0] > 0.83 * 250.0, 2] += bulge[1]
     outline[outline[:, 0] > 0.75 * 250.0, 1] -= bulge[0]
-    return toe_box.foot_plan(outline, middle(outer_mm, inner_mm))
+    return toe_walls.foot_plan(outline, middle(outer_mm, inner_mm))
 
 
 def lay(shape: ToesPlan, *lasts: ToesPlan, room_mm: float = 14.0) -> ToesInLasts:
     count = len(lasts)
-    return toe_box.toes_in_lasts(
-        shape, toe_box.walls(lasts), np.full(count, room_mm), np.ones((count, 2))
+    return toe_walls.toes_in_lasts(
+        shape, toe_walls.walls(lasts), np.full(count, room_mm), np.ones((count, 2))
     )
 
 
@@ -115,23 +115,23 @@ def test_a_foot_lies_the_same_whichever_way_its_frame_is_turned() -> None:
     slanted = edges(250.0, -41.0, 39.0)
     slanted[:, 1:] += turn * slanted[:, :1]
     middle = STRAIGHT + np.column_stack([np.zeros(61), turn * STRAIGHT[:, 0]])
-    straight = lay(toe_box.foot_plan(edges(250.0, -41.0, 39.0), STRAIGHT), board())
-    turned = lay(toe_box.foot_plan(slanted, middle), board())
+    straight = lay(toe_walls.foot_plan(edges(250.0, -41.0, 39.0), STRAIGHT), board())
+    turned = lay(toe_walls.foot_plan(slanted, middle), board())
     sides = [TOES.index("big toe"), TOES.index("little toe")]
     there, here = turned.value_mm[0, sides], straight.value_mm[0, sides]
     np.testing.assert_allclose(there, here, atol=STEP_MM)
     last = edges(270.0, -42.5, 42.5)
     last[:, 1:] += 0.01 * last[:, :1]  # its principal axis, not its frame
-    again = lay(shape, toe_box.last_plan(last, STRAIGHT))
+    again = lay(shape, toe_walls.last_plan(last, STRAIGHT))
     even = lay(shape, board(270.0, -42.5, 42.5))
     np.testing.assert_allclose(again.value_mm, even.value_mm, atol=EXACT_MM)
 
 
 def test_a_foot_in_the_heel_is_narrower() -> None:
     shape = foot(outer_mm=-37.5, inner_mm=37.5)
-    walls = toe_box.walls([board(outer_mm=-42.5, inner_mm=42.5)] * 2)
+    walls = toe_walls.walls([board(outer_mm=-42.5, inner_mm=42.5)] * 2)
     scale = np.array([[1.0, 1.0], [1.0, 0.98]])
-    inside = toe_box.toes_in_lasts(shape, walls, np.array([14.0, 14.0]), scale)
+    inside = toe_walls.toes_in_lasts(shape, walls, np.array([14.0, 14.0]), scale)
     assert np.ptp(inside.outline_mm[1, :, 1]) == pytest.approx(0.98 * 75.0)
     assert tightest(inside, 1)[2] > tightest(inside, 0)[2] + 0.5
 
@@ -176,7 +176,7 @@ def last_plan(profiled: Profiled) -> ToesPlan:
     outline_mm = toes_outline_mm(shape)
     assert outline_mm is not None
     middle = profiled.flare.centre_line * profiled.aligned.alignment.extent_mm
-    return toe_box.last_plan(outline_mm, middle)
+    return toe_walls.last_plan(outline_mm, middle)
 
 
 def own_foot(profiled: Profiled, wider: float = 1.0) -> ToesPlan:
@@ -188,7 +188,7 @@ def own_foot(profiled: Profiled, wider: float = 1.0) -> ToesPlan:
     outline_mm = toes_outline_mm(Shape(vertices_mm, flat.faces))
     assert outline_mm is not None
     middle = shape_flare(vertices_mm, flat.faces, "foot", None).centre_line
-    return toe_box.foot_plan(outline_mm, middle * float(np.ptp(vertices_mm[:, 0])))
+    return toe_walls.foot_plan(outline_mm, middle * float(np.ptp(vertices_mm[:, 0])))
 
 
 @pytest.mark.parametrize("family", [own_lasts, second_family])
