@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 from pathlib import Path
 
 import numpy as np
@@ -81,28 +80,6 @@ def test_paper_literal_is_om_e_v_prime(
     if left:
         om_e = np.diag([1.0, -1.0, 1.0]) @ om_e @ np.diag([-1.0, 1.0, 1.0])
     assert np.allclose(np.array(document["transform"])[:3, :3], om_e, rtol=0.0, atol=PRINTED_TWICE)
-
-
-def test_detected_millimetres_are_said_once_and_warn_of_nothing(
-    footfit: Footfit, foot: Path, stocked: Path, tmp_path: Path
-) -> None:
-    words = "taken as millimetres"
-    catalogue = ("--catalogue", stocked)
-    for command in (
-        ("align", foot),
-        ("flare", foot),
-        ("measure", foot),
-        ("curvature", foot, "-o", tmp_path / "c.npz"),
-        ("match", foot, *catalogue),
-        ("compare", foot, LASTS[0].stem, *catalogue),
-        ("ingest-last", LASTS[0], "--dry-run", "--catalogue", tmp_path / "new.footfit"),
-    ):
-        run = footfit(*command, "--json")
-        assert run.code == 0, run.err
-        assert run.err.count(words) == 1, command[0]
-        assert "units_detected" not in json.dumps(run.document)
-    assert words not in footfit("align", foot, "--quiet").err
-    assert words not in footfit("align", foot, "--units", "mm").err
 
 
 def test_another_detected_unit_is_said_once_and_is_a_warning(

@@ -10,81 +10,99 @@ from collections.abc import Callable, Iterable
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from footfit import results
-from footfit.pipeline.scan.settled_unit import unit_notes
 from footfit.report.terminal import (
     catalogue_tables,
     comparison_tables,
     match_tables,
     scan_tables,
 )
-from footfit.results import Alignment, IngestOutcome, Match, Notice
+from footfit.results import Alignment, IngestOutcome, Match, MeshInfo, Notice
+from footfit.results.values import notices_about
 
 if TYPE_CHECKING:
     from rich.console import RenderableType
 
+STDIN = "-"
+"""What stands for the path of standard input."""
 Notices = tuple[str | None, Iterable[Notice]]
 """The file that notices are about, and the notices."""
 
 
 def _of_scan(alignment: Alignment, more: Iterable[Notice] = ()) -> Notices:
-    """The notes on the unit, which are no warnings, and the warnings."""
-    return _with_notes(alignment, (*alignment.warnings, *more))
-
-
-def _with_notes(alignment: Alignment, warnings: Iterable[Notice]) -> Notices:
-    notes = unit_notes(alignment.info, alignment.length_mm)
-    return alignment.info.path, (*notes, *warnings)
+    """The warnings about a scan."""
+    return alignment.info.path or STDIN, (*alignment.warnings, *more)
 
 
 def _of_match(match: Match) -> Notices:
-    """The notices of each foot, with the name of its file, and the warnings of the match."""
+    """The warnings about each foot, and those about the customer."""
+    paths = [foot.aligned.alignment.info.path or STDIN for foot in match.feet]
     feet = [
-        Notice(notice.code, f"{path or '-'}: {notice.message}")
-        for path, notices in (_of_scan(foot.aligned.alignment) for foot in match.feet)
-        for notice in notices
+        notice
+        for foot, path in zip(match.feet, paths, strict=True)
+        for notice in notices_about(path, foot.aligned.alignment.warnings)
     ]
-    return None, (*feet, *match.warnings)
+    return ", ".join(paths), (*feet, *match.warnings)
 
 
 def _of_ingest(outcome: IngestOutcome) -> Notices:
-    """The path of a new catalogue, then the notes and the warnings of the file."""
+    """The path of a new catalogue, then the warnings about the file."""
     made = outcome.new_catalogue
     new = [Notice("new_catalogue", f"new catalogue: {made}")] if made else []
-    where = f"{outcome.path or '-'}: "
-    of_file = [
-        Notice(notice.code, where + notice.message)
-        for notice in (*outcome.notes, *outcome.warnings)
-    ]
-    return None, (*new, *of_file)
+    return None, (*new, *notices_about(outcome.path or STDIN, outcome.warnings))
 
 
 class Form(NamedTuple):
-    """The table and the notices of one type of result."""
+    """The table and the notices of one type of result.
+
+    ``infos`` are of the files that it was made of. Notices whose codes are ``in_table`` are said by
+    the table too.
+    """
 
     table: Callable[[Any], RenderableType]
     notices: Callable[[Any], Notices] = lambda _: (None, ())
+    infos: Callable[[Any], Iterable[MeshInfo]] = lambda _: ()
+    in_table: frozenset[str] = frozenset()
 
 
 FORMS: dict[type, Form] = {
     results.AlignedScan: Form(
-        lambda scan: scan_tables.align_table(scan.alignment), lambda scan: _of_scan(scan.alignment)
+        lambda scan: scan_tables.align_table(scan.alignment),
+        lambda scan: _of_scan(scan.alignment),
+        lambda scan: (scan.alignment.info,),
     ),
     results.Profiled: Form(
-        scan_tables.flare_table, lambda shape: _of_scan(shape.aligned.alignment, shape.unusual)
+        scan_tables.flare_table,
+        lambda shape: _of_scan(shape.aligned.alignment, shape.unusual),
+        lambda shape: (shape.aligned.alignment.info,),
     ),
     results.MeasuredScan: Form(
-        scan_tables.measure_table, lambda scan: _of_scan(scan.alignment, scan.unusual)
+        scan_tables.measure_table,
+        lambda scan: _of_scan(scan.alignment, scan.unusual),
+        lambda scan: (scan.alignment.info,),
     ),
     results.SurfaceCurvature: Form(
         scan_tables.curvature_table,
-        lambda values: (values.info.path, (*unit_notes(values.info), *values.warnings)),
+        lambda values: (values.info.path or STDIN, values.warnings),
+        lambda values: (values.info,),
     ),
-    results.Match: Form(match_tables.match_table, _of_match),
+    results.Match: Form(
+        match_tables.match_table,
+        _of_match,
+        lambda match: [foot.aligned.alignment.info for foot in match.feet],
+        frozenset({"nothing_fits", "side_contradicted"}),
+    ),
     results.Comparison: Form(
         comparison_tables.compare_table,
-        lambda comparison: _with_notes(comparison.foot.aligned.alignment, comparison.warnings),
+        lambda comparison: (
+            comparison.foot.aligned.alignment.info.path or STDIN,
+            comparison.warnings,
+        ),
     ),
-    results.IngestOutcome: Form(scan_tables.ingest_line, _of_ingest),
+    results.IngestOutcome: Form(
+        scan_tables.ingest_line,
+        _of_ingest,
+        lambda outcome: () if outcome.info is None else (outcome.info,),
+    ),
     results.Library: Form(
         catalogue_tables.list_lasts_table, lambda library: (None, library.warnings)
     ),

@@ -10,9 +10,11 @@ from typing import TYPE_CHECKING, Any, TypeVar
 
 import typer
 
-from footfit.cli.console import answer, error_line, is_terminal, say, say_notices, show
+from footfit.cli.console import answer, error_line, say, say_notices, show
+from footfit.cli.notices import Notices
 from footfit.cli.options import STDOUT
-from footfit.cli.signals import LISTENER
+from footfit.cli.outputs import say_written
+from footfit.cli.progress import Progress, progress
 from footfit.errors import BadOption, FootfitError, SeveralFeet
 
 if TYPE_CHECKING:
@@ -57,8 +59,11 @@ def answer_outcomes(
     mode: OutputMode,
     outputs: Outputs,
     then: Callable[[T], object] | None = None,
+    scans: int = 1,
 ) -> int:
     """Answer each outcome as it comes, write its files, and call ``then``; return the exit code.
+
+    ``scans`` is how many scans a single customer has.
 
     One bad mesh does not stop the others: it has a line of its own, and it sets the exit code.
     """
@@ -67,8 +72,9 @@ def answer_outcomes(
     mode = replace(mode, answers=outputs.csv != STDOUT)
     errors: list[FootfitError] = []
     tables: list[T] = []
-    with failures_last(mode) as say_failure:
-        for outcome in watched_items(outcomes, mode):
+    notices = Notices(mode)
+    with failures_last(mode) as say_failure, progress(mode, scans) as bar:
+        for outcome in bar.items(outcomes):
             result = outcome.value
             if result is None:
                 assert outcome.error is not None
@@ -78,15 +84,16 @@ def answer_outcomes(
                     answer(line)
                 say_failure(line)
                 continue
-            tell(result, mode)
-            outputs.write(result)
+            tell(result, mode, notices)
+            write_files(outputs, result, mode, bar)
             if outputs.csv is not None:
                 tables.append(result)
             if then is not None:
                 then(result)
-    if errors and mode.total > 1:
-        say(f"{len(errors)} of {mode.total} meshes failed", quiet=mode.quiet or mode.json)
-    outputs.write_csv(tables)
+        notices.close()
+        if errors and mode.total > 1:
+            say(f"{len(errors)} of {mode.total} meshes failed", quiet=mode.quiet or mode.json)
+        say_written(outputs.write_csv(tables), quiet=mode.quiet)
     return common_code(int(error.exit) for error in errors)
 
 
@@ -98,10 +105,21 @@ def _advised(error: FootfitError) -> FootfitError:
 
 
 def answer_result(result: Any, mode: OutputMode, outputs: Outputs) -> None:
-    """Write the files of a single result, and tell the result."""
-    outputs.write(result)
+    """Tell a single result, and write its files."""
     tell(result, replace(mode, answers=outputs.csv != STDOUT))
-    outputs.write_csv([result])
+    with progress(mode) as bar:
+        write_files(outputs, result, mode, bar)
+    say_written(outputs.write_csv([result]), quiet=mode.quiet)
+
+
+def write_files(outputs: Outputs, result: Any, mode: OutputMode, bar: Progress) -> None:
+    """Write the files of a result; the bar of a single customer names this phase."""
+    if mode.total == 1 and outputs.writes_files:
+        bar.show()
+        bar.begin("page")
+    written = outputs.write(result)
+    bar.hide()
+    say_written(written, quiet=mode.quiet)
 
 
 def sources_of(
@@ -131,13 +149,14 @@ def sources_of(
     return scans.sources([source], split=split, **reading.keywords())
 
 
-def tell(value: Any, mode: OutputMode) -> None:
-    """Write the notices of a result to stderr, and the result to stdout."""
+def tell(value: Any, mode: OutputMode, notices: Notices | None = None) -> None:
+    """Write the notices of a result to stderr, and the result to stdout.
+
+    ``notices`` are those of a batch.
+    """
     from footfit.cli.answer_forms import FORMS
 
-    form = FORMS[type(value)]
-    path, notices = form.notices(value)
-    say_notices(notices, path, quiet=mode.quiet)
+    (notices or Notices(replace(mode, total=1))).say(value)
     if not mode.answers:
         return
     if mode.json:
@@ -145,7 +164,7 @@ def tell(value: Any, mode: OutputMode) -> None:
 
         answer(json_line(value.to_dict()))
     else:
-        show(form.table(value))
+        show(FORMS[type(value)].table(value))
 
 
 @contextmanager
@@ -160,31 +179,3 @@ def failures_last(mode: OutputMode) -> Iterator[Callable[[str], None]]:
     finally:
         for line in lines:
             say(line)
-
-
-def watched_items(items: Iterable[T], mode: OutputMode) -> Iterator[T]:
-    """The items, with a count for an interruption, and a progress bar if a person watches."""
-    LISTENER.total = mode.total
-    watched = mode.total > 1 and not (mode.quiet or mode.json) and is_terminal(sys.stderr)
-    for item in _with_a_bar(items, mode.total) if watched else items:
-        yield item
-        LISTENER.done += 1
-
-
-def _with_a_bar(items: Iterable[T], total: int) -> Iterator[T]:
-    """The items with a progress bar, which is hidden while an item is answered."""
-    from rich.console import Console
-    from rich.progress import BarColumn, MofNCompleteColumn, Progress, TimeRemainingColumn
-
-    columns = (BarColumn(), MofNCompleteColumn(), TimeRemainingColumn())
-    bar = Progress(*columns, console=Console(stderr=True), transient=True)
-    task = bar.add_task("", total=total)
-    bar.start()
-    try:
-        for item in items:
-            bar.stop()
-            yield item
-            bar.advance(task)
-            bar.start()
-    finally:
-        bar.stop()

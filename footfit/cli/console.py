@@ -118,10 +118,10 @@ def say(message: str, *, quiet: bool = False) -> None:
 
 
 def say_notices(notices: Iterable[Notice], path: str | None, *, quiet: bool) -> None:
-    """Write each notice as one line that names its file."""
-    where = f"{path}: " if path else ""
+    """Write each notice as one line; the path that it speaks of stands first."""
     for notice in notices:
-        say(f"{where}{notice.message}", quiet=quiet)
+        about = notice.path or path
+        say(f"{about}: {notice.message}" if about else notice.message, quiet=quiet)
 
 
 def error_line(error: FootfitError, *, as_json: bool, verbose: bool = False) -> str:

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from footfit.cli.console import answer
+from footfit.cli.console import answer, say
 from footfit.cli.options import STDOUT
 from footfit.errors import BadOption, CatalogueUnusable
 from footfit.pipeline.export import file_kind
@@ -93,24 +93,39 @@ class Outputs:
             words = f"is one file and there are {len(meshes)} meshes; give one mesh"
             raise BadOption(f"{words}, or {unless}" if unless else words, named[0])
 
-    def write(self, result: Any) -> None:
-        """Write the files of a result."""
+    @property
+    def writes_files(self) -> bool:
+        """Whether a result has a file of its own."""
+        return any(file.path is not None for file in self.files)
+
+    def write(self, result: Any) -> list[Path]:
+        """Write the files of a result, and return their paths."""
+        written = []
         for file in self.files:
             if file.path is not None:
                 kind = file_kind(file.path, file.kinds) if file.kinds else ""
                 write_output(file.path, file.content(result, kind), force=self.force)
+                written.append(file.path)
+        return written
 
-    def write_csv(self, results: Iterable[Any]) -> None:
-        """Write the tables, to a file or to stdout."""
+    def write_csv(self, results: Iterable[Any]) -> list[Path]:
+        """Write the tables, to stdout or to a file whose path is returned."""
         from footfit.report.csv import csv_text
 
         if self.csv is None or self.table is None:
-            return
+            return []
         text = csv_text(self.table, results)
         if self.csv == STDOUT:
             answer(text)
-        else:
-            write_output(self.csv, text, force=self.force)
+            return []
+        write_output(self.csv, text, force=self.force)
+        return [self.csv]
+
+
+def say_written(paths: Iterable[Path], *, quiet: bool) -> None:
+    """Write a line for each file that was written."""
+    for path in paths:
+        say(f"wrote {path}", quiet=quiet)
 
 
 def refuse_existing(path: Path | None, *, force: bool, kinds: tuple[str, ...] = ()) -> None:

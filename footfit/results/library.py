@@ -8,6 +8,7 @@ from pathlib import Path
 from footfit.errors import FootfitError
 from footfit.results.alignment import Reference
 from footfit.results.last_record import LastRecord
+from footfit.results.meshes import MeshInfo
 from footfit.results.values import LABELS, Document, Json, Notice, Part, SideName, fields, part
 
 NO_FEET = 0
@@ -18,8 +19,8 @@ NO_FEET = 0
 class IngestOutcome(Document):
     """The outcome of one file: ``status`` is added, unchanged, replaced or refused.
 
-    ``path`` is None for standard input. ``failure`` says why a file was refused. ``notes`` are
-    for people and are no warnings. ``dry_run``: this would be the outcome; nothing was stored.
+    ``path`` is None for standard input. ``failure`` says why a file was refused. ``info``
+    is the file's, if it was read. ``dry_run``: this would be the outcome; nothing was stored.
     ``new_catalogue`` is the path of the catalogue, if this ingest made it and this is its first
     outcome.
     """
@@ -32,7 +33,7 @@ class IngestOutcome(Document):
     failure: FootfitError | None = None
     warnings: tuple[Notice, ...] = ()
     reference: bool = False
-    notes: tuple[Notice, ...] = ()
+    info: MeshInfo | None = None
     dry_run: bool = False
     new_catalogue: str | None = None
 
@@ -45,7 +46,7 @@ class IngestOutcome(Document):
             "code": None if failure is None else failure.code,
             "exit": 0 if failure is None else int(failure.exit),
         }
-        return fields(self, "failure", "notes") | failed
+        return fields(self, "failure", "info") | failed
 
 
 @dataclass(frozen=True, slots=True)

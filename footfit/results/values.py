@@ -197,10 +197,21 @@ class Measure:
 
 @dataclass(frozen=True, slots=True)
 class Notice(Part):
-    """A warning: a stable ``code`` for scripts, a ``message`` for people."""
+    """A warning: a stable ``code`` for scripts, a ``message`` for people.
+
+    ``path`` is the file that it speaks of, where that is not the file of the result.
+    """
 
     code: str
     message: str
+    path: str | None = dataclasses.field(default=None, compare=False)
+
+    not_written = ("path",)
+
+
+def notices_about(path: str | None, notices: Iterable[Notice]) -> tuple[Notice, ...]:
+    """Notices that speak of a file; those that speak of another one stay as they are."""
+    return tuple(dataclasses.replace(each, path=each.path or path) for each in notices)
 
 
 def count_notice(code: str, count: int, words: str) -> tuple[Notice, ...]:

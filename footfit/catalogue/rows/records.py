@@ -54,7 +54,7 @@ _profile = FLARE.reader("flare", FlareProfile, curvature=_curvature)
 _of_flare = FLARE.fields_reader("")
 _measured = MEASURE.reader("measured", Measured)
 _measure = MEASURE.reader("", Measure, measured=_measured)
-_notice = NOTICE.reader("", Notice)
+_notice = NOTICE.reader("", Notice, path=lambda _: None)
 mesh_copy_of = MESH_COPY.reader("", MeshCopy)
 _toes_outline = SECTION.fields_reader("")
 _stations = {

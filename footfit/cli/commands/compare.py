@@ -39,6 +39,7 @@ def compare(
     from footfit.api import files, scans
     from footfit.cli.answers import answer_result, sources_of
     from footfit.cli.outputs import OutputFile, Outputs
+    from footfit.cli.progress import progress
     from footfit.errors import BadOption
     from footfit.pipeline.batch.sources import Source
     from footfit.pipeline.export import PICTURE_KINDS
@@ -56,8 +57,10 @@ def compare(
     if len(sources) != 1:
         raise BadOption(f"holds {len(sources)} meshes; name one foot", foot)
     outputs.keep([*sources, Source(last)])
-    if Path(last).is_file():
-        comparison = scans.compare(sources[0], last, **reading.keywords())
-    else:
-        comparison = lasts.open().compare(sources[0], last, **reading.keywords())
+    with progress(mode) as bar:
+        bar.show()
+        if Path(last).is_file():
+            comparison = scans.compare(sources[0], last, **reading.keywords())
+        else:
+            comparison = lasts.open().compare(sources[0], last, **reading.keywords())
     answer_result(comparison, mode, outputs)

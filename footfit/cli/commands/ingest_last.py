@@ -63,8 +63,10 @@ def ingest_last(
     """
     from dataclasses import replace as changed
 
-    from footfit.cli.answers import failures_last, sources_of, tell, watched_items
+    from footfit.cli.answers import failures_last, sources_of, tell
     from footfit.cli.console import error_line, say, say_notices
+    from footfit.cli.notices import Notices
+    from footfit.cli.progress import progress
     from footfit.cli.signals import LISTENER
     from footfit.errors import BadOption
     from footfit.pipeline.batch.runs import common_code
@@ -89,7 +91,8 @@ def ingest_last(
     mode = changed(mode, total=len(batch))
     say_notices(unused_rows(batch, rows), str(manifest), quiet=mode.quiet)
     refused: list[int] = []
-    outcomes = lasts.open_to_make(dry_run=dry_run).ingest_each(
+    catalogue, notices = lasts.open_to_make(dry_run=dry_run), Notices(mode)
+    outcomes = catalogue.ingest_each(
         batch,
         replace=replace,
         dry_run=dry_run,
@@ -97,14 +100,15 @@ def ingest_last(
         keep_mesh=keep_mesh,
         hold_signals=LISTENER.hold,
     )
-    with reader_required(), failures_last(mode) as tell_failure:
-        for outcome in watched_items(outcomes, mode):
-            tell(outcome, mode)
+    with reader_required(), failures_last(mode) as tell_failure, progress(mode) as bar:
+        for outcome in bar.items(outcomes):
+            tell(outcome, mode, notices)
             if outcome.failure is not None:
                 refused.append(int(outcome.failure.exit))
                 tell_failure(error_line(outcome.failure, as_json=mode.json, verbose=mode.verbose))
-    if dry_run:
-        say("a dry run: nothing was stored", quiet=mode.quiet)
+        notices.close()
+        if dry_run:
+            say(f"{catalogue.path}: a dry run, nothing was stored", quiet=mode.quiet)
     raise typer.Exit(common_code(refused))
 
 

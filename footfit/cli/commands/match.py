@@ -95,7 +95,9 @@ def match(
         **reading.keywords(),
     )
     matches: list[Match] = []
-    code = answer_outcomes(answers, replace(mode, total=customers), outputs, matches.append)
+    code = answer_outcomes(
+        answers, replace(mode, total=customers), outputs, matches.append, len(sources)
+    )
     if fail_under is not None:
         code = checked_code(matches, fail_under, code, as_json=mode.json)
     raise typer.Exit(code)

@@ -7,7 +7,8 @@ from functools import partial
 
 from footfit import results
 from footfit.errors import BadOption, GeometryRefused, SameSide
-from footfit.pipeline.batch.runs import Outcome, outcomes
+from footfit.pipeline.batch.phases import begin
+from footfit.pipeline.batch.runs import HERE, Outcome, outcomes
 from footfit.pipeline.batch.sources import ReadingOptions, Source
 from footfit.pipeline.customers.pair_sides import Foot, pair_of_feet
 from footfit.pipeline.fit.match import Question, matched
@@ -36,6 +37,7 @@ def customers(
     if pair and reading.side != "auto":
         raise BadOption("--side gives both feet of a pair one side: leave it out")
     read = foot_of_a_pair if pair else profiled_source
+    jobs = HERE if pair and jobs == 1 else jobs  # another process only costs its start
     feet: Iterator[Outcome[Source, Foot]] = outcomes(partial(read, reading=reading), sources, jobs)
     for group in [list(feet)] if pair else ([foot] for foot in feet):
         yield _answered(group, library, question)
@@ -57,6 +59,7 @@ def _answered(
         return Outcome(source, None, errors[0])
     try:
         shapes = pair_of_feet([foot.value for foot in feet if foot.value is not None])
+        begin("match")
         answer = matched(shapes, library, question)
     except (GeometryRefused, SameSide) as error:
         return Outcome(source, None, error.at(source.path))

@@ -37,4 +37,5 @@ def choice(path: Path, style: str | None, size_system: str | None) -> Library:
     if not everything.lasts:
         return chosen
     words = f"no last is labelled in {system.title} sizes: lasts of all systems are ranked"
-    return replace(everything, warnings=(*everything.warnings, Notice("other_systems", words)))
+    other = Notice("other_systems", words, str(path))
+    return replace(everything, warnings=(*everything.warnings, other))

@@ -19,6 +19,7 @@ from footfit.pipeline.fit.toe_box import NOT_STORED
 from footfit.pipeline.fit.zones import NOT_READ, TOE_BOX
 from footfit.pipeline.scan.measure import unusual_measures
 from footfit.results.heel import FLARE, heel_words
+from footfit.results.values import notices_about
 
 NEAREST_NAMED = 3
 """How many lasts are shown if none fits."""
@@ -229,17 +230,16 @@ def _notices(
     """What the reader must know beside the table."""
     feet = judged.feet
     kinds = [foot.aligned.alignment.pose.kind for foot in feet]
-    notices = [
-        notice
-        for foot, kind in zip(feet, kinds, strict=True)
-        for notice in (*foot.unusual, *unusual_measures(foot.measures, kind))
-    ]
+    notices: list[results.Notice] = []
+    for foot, kind in zip(feet, kinds, strict=True):
+        of_foot = [*foot.unusual, *unusual_measures(foot.measures, kind)]
+        if judged.by != "shape" and kind == "last":
+            words = "its shape is like a last's; use --by shape for a last"
+            of_foot.append(results.Notice("looks_like_a_last", words))
+        notices += notices_about(foot.aligned.alignment.info.path, of_foot)
     if judged.by == "flare":
         words = "a search by flare knows no size: look at the length too"
         notices.append(results.Notice("scale_free", words))
-    if judged.by != "shape" and "last" in kinds:
-        words = "its shape is like a last's; use --by shape for a last"
-        notices.append(results.Notice("looks_like_a_last", words))
     differ = reasons.pair_notice(feet, size_system)
     if differ is not None:
         notices.append(differ)

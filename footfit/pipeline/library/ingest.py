@@ -20,7 +20,6 @@ from footfit.pipeline.library.manifest import LABEL_HEIGHTS, ManifestRow
 from footfit.pipeline.scan.kept_sections import kept_sections
 from footfit.pipeline.scan.measure import last_record
 from footfit.pipeline.scan.reading import content_hash, profiled_source
-from footfit.pipeline.scan.settled_unit import unit_notes
 from footfit.results import IngestOutcome, LastLabels, LastRecord, MeshCopy, Notice, ShapeSections
 
 KeepMesh = Literal["compact", "full"]
@@ -311,5 +310,5 @@ def _success(
         flare_angle_deg=record.flare.angle_deg,
         warnings=record.warnings if changed else (),
         reference=first,
-        notes=unit_notes(record.info, record.length_mm) if changed else (),
+        info=record.info if changed else None,
     )

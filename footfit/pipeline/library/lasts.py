@@ -12,6 +12,7 @@ from footfit.errors import EmptyCatalogue
 from footfit.geometry.measures.measure_table import of_kind
 from footfit.geometry.pose.paper_frame import paper_frame_angle_deg
 from footfit.results import LastRecord, Library, Notice, StoredLast
+from footfit.results.values import notices_about
 
 
 def list_lasts(path: Path) -> Library:
@@ -28,7 +29,7 @@ def list_lasts(path: Path) -> Library:
         lasts=stored.records,
         total=len(stored.records) + len(stored.damaged),
         reference=reference,
-        warnings=tuple(map(_damaged, stored.damaged)),
+        warnings=notices_about(str(path), map(_damaged, stored.damaged)),
     )
 
 
@@ -77,10 +78,13 @@ def library(path: Path, style: str | None = None, size_system: str | None = None
         total=total,
         reference=reference,
         rejected=stored.rejected,
-        warnings=(
-            *map(_damaged, stored.damaged),
-            *map(_outdated, stored.outdated),
-            *_other_measures(current),
+        warnings=notices_about(
+            str(path),
+            (
+                *map(_damaged, stored.damaged),
+                *map(_outdated, stored.outdated),
+                *_other_measures(current),
+            ),
         ),
         file=path,
     )

@@ -13,6 +13,7 @@ from footfit.meshes.file_bytes import file_bytes
 from footfit.meshes.read import file_mesh
 from footfit.meshes.read_limits import LIMITS
 from footfit.meshes.units import check_unit_options
+from footfit.pipeline.batch.phases import begin
 from footfit.pipeline.batch.sources import ReadingOptions, Source
 from footfit.pipeline.scan.align import aligned_scan
 from footfit.pipeline.scan.cleaning import scan_of
@@ -72,6 +73,7 @@ def prepared_source(source: Source, reading: ReadingOptions) -> results.Prepared
     """
     with errors_at(source.path):
         try:
+            begin("reading")
             scan = read(source, reading)
         except UnknownUnits:
             prepared_scan(read(source, replace(reading, known_length_mm=ANY_LENGTH_MM)))
@@ -79,7 +81,10 @@ def prepared_source(source: Source, reading: ReadingOptions) -> results.Prepared
         side = cast(Literal["auto", "left", "right"], reading.side)
         scan = replace(scan, info=replace(scan.info, scanner=reading.scanner))
         known_length_mm, labels = reading.known_length_mm, reading.stance_labels
-        return prepared_scan(scan, side, known_length_mm, labels, force_side=reading.force_side)
+        begin("pose")
+        prepared = prepared_scan(scan, side, known_length_mm, labels, force_side=reading.force_side)
+        begin("measures")
+        return prepared
 
 
 def aligned_source(

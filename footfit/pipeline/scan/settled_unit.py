@@ -101,16 +101,6 @@ def read_notices(scan: Scan, info: MeshInfo, length_mm: float | None) -> list[No
     return [*kept, _detected(info, length_mm)]
 
 
-def unit_notes(info: MeshInfo, length_mm: float | None = None) -> tuple[Notice, ...]:
-    """A note that millimetres were detected. It is a guess, but no warning.
-
-    Any other detected unit is among the warnings already.
-    """
-    if info.units_source != "detected" or info.units != "mm":
-        return ()
-    return (_detected(info, length_mm),)
-
-
 def length_notices(length_mm: float) -> list[Notice]:
     """A length that is possible, but unusual."""
     low, high = LENGTHS.usual_mm
