@@ -55,6 +55,29 @@ def test_a_usage_error_says_what_to_type(
 
 
 @pytest.mark.parametrize(
+    ("command", "usage"),
+    [
+        ("measure", "[OPTIONS] MESH..."),
+        ("compare", "[OPTIONS] FOOT LAST"),
+        ("ingest-last", "[OPTIONS] [PATH...]"),
+        ("demo", "[OPTIONS] [FOLDER]"),
+        ("list-lasts", "[OPTIONS]"),
+    ],
+)
+def test_the_usage_shows_what_a_command_takes(command: str, usage: str, footfit: Footfit) -> None:
+    assert footfit(command, "-h").out.splitlines()[0] == f"Usage: footfit {command} {usage}"
+
+
+def test_a_manifest_without_a_line_is_refused(footfit: Footfit, tmp_path: Path) -> None:
+    manifest = tmp_path / "lasts.csv"
+    manifest.write_text("path,name,,\n,,,\n")
+    run = footfit("ingest-last", "--manifest", manifest, "--catalogue", tmp_path / "c.footfit")
+    assert run.code == 3
+    assert "no line with a last" in run.last_error
+    assert list(tmp_path.iterdir()) == [manifest]
+
+
+@pytest.mark.parametrize(
     ("length", "meant"), [(25.2, 252), (0.252, 252), (9.9, 251), (2520, 252), (12, 305), (14, 140)]
 )
 def test_a_known_length_in_another_unit_is_guessed_but_not_taken(

@@ -83,6 +83,19 @@ def test_what_is_taken_away_is_missing(shop: Path) -> None:
         assert done.returncode == 1, code
 
 
+def test_a_damaged_catalogue_is_restored_there_too(shop: Path, stocked: Path) -> None:
+    """The damaged file is moved away and another takes its name: no open file may be in the way."""
+    backup, path = shop / "whole.footfit", shop / "damaged.footfit"
+    data = stocked.read_bytes()
+    backup.write_bytes(data)
+    path.write_bytes(data[:100] + b"\xff" * 3_000 + data[3_100:])
+    run = windows(shop, "restore-catalogue", backup, "--catalogue", path)
+    assert run.code == 0, run.err
+    assert (shop / "damaged.footfit.before-restore").exists()
+    listed = windows(shop, "list-lasts", "--catalogue", path, "--json")
+    assert len(listed.document["lasts"]) == len(list((SAMPLES / "lasts").glob("*.stl")))
+
+
 def test_the_main_commands_do_their_work(shop: Path) -> None:
     for arguments in COMMANDS:
         run = windows(shop, *arguments)

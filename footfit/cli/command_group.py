@@ -93,6 +93,11 @@ def _show_help(context: Any, _option: Any, wanted: bool) -> None:
         context.exit()
 
 
+def _usage_piece(argument: Any) -> str:
+    name = f"{argument.metavar}..." if argument.nargs == -1 else str(argument.metavar)
+    return name if argument.required else f"[{name}]"
+
+
 class _HelpAsAnswer:
     """A command whose help is written as every answer is: a reader that goes away is no failure."""
 
@@ -106,6 +111,11 @@ class _HelpAsAnswer:
 
 class PlainCommand(_HelpAsAnswer, TyperCommand):
     """A command whose help groups the options by heading."""
+
+    def collect_usage_pieces(self, ctx: Any) -> list[str]:
+        """What follows the command in the line of its usage: ``[OPTIONS] MESH...``."""
+        arguments = (each for each in self.get_params(ctx) if each.param_type_name == "argument")
+        return ["[OPTIONS]", *map(_usage_piece, arguments)]
 
     def format_options(self, ctx: Any, formatter: Any) -> None:
         """Write the options."""

@@ -68,7 +68,7 @@ def ingest_last(
     from footfit.cli.notices import Notices
     from footfit.cli.progress import progress
     from footfit.cli.signals import LISTENER
-    from footfit.errors import BadOption
+    from footfit.errors import BadManifest, BadOption
     from footfit.pipeline.batch.runs import common_code
     from footfit.pipeline.batch.sources import ReadingOptions
     from footfit.pipeline.library import manifest as manifests
@@ -84,6 +84,8 @@ def ingest_last(
             raise BadOption(f"--{flag} is empty (an unset variable?); leave it out, or fill it in")
     labels = LastLabels(name or "", style, size, size_system, width_label, **given)
     rows = manifests.read_manifest(manifest) if manifest else []
+    if manifest and not rows:
+        raise BadManifest("has no line with a last; add one for each file", str(manifest))
     sources = sources_of(paths or [], reading, quiet=mode.quiet) if paths else []
     batch = entries(
         sources, rows, labels, ReadingOptions(**reading.keywords(), **standing.keywords())
