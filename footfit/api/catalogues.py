@@ -123,7 +123,7 @@ class Catalogue:
     def compare(
         self, foot: Shape, last: str, **reading: Unpack[CompareKeywords]
     ) -> results.Comparison:
-        """A foot in a stored last.
+        """A foot, or another last, in a stored last.
 
         Raises
         ------
@@ -248,6 +248,21 @@ class Catalogue:
     def last(self, name: str) -> results.StoredLast:
         """All that is stored of one last, except its mesh; raises UnknownLast."""
         return lasts.last(self.path, name)
+
+    def shape(self, name: str) -> results.Profiled:
+        """A last in place of a mesh, for `measure`, `flare` or `compare`; raises UnknownLast.
+
+        Its measures and its flare are the stored ones; its mesh is the stored copy.
+        """
+        from footfit.pipeline.library.named_lasts import profiled_last
+
+        return profiled_last(self.path, name)
+
+    def sources(self, meshes: list[str], *, split: bool = False, **reading: Any) -> list[Source]:
+        """Meshes as `footfit.sources` gives them; what is no file is the last of that name."""
+        from footfit.pipeline.library.named_lasts import named_sources
+
+        return sources(meshes, split=split, named=named_sources(meshes, self.path), **reading)
 
     def mesh(self, name: str) -> results.MeshCopy:
         """The mesh copy of a last, for `mesh_file`; raises UnknownLast."""

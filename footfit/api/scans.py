@@ -19,7 +19,7 @@ from footfit.api.inputs import (
     source_of,
 )
 from footfit.pipeline.batch import runs
-from footfit.pipeline.batch.sources import ReadingOptions, Source, mesh_sources
+from footfit.pipeline.batch.sources import NONE_NAMED, ReadingOptions, Source, mesh_sources
 from footfit.results import (
     AlignedScan,
     Comparison,
@@ -96,10 +96,12 @@ def measure(shape: Shape, **reading: Unpack[ReadingKeywords]) -> MeasuredScan:
     InputError, GeometryRefused
         As `flare`.
     """
-    from footfit.pipeline.scan.measure import measured_scan
+    from footfit.pipeline.scan.measure import measured_scan, measured_shape
 
     aligned = aligned_shape(shape, reading)
-    return measured_scan(aligned.aligned if isinstance(aligned, Profiled) else aligned)
+    if isinstance(aligned, Profiled):
+        return measured_shape(aligned.aligned.alignment, aligned.measures)
+    return measured_scan(aligned)
 
 
 def curvature(
@@ -133,8 +135,16 @@ def compare(foot: Shape, last: Mesh, **reading: Unpack[CompareKeywords]) -> Comp
     return compared(profiled_shape(foot, reading), around, heel)
 
 
-def sources(meshes: Meshes, *, split: bool = False, **reading: Any) -> list[Source]:
+def sources(
+    meshes: Meshes,
+    *,
+    split: bool = False,
+    named: Mapping[str, Source] = NONE_NAMED,
+    **reading: Any,
+) -> list[Source]:
     """The meshes in files, folders and globs; with ``split`` each foot of a file by itself.
+
+    ``named`` has the meshes that are lasts of a catalogue; see `Catalogue.sources`.
 
     Raises
     ------
@@ -144,7 +154,7 @@ def sources(meshes: Meshes, *, split: bool = False, **reading: Any) -> list[Sour
     given: list[Any] = list(meshes) if isinstance(meshes, list) else [meshes]
     names = [mesh for mesh in given if isinstance(mesh, str | os.PathLike)]
     if len(names) == len(given):
-        single = mesh_sources([os.fspath(name) for name in names])
+        single = mesh_sources([os.fspath(name) for name in names], named)
     else:
         single = [source_of(mesh, reading) for mesh in given]
     if not split:
@@ -188,6 +198,8 @@ def aligned_shape(shape: Shape, reading: Mapping[str, Any]) -> AlignedScan | Pro
     """A shape, aligned; what is aligned or profiled already stays as it is."""
     if isinstance(shape, AlignedScan | Profiled):
         return shape
-    from footfit.pipeline.scan.reading import aligned_source
+    from footfit.pipeline.scan.reading import aligned_source, profiled_source
 
+    if isinstance(shape, Source) and shape.stored is not None:
+        return profiled_source(shape, reading_options(reading))
     return aligned_source(source_of(shape, reading), reading_options(reading))

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import sys
 from collections.abc import Callable, Iterable, Iterator, Sequence
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from dataclasses import replace
 from typing import TYPE_CHECKING, Any, TypeVar
 
@@ -18,7 +18,7 @@ from footfit.cli.progress import Progress, progress
 from footfit.errors import BadOption, FootfitError, SeveralFeet
 
 if TYPE_CHECKING:
-    from footfit.cli.options import Batch, OutputMode, Scale
+    from footfit.cli.options import Batch, Lasts, OutputMode, Scale
     from footfit.cli.outputs import Outputs
     from footfit.pipeline.batch.runs import Outcome
     from footfit.pipeline.batch.sources import Source
@@ -33,9 +33,12 @@ def answer_scans(
     batch: Batch,
     mode: OutputMode,
     outputs: Outputs,
+    lasts: Lasts,
     **options: Any,
 ) -> None:
     """Run a verb of `footfit.api` on each mesh, answer each one as it comes, and exit.
+
+    A mesh may be a file, or a last of ``lasts`` by its name.
 
     Raises
     ------
@@ -47,7 +50,7 @@ def answer_scans(
     from footfit.api import scans
 
     outputs.refuse(as_json=mode.json)
-    sources = sources_of(meshes, reading, split=batch.split, quiet=mode.quiet)
+    sources = sources_of(meshes, reading, lasts, split=batch.split, quiet=mode.quiet)
     outputs.require_one(sources)
     outputs.keep(sources)
     outcomes = scans.outcomes(verb, sources, jobs=batch.jobs, **reading.keywords(), **options)
@@ -123,9 +126,16 @@ def write_files(outputs: Outputs, result: Any, mode: OutputMode, bar: Progress) 
 
 
 def sources_of(
-    meshes: Sequence[str], reading: Scale, *, split: bool = False, quiet: bool = False
+    meshes: Sequence[str],
+    reading: Scale,
+    lasts: Lasts | None = None,
+    *,
+    split: bool = False,
+    quiet: bool = False,
 ) -> list[Source]:
     """The meshes that a command is given; ``-`` stands for standard input.
+
+    What is no file is a last of ``lasts`` by its name, if the command takes lasts.
 
     Raises
     ------
@@ -138,7 +148,8 @@ def sources_of(
     from footfit.pipeline.batch.sources import left_out, stdin_source
 
     if "-" not in meshes:
-        sources = scans.sources(list(meshes), split=split, **reading.keywords())
+        named = {} if lasts is None else _named(meshes, lasts, quiet=quiet)
+        sources = scans.sources(list(meshes), split=split, named=named, **reading.keywords())
         for mesh in meshes:
             say_notices(left_out(mesh), mesh, quiet=quiet)
         return sources
@@ -147,6 +158,22 @@ def sources_of(
     stream = None if sys.stdin is None else sys.stdin.buffer
     source = stdin_source(stream, reading.format)
     return scans.sources([source], split=split, **reading.keywords())
+
+
+def _named(meshes: Sequence[str], lasts: Lasts, *, quiet: bool) -> dict[str, Source]:
+    """The meshes that are no files; where a file has the name of a last, say that it is taken."""
+    from footfit.pipeline.library.named_lasts import is_no_path, named_sources
+
+    say_hidden_lasts(meshes, lasts, quiet=quiet)
+    return named_sources(meshes, lasts.path()) if any(map(is_no_path, meshes)) else {}
+
+
+def say_hidden_lasts(meshes: Sequence[str], lasts: Lasts, *, quiet: bool) -> None:
+    """Say of each mesh that is a file whether a last of the catalogue has its name."""
+    from footfit.pipeline.library.named_lasts import hidden_lasts
+
+    with suppress(FootfitError):  # files need no catalogue
+        say_notices(hidden_lasts(meshes, lasts.path()), None, quiet=quiet)
 
 
 def tell(value: Any, mode: OutputMode, notices: Notices | None = None) -> None:

@@ -80,7 +80,10 @@ def member_of(info: Any) -> Any:
     return field(metadata={"option": info})
 
 
-MESHES = argument("MESH", "Give mesh files, folders or globs, or - to read one mesh from stdin.")
+MESHES = argument(
+    "MESH",
+    "Give mesh files, folders or globs, names of lasts, or - to read one mesh from stdin.",
+)
 LAST = argument("LAST", "Give the name of a last; list-lasts shows the names.")
 JOBS = option(
     "--jobs",
@@ -106,12 +109,17 @@ class Lasts:
         panel="Catalogue",
     )
 
+    def path(self) -> Path:
+        """Where the catalogue is, whether it exists or not."""
+        from footfit.cli.settings import catalogue_path
+
+        return catalogue_path(self.catalogue)
+
     def open(self) -> Catalogue:
         """The catalogue, for the methods of the library."""
         from footfit.api.catalogues import open_catalogue
-        from footfit.cli.settings import catalogue_path
 
-        return open_catalogue(catalogue_path(self.catalogue))
+        return open_catalogue(self.path())
 
     def open_to_make(self, *, dry_run: bool = False) -> Catalogue:
         """The catalogue for a method that makes one: it has its folder, except in a dry run.

@@ -19,6 +19,11 @@ if TYPE_CHECKING:
     from footfit.results.values import Notice, SideName
 
 
+def comparison_nouns(foot: Profiled) -> tuple[str, str]:
+    """What the two shapes of a comparison are called: a foot and a last, or two lasts."""
+    return ("first last", "second last") if foot.is_last else ("foot", "last")
+
+
 def zone_part(zone: ZoneClearance) -> Json:
     """The clearance in one zone; null if no part of it is compared."""
     return part(fields(zone, "zone"))
@@ -78,7 +83,7 @@ class SurfaceClearance(Part):
 
 @dataclass(frozen=True, slots=True)
 class Comparison(Document):
-    """A foot in a last, both as right shapes in the last's frame, mm.
+    """A foot, or another last, in a last, both as right shapes in the last's frame, mm.
 
     ``heel`` is what the last's heel changes of the foot; None for a foot that is taken as scanned.
     The surfaces and sections are of the foot as it is in the heel. ``toe_room`` is that of a match.
@@ -108,6 +113,11 @@ class Comparison(Document):
     )
 
     @property
+    def nouns(self) -> tuple[str, str]:
+        """What the two shapes are called."""
+        return comparison_nouns(self.foot)
+
+    @property
     def flare_delta_deg(self) -> float:
         """The flare angles' difference: the last minus the foot as it is in the heel."""
         turn = None if self.heel is None else self.heel.change_of(FLARE)
@@ -120,6 +130,7 @@ class Comparison(Document):
         alignment = self.foot.aligned.alignment
         return {
             "mesh": alignment.info,
+            "kind": "last" if self.foot.is_last else "foot",
             **alignment.side.to_dict(),
             "last": self.last.labels.name,
             "last_side": self.last.side.side,

@@ -16,6 +16,10 @@ if TYPE_CHECKING:
     from footfit.results.values import Notice
 
 
+FROM_CATALOGUE = "catalogue"
+"""The format of a shape that is a last of the catalogue; its path is the last's name."""
+
+
 @dataclass(frozen=True, slots=True)
 class MeshInfo(Part):
     """What is known of a mesh file.
@@ -45,6 +49,11 @@ class MeshInfo(Part):
         "step",
         "scanner",
     )
+
+    @property
+    def is_stored_last(self) -> bool:
+        """Whether the mesh is the copy of a last of the catalogue."""
+        return self.format == FROM_CATALOGUE
 
     @property
     def resolution_mm(self) -> float:

@@ -85,6 +85,12 @@ class Profiled(Document):
         return rows(self.columns, [(*start, *values) for values in stations])
 
     @property
+    def is_last(self) -> bool:
+        """Whether it is a last: by its shape, or as a last of the catalogue."""
+        alignment = self.aligned.alignment
+        return alignment.pose.kind == "last" or alignment.info.is_stored_last
+
+    @property
     def length_mm(self) -> float | None:
         """The measured length, which sizes are read from; None if an end was not scanned."""
         return self.aligned.alignment.length_mm

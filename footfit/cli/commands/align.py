@@ -48,5 +48,5 @@ def align(
     outputs = Outputs((OutputFile(*mesh), OutputFile(*picture)), force=force)
     chosen = {"method": method, "reference": lasts.open().reference(to, method)}
     answer_scans(
-        scans.align, meshes, reading, batch, mode, outputs, **chosen, **standing.keywords()
+        scans.align, meshes, reading, batch, mode, outputs, lasts, **chosen, **standing.keywords()
     )

@@ -9,7 +9,7 @@ from footfit.cli import options
 
 def compare(
     foot: str = options.argument(
-        "FOOT", "Give the mesh file of the foot, or - to read it from stdin."
+        "FOOT", "Give the mesh file of the foot, the name of a last, or - to read stdin."
     ),
     last: str = options.argument(
         "LAST", "Give a last by its name in the catalogue, or by its mesh file."
@@ -37,7 +37,7 @@ def compare(
     Example: footfit compare foot.stl derby-42 --html report.html
     """
     from footfit.api import files, scans
-    from footfit.cli.answers import answer_result, sources_of
+    from footfit.cli.answers import answer_result, say_hidden_lasts, sources_of
     from footfit.cli.outputs import OutputFile, Outputs
     from footfit.cli.progress import progress
     from footfit.errors import BadOption
@@ -53,13 +53,16 @@ def compare(
     )
     outputs = Outputs(written, Comparison, csv, force)
     outputs.refuse(as_json=mode.json)
-    sources = sources_of([foot], reading, quiet=mode.quiet)
+    sources = sources_of([foot], reading, lasts, quiet=mode.quiet)
     if len(sources) != 1:
         raise BadOption(f"holds {len(sources)} meshes; name one foot", foot)
     outputs.keep([*sources, Source(last)])
+    is_file = Path(last).is_file()
+    if is_file:
+        say_hidden_lasts([last], lasts, quiet=mode.quiet)
     with progress(mode) as bar:
         bar.show()
-        if Path(last).is_file():
+        if is_file:
             comparison = scans.compare(sources[0], last, **reading.keywords())
         else:
             comparison = lasts.open().compare(sources[0], last, **reading.keywords())

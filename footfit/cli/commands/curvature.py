@@ -30,6 +30,7 @@ def curvature(
     jobs: int = options.JOBS,
     force: bool = options.FORCE,
     *,
+    lasts: options.Lasts,
     scale: options.Scale,
     mode: options.OutputMode,
 ) -> None:
@@ -46,7 +47,7 @@ def curvature(
     outputs = Outputs((OutputFile(*mesh), OutputFile(*picture)), force=force)
     chosen = {"radius_mm": radius, "output": None if output is None else str(output)}
     batch = options.Batch(split=False, jobs=jobs)
-    answer_scans(curvature_with_output, meshes, scale, batch, mode, outputs, **chosen)
+    answer_scans(curvature_with_output, meshes, scale, batch, mode, outputs, lasts, **chosen)
 
 
 def curvature_with_output(mesh: Any, output: str | None, **options: Any) -> SurfaceCurvature:

@@ -15,6 +15,7 @@ def flare(
     csv: Path | None = options.CSV,
     force: bool = options.FORCE,
     *,
+    lasts: options.Lasts,
     reading: options.Reading,
     standing: options.Standing,
     batch: options.Batch,
@@ -32,4 +33,4 @@ def flare(
 
     picture = OutputFile(plot, PICTURE_KINDS, files.picture)
     outputs = Outputs((picture,), Profiled, csv, force)
-    answer_scans(scans.flare, meshes, reading, batch, mode, outputs, **standing.keywords())
+    answer_scans(scans.flare, meshes, reading, batch, mode, outputs, lasts, **standing.keywords())

@@ -78,7 +78,7 @@ def match(
     page = OutputFile(html, ("html", "htm"), lambda answer, _: files.page(answer, catalogue.path))
     outputs = Outputs((page,), Match, csv, force)
     outputs.refuse(as_json=mode.json)
-    sources = sources_of(feet, reading, split=batch.split, quiet=mode.quiet)
+    sources = sources_of(feet, reading, lasts, split=batch.split, quiet=mode.quiet)
     customers = 1 if pair else len(sources)
     outputs.keep(sources)
     outputs.require_one(range(customers), unless="--pair for one customer's two feet")

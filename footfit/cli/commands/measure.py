@@ -12,6 +12,7 @@ def measure(
     csv: Path | None = options.CSV,
     force: bool = options.FORCE,
     *,
+    lasts: options.Lasts,
     reading: options.Reading,
     standing: options.Standing,
     batch: options.Batch,
@@ -30,4 +31,4 @@ def measure(
     from footfit.results import MeasuredScan
 
     outputs = Outputs(table=MeasuredScan, csv=csv, force=force)
-    answer_scans(scans.measure, meshes, reading, batch, mode, outputs, **standing.keywords())
+    answer_scans(scans.measure, meshes, reading, batch, mode, outputs, lasts, **standing.keywords())

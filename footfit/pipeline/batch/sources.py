@@ -5,10 +5,11 @@ from __future__ import annotations
 import os
 import unicodedata
 from collections import Counter
-from collections.abc import Sequence
+from collections.abc import Callable, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, field
 from pathlib import Path
+from types import MappingProxyType
 from typing import TYPE_CHECKING, BinaryIO
 
 from footfit.errors import BadOption, UnreadableFile
@@ -16,6 +17,7 @@ from footfit.results import Notice, Scan
 
 if TYPE_CHECKING:
     from footfit.geometry.stance.cues import StanceLabels
+    from footfit.results import Profiled
 
 MESH_SUFFIXES = (".stl", ".obj", ".ply", ".off", ".glb", ".3mf")
 READ_KINDS = ", ".join(suffix[1:] for suffix in MESH_SUFFIXES)
@@ -31,13 +33,19 @@ GLOB_CHARACTERS = frozenset("*?[")
 class Source:
     """One mesh to read: a path, or bytes that came by standard input (``path`` None).
 
-    ``scan`` is one shape of a file that holds several: it has been read already.
+    ``scan`` is one shape of a file that holds several: it has been read already. ``stored`` gives a
+    last of the catalogue, if ``path`` is its name.
     """
 
     path: str | None
     data: bytes | None = None
     format: str | None = None
     scan: Scan | None = field(default=None, compare=False)
+    stored: Callable[[], Profiled] | None = None
+
+
+NONE_NAMED: Mapping[str, Source] = MappingProxyType({})
+"""No argument is the name of a last."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -66,8 +74,12 @@ class ReadingOptions:
         return StanceLabels(self.heel_height_mm, self.toe_spring_mm, self.platform_mm or 0.0)
 
 
-def mesh_sources(arguments: Sequence[str]) -> list[Source]:
+def mesh_sources(
+    arguments: Sequence[str], named: Mapping[str, Source] = NONE_NAMED
+) -> list[Source]:
     """Files, those in folders (and below) and those of globs, each once, sorted by argument.
+
+    ``named`` has the arguments that are no paths.
 
     Raises
     ------
@@ -83,8 +95,12 @@ def mesh_sources(arguments: Sequence[str]) -> list[Source]:
     ['b.stl', 'a.stl']
     """
     alone = len(arguments) == 1
-    paths = dict.fromkeys(path for each in arguments for path in _expanded(each, alone=alone))
-    return [Source(path) for path in paths]
+    paths = dict.fromkeys(
+        path
+        for each in arguments
+        for path in ([each] if each in named else _expanded(each, alone=alone))
+    )
+    return [named.get(path) or Source(path) for path in paths]
 
 
 def stdin_source(stream: BinaryIO | None, mesh_format: str | None) -> Source:

@@ -61,7 +61,7 @@ def _answered(
         shapes = pair_of_feet([foot.value for foot in feet if foot.value is not None])
         begin("match")
         answer = matched(shapes, library, question)
-    except (GeometryRefused, SameSide) as error:
+    except (BadOption, GeometryRefused, SameSide) as error:
         return Outcome(source, None, error.at(source.path))
     if question.surfaces_in is not None:
         from footfit.pipeline.fit.compare import with_surface_clearance

@@ -24,6 +24,7 @@ from footfit.pipeline.fit.zones import toe_room
 from footfit.pipeline.scan.measure import last_record
 from footfit.pipeline.scan.preparation import stored_shape
 from footfit.pipeline.scan.reading import profiled_source
+from footfit.results.compare import comparison_nouns
 
 SD_FROM = {
     "width": "heel_width",
@@ -116,13 +117,15 @@ def compared(
     """Place a foot in a last and measure the clearance around it, by surface and by section.
 
     Without a ``heel`` question the foot was scanned flat, and is taken as it is in the last's heel.
+    A last in place of the foot has its own heel: it is compared as it is.
 
     Raises
     ------
     NoSole
         One of the two has no bottom to rest on.
     """
-    heels = heels_of(heel_question() if heel is None else heel, [last.record])
+    asked = heel_question(as_scanned=True) if foot.is_last else heel or heel_question()
+    heels = heels_of(asked, [last.record])
     inside = placed_foot(foot, last, heels)
     pairs = section_pairs(inside.foot, last.shape)
     return results.Comparison(
@@ -159,15 +162,18 @@ def best_comparison(path: Path, match: results.Match, foot: int = 0) -> results.
 
 def _warnings(foot: results.Profiled, last: results.LastRecord) -> tuple[results.Notice, ...]:
     notices = list(foot.aligned.alignment.warnings)
+    first, second = comparison_nouns(foot)
     if not foot.aligned.alignment.pose.sole:
-        words = "the foot's scan has no sole: do not trust the clearance under it, nor its height"
+        words = (
+            f"the {first}'s scan has no sole: do not trust the clearance under it, nor its height"
+        )
         notices.append(results.Notice("no_sole", words))
     longer = last.extent_mm - foot.aligned.alignment.extent_mm
     if foot.length_mm is not None and last.length_mm is not None:
         longer = last.length_mm - foot.length_mm
     if abs(longer) > FAR_MM:
-        words = f"the last is {abs(longer):.0f} mm {'longer' if longer > 0 else 'shorter'}"
-        notices.append(results.Notice("far_size", f"{words} than the foot: it fits in no zone"))
+        words = f"the {second} is {abs(longer):.0f} mm {'longer' if longer > 0 else 'shorter'}"
+        notices.append(results.Notice("far_size", f"{words} than the {first}: it fits in no zone"))
     return tuple(notices)
 
 

@@ -9,7 +9,7 @@ from pathlib import Path
 import numpy as np
 
 from footfit import results
-from footfit.errors import HalfScan, NoCandidate
+from footfit.errors import BadOption, HalfScan, NoCandidate
 from footfit.geometry.numeric.arrays import Bools
 from footfit.pipeline.fit import ranking, reasons
 from footfit.pipeline.fit.fit_profile import fit_profile
@@ -59,8 +59,12 @@ def matched(
         No last passes the filters that were given.
     HalfScan
         By fit: a foot's length is not known, for example if its toes were not scanned.
+    BadOption
+        By fit or flare: a foot is a last of the catalogue.
     """
     question = question or Question()
+    if question.by != "shape":
+        _refuse_stored_lasts(feet)
     if not library.lasts:
         nothing = "no last passes these filters; see footfit list-lasts"
         raise NoCandidate(next((notice.message for notice in library.warnings), nothing))
@@ -90,6 +94,18 @@ def matched(
         best_verdict=_best_verdict(judged, ranked),
         heel=judged.heels.question,
     )
+
+
+def _refuse_stored_lasts(feet: Sequence[results.Profiled]) -> None:
+    """Raise BadOption for a last of the catalogue in place of a foot."""
+    for foot in feet:
+        info = foot.aligned.alignment.info
+        if info.is_stored_last:
+            words = (
+                "is a last of the catalogue, not a foot: give a scan of a foot; --by shape finds"
+                " lasts like this one, and footfit compare puts it into another"
+            )
+            raise BadOption(words, info.path)
 
 
 def _refuse_unknown_length(feet: Sequence[results.Profiled]) -> None:

@@ -39,9 +39,12 @@ def measured_scan(aligned: AlignedScan) -> MeasuredScan:
     SideUndecided
         Neither the user nor the shape says which side it is.
     """
-    alignment = aligned.alignment
-    check_side(alignment)
-    measures = scan_measures(aligned.prepared)
+    check_side(aligned.alignment)
+    return measured_shape(aligned.alignment, scan_measures(aligned.prepared))
+
+
+def measured_shape(alignment: Alignment, measures: tuple[Measure, ...]) -> MeasuredScan:
+    """The measures of a shape, with a warning for each that is hardly right."""
     kind = alignment.pose.kind if alignment.pose.sole else "foot"  # without a sole nothing is sure
     return MeasuredScan(alignment, measures, unusual_measures(measures, kind))
 

@@ -8,7 +8,7 @@ from dataclasses import replace
 from typing import Literal, cast
 
 from footfit import results
-from footfit.errors import FootfitError, UnknownUnits, errors_at
+from footfit.errors import BadOption, FootfitError, UnknownUnits, errors_at
 from footfit.meshes.file_bytes import file_bytes
 from footfit.meshes.read import file_mesh
 from footfit.meshes.read_limits import LIMITS
@@ -51,6 +51,8 @@ def read(source: Source, reading: ReadingOptions = AS_FOUND) -> results.Scan:
     BadOption
         The options contradict each other, or the source's format.
     """
+    if source.stored is not None:
+        return stored_scan(profiled_source(source, reading))
     check_unit_options(reading.units, reading.known_length_mm)
     check_stance_labels(reading.stance_labels)
     check_scanner(reading.scanner)
@@ -93,13 +95,38 @@ def aligned_source(
     method: results.Method = "footfit",
     reference: results.Reference | None = None,
 ) -> results.AlignedScan:
-    """Read, prepare and align one mesh."""
+    """Read, prepare and align one mesh; of a stored last its copy."""
+    if source.stored is not None:
+        aligned = profiled_source(source, reading).aligned
+        return aligned if method == "footfit" else aligned_scan(aligned.prepared, method, reference)
     return aligned_scan(prepared_source(source, reading), method, reference)
 
 
 def profiled_source(source: Source, reading: ReadingOptions) -> results.Profiled:
-    """Read, align, measure and profile one mesh."""
-    return profiled_scan(aligned_source(source, reading))
+    """Read, align, measure and profile one mesh; a stored last comes with its stored measures.
+
+    Raises
+    ------
+    BadOption
+        Options for reading a file are given for a stored last.
+    """
+    if source.stored is None:
+        return profiled_scan(aligned_source(source, reading))
+    with errors_at(source.path):
+        shape = source.stored()
+        if reading != AS_FOUND:
+            raise BadOption(
+                "is a last of the catalogue, whose unit, side and heel are stored: leave out the"
+                " options that set them"
+            )
+        return shape
+
+
+def stored_scan(shape: results.Profiled) -> results.Scan:
+    """The mesh of a stored last as a scan: in mm, in the canonical frame."""
+    aligned = shape.aligned
+    alignment = aligned.alignment
+    return results.Scan(alignment.info, aligned.vertices_mm, aligned.faces, alignment.warnings)
 
 
 def split_sources(sources: Sequence[Source], reading: ReadingOptions) -> list[Source]:
@@ -112,6 +139,8 @@ def split_sources(sources: Sequence[Source], reading: ReadingOptions) -> list[So
 
 
 def _parts(source: Source, reading: ReadingOptions) -> list[Source]:
+    if source.stored is not None:
+        return [source]
     try:
         scan = read(source, reading)
         scans = scans_in(scan, length_windows(scan.info, reading.known_length_mm))

@@ -49,7 +49,7 @@ def heat_figure(comparison: Comparison, *, titled: bool = True) -> Figure:
         _draw_legend(figure.add_subplot(grid[:, 2]))
         if titled:
             foot, last = comparison_names(comparison)
-            write_title(figure, f"{foot} in {last}: the clearance around the foot")
+            write_title(figure, f"{foot} in {last}: the clearance around the {comparison.nouns[0]}")
     return figure
 
 

@@ -96,7 +96,8 @@ def _label(last: DrawnLast, foot: Profiled) -> str:
     name = visible(last.record.labels.name)
     short = name if len(name) <= NAME_LENGTH else f"{name[: NAME_LENGTH - 1]}…"
     delta = last.record.flare.angle_deg - foot.flare.angle_deg
-    return f"{last.rank}  {short}, flare {signed(delta)}° from the foot's"
+    whose = "this last's" if foot.is_last else "the foot's"
+    return f"{last.rank}  {short}, flare {signed(delta)}° from {whose}"
 
 
 def _draw_plan(axes: Axes, foot: Profiled, lasts: Sequence[DrawnLast]) -> None:
@@ -114,7 +115,11 @@ def _draw_plan(axes: Axes, foot: Profiled, lasts: Sequence[DrawnLast]) -> None:
         axes.plot(*toe_up(line), **_style(index))
     drawn = any(last.mesh is not None for last in lasts)
     axes.set_title(
-        "Sole and centre line from above" if drawn else "The foot's sole, and centre lines"
+        "Sole and centre line from above"
+        if drawn
+        else "The sole, and centre lines"
+        if foot.is_last
+        else "The foot's sole, and centre lines"
     )
     axes.margins(0.08)
     hide_axes(axes)
@@ -138,7 +143,7 @@ def _draw_heading(axes: Axes, foot: Profiled, lasts: Sequence[DrawnLast]) -> Non
     set_up_curves(
         axes, flare.definition, "heading (deg)\n+ to medial", "Heading of the centre line"
     )
-    label = f"foot, flare {angle_text(flare)}"
+    label = f"{'this last' if foot.is_last else 'foot'}, flare {angle_text(flare)}"
     axes.plot(flare.stations, flare.heading_deg, color=INK, linewidth=2.2, label=label)
     for index, last in enumerate(lasts):
         curve = last.record.flare

@@ -51,7 +51,7 @@ def section_figure(comparison: Comparison, across: int = ACROSS, *, titled: bool
         for at, row in enumerate(rows):
             for column, section in enumerate(row):
                 axes = figure.add_subplot(grid[at, column])
-                _draw_panel(axes, section, mirror, brief=brief)
+                _draw_panel(axes, section, mirror, comparison.nouns, brief=brief)
                 axes.set_xlim(-HALF_WIDTH_MM, HALF_WIDTH_MM)
                 axes.set_ylim(-UNDER_MM, tall[at] - UNDER_MM)
         draw_scale_bar(figure.axes[0], length_mm=20.0, place=(0.0, -0.02))
@@ -63,22 +63,24 @@ def section_figure(comparison: Comparison, across: int = ACROSS, *, titled: bool
     return figure
 
 
-def _draw_panel(axes: Axes, section: SectionComparison, mirror: float, *, brief: bool) -> None:
+def _draw_panel(
+    axes: Axes, section: SectionComparison, mirror: float, nouns: tuple[str, str], *, brief: bool
+) -> None:
     top = _top(section)
     for index, loop in enumerate(section.foot_outline):
         across, up = (ring(loop) * [mirror, 1.0]).T
-        label = "foot" if index == 0 else None
+        label = nouns[0] if index == 0 else None
         axes.fill(
             across, np.minimum(up, top), facecolor=FILL, edgecolor=INK, linewidth=1.5, label=label
         )
     for index, loop in enumerate(section.last_outline):
-        label = "last" if index == 0 else None
+        label = nouns[1] if index == 0 else None
         axes.plot(*(ring(loop) * [mirror, 1.0]).T, color=SERIES[0], linewidth=1.5, label=label)
     where = f"{plain(section.x_mm, 0)} mm" + ("" if brief else " from the heel")
     axes.set_title(f"{section.station.capitalize()}, {where}")
     axes.axhline(0.0, color=QUIET, linewidth=0.5, zorder=0)
     hide_axes(axes)
-    axes.set_xlabel(_words(section, brief=brief), fontsize=8)
+    axes.set_xlabel(_words(section, nouns, brief=brief), fontsize=8)
 
 
 def _top(section: SectionComparison) -> float:
@@ -87,7 +89,7 @@ def _top(section: SectionComparison) -> float:
     return max((float(loop[:, 1].max()) for loop in loops), default=0.0) + SHOWN_OVER_MM
 
 
-def _words(section: SectionComparison, *, brief: bool) -> str:
+def _words(section: SectionComparison, nouns: tuple[str, str], *, brief: bool) -> str:
     """The differences that are known: "last minus foot: width +3.2, girth +4.4 mm"."""
     known = [
         f"{size.name} {signed(size.difference.value)}"
@@ -96,4 +98,4 @@ def _words(section: SectionComparison, *, brief: bool) -> str:
     ]
     if not known:
         return "not measurable here"
-    return "\n".join(known) if brief else f"last minus foot: {', '.join(known)} mm"
+    return "\n".join(known) if brief else f"{nouns[1]} minus {nouns[0]}: {', '.join(known)} mm"

@@ -18,19 +18,20 @@ from footfit.results import Comparison
 
 def compare_table(comparison: Comparison) -> RenderableType:
     """The lengths, the swing, the clearance by zone and the sections, in 80 columns."""
+    first, second = comparison.nouns
     return Group(
         _headline(comparison),
         Text(lengths_words(comparison)),
         *([Text(change_words(comparison))] if change_words(comparison) else []),
         Text(swing_words(comparison)),
         Text(),
-        Text("Room between foot and last, by zone"),
+        Text(f"Room between {first} and {second}, by zone"),
         _zones_table(comparison),
-        Text("Sections, last minus foot in mm (+ is room)"),
+        Text(f"Sections, {second} minus {first} in mm (+ is room)"),
         _sections_table(comparison),
         Text(
-            "-: not measurable there; --json says why. Edges: how far the last's edge lies "
-            "outside of the foot's.",
+            f"-: not measurable there; --json says why. Edges: how far the {second}'s edge lies "
+            f"outside of the {first}'s.",
             "dim",
         ),
     )
@@ -39,8 +40,11 @@ def compare_table(comparison: Comparison) -> RenderableType:
 def _headline(comparison: Comparison) -> Text:
     alignment = comparison.foot.aligned.alignment
     line = Text(file_name(alignment.info.path), "bold")
-    line.append(f", {alignment.side.side} foot, in ", "not bold")
+    is_last = comparison.foot.is_last
+    line.append(f", {alignment.side.side} {'last' if is_last else 'foot'}, in ", "not bold")
     line.append(visible(comparison.last.labels.name), "bold")
+    if is_last:
+        line.append(f", {comparison.last.side.side or 'undecided'} last", "not bold")
     return line.append(" (mirrored)" if comparison.mirrored else "", "not bold")
 
 

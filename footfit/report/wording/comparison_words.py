@@ -36,12 +36,16 @@ def comparison_names(comparison: Comparison) -> tuple[str, str]:
 
 
 def lengths_words(comparison: Comparison) -> str:
-    """The two lengths, the toe room, and the difference in flare."""
+    """The two lengths, the toe room, and the difference in flare.
+
+    Two lasts have no toe room: the same figure is how much longer the second one is.
+    """
     foot, last = comparison.foot.aligned.alignment.length, comparison.last.length
-    room = comparison.toe_room
+    room, (first, second) = comparison.toe_room, comparison.nouns
     words = "not known" if room.value is None else f"{difference_text(room)} mm"
+    head = "difference in functional length" if comparison.foot.is_last else "toe room"
     return (
-        f"foot {length_text(foot)}, last {length_text(last)}; toe room {words}; "
+        f"{first} {length_text(foot)}, {second} {length_text(last)}; {head} {words}; "
         f"flare {signed(comparison.flare_delta_deg)} deg"
     )
 
@@ -53,11 +57,11 @@ def change_words(comparison: Comparison) -> str:
 
 def swing_words(comparison: Comparison) -> str:
     """How far the foot's tread was moved sideways to lie on the last's."""
-    swing = comparison.placement.swing_mm
+    swing, (first, second) = comparison.placement.swing_mm, comparison.nouns
     side = "medial" if swing > 0 else "lateral"
     return (
-        f"heel on heel, the foot's tread was moved {plain(abs(swing))} mm to {side} to lie on the "
-        "last's"
+        f"heel on heel, the {first}'s tread was moved {plain(abs(swing))} mm to {side} to lie on "
+        f"the {second}'s"
     )
 
 
