@@ -8,7 +8,7 @@ from footfit.version import __version__
 if TYPE_CHECKING:
     from footfit import errors, results
     from footfit.api.catalogues import Catalogue, match, open_catalogue
-    from footfit.api.files import mesh_file, page, picture, to_trimesh
+    from footfit.api.files import mesh_file, page, picture, sheet, to_trimesh
     from footfit.api.scans import (
         align,
         compare,
@@ -44,6 +44,7 @@ __all__ = [
     "picture",
     "read",
     "results",
+    "sheet",
     "sources",
     "to_trimesh",
 ]

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from datetime import date
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -11,6 +12,9 @@ from footfit.errors import BadOption
 
 if TYPE_CHECKING:
     from footfit.meshes.exchange import Trimesh
+
+MOST_LETTERS = 80
+"""Of a title or a customer: what two lines of the head of a page can show."""
 
 
 def picture(result: Any, kind: str = "svg") -> bytes:
@@ -93,14 +97,25 @@ def to_trimesh(result: results.Scan | results.AlignedScan | results.Profiled) ->
     return as_trimesh(mesh.vertices_mm, mesh.faces, path=info.path)
 
 
-def page(result: results.Match | results.Comparison, catalogue: FilePath | None = None) -> str:
+def page(
+    result: results.Match | results.Comparison,
+    catalogue: FilePath | None = None,
+    *,
+    title: str = "",
+    customer: str = "",
+) -> str:
     """A match or a comparison as one HTML page; a match with its ``catalogue`` draws the lasts.
+
+    The page of a match shows ``title`` and ``customer``, which are kept nowhere.
 
     Raises
     ------
     NotInCatalogue, CatalogueUnusable
         The catalogue is not there, or cannot be read.
+    BadOption
+        A text is too long.
     """
+    require_short(title=title, customer=customer)
     from footfit.pipeline import drawables
     from footfit.report.page.compare_page import compare_page
     from footfit.report.page.match_page import match_page
@@ -108,7 +123,46 @@ def page(result: results.Match | results.Comparison, catalogue: FilePath | None 
     if isinstance(result, results.Comparison):
         return compare_page(drawables.drawable(result))
     if catalogue is None:
-        return match_page(result)
+        return match_page(result, title=title, customer=customer)
     path = Path(catalogue)
     shapes = drawables.candidate_shapes(path, result)
-    return match_page(result, shapes, drawables.best_comparisons(path, result))
+    comparisons = drawables.best_comparisons(path, result)
+    return match_page(result, shapes, comparisons, title=title, customer=customer)
+
+
+def sheet(
+    match: results.Match, *, title: str = "", customer: str = "", day: date | None = None
+) -> str:
+    """A match by fit as the customer's sheet: one HTML page that prints on one A4.
+
+    Parameters
+    ----------
+    match : Match
+    title, customer : str
+        Shown above the sheet, and kept nowhere.
+    day : date, optional
+        The day that the sheet shows; without it today.
+
+    Raises
+    ------
+    BadOption
+        The match is not by fit, or a text is too long.
+    """
+    from footfit.pipeline import drawables
+    from footfit.pipeline.width.foot_width import survey_words
+    from footfit.report.page.sheet_page import sheet_page
+
+    if match.by != "fit":
+        raise BadOption(f"the customer's sheet goes with --by fit, not {match.by}: it judges a fit")
+    require_short(title=title, customer=customer)
+    meshes = drawables.foot_meshes(match)
+    known = {"title": title, "customer": customer, "survey": survey_words()}
+    return sheet_page(match, meshes, day=day or date.today(), **known)
+
+
+def require_short(**texts: str) -> None:
+    """Refuse a text that is too long for the head of a page; raises BadOption with its name."""
+    for name, text in texts.items():
+        if len(text) > MOST_LETTERS:
+            words = f"--{name} takes at most {MOST_LETTERS} letters, not {len(text)}; shorten it"
+            raise BadOption(words)

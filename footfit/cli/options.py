@@ -42,7 +42,7 @@ def option(
     """An option with a value, by its flags; the help shows its default, if there is one."""
     shown: dict[str, Any] = {"metavar": metavar, "rich_help_panel": panel, "help": help}
     shown |= more_settings
-    return typer.Option(default, flag, *more, show_default=default not in (None, ...), **shown)
+    return typer.Option(default, flag, *more, show_default=default not in (None, "", ...), **shown)
 
 
 def _possible_length(value: float | None) -> float | None:
@@ -63,6 +63,11 @@ def output_file(flag: str, help: str, *short: str, default: Any = None) -> Any:
     """An option that names a file to write; its content differs from command to command."""
     first, *more = *short, flag
     return option(first, help, "FILE", *more, default=default, panel=OUTPUT)
+
+
+def head_text(flag: str, help: str, metavar: str) -> Any:
+    """An option with a text for the head of the pages that are written."""
+    return option(flag, help, metavar, default="", panel=OUTPUT)
 
 
 def argument(metavar: str, help: str, default: Any = ...) -> Any:

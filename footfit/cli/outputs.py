@@ -99,14 +99,15 @@ class Outputs:
         return any(file.path is not None for file in self.files)
 
     def write(self, result: Any) -> list[Path]:
-        """Write the files of a result, and return their paths."""
-        written = []
+        """Write the files of a result, once the content of all is there; return their paths."""
+        contents = []
         for file in self.files:
             if file.path is not None:
                 kind = file_kind(file.path, file.kinds) if file.kinds else ""
-                write_output(file.path, file.content(result, kind), force=self.force)
-                written.append(file.path)
-        return written
+                contents.append((file.path, file.content(result, kind)))
+        for path, content in contents:
+            write_output(path, content, force=self.force)
+        return [path for path, _ in contents]
 
     def write_csv(self, results: Iterable[Any]) -> list[Path]:
         """Write the tables, to stdout or to a file whose path is returned."""

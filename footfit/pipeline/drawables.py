@@ -38,6 +38,12 @@ def candidate_shapes(path: Path, match: Match) -> dict[str, tuple[Floats, Ints]]
     return shapes
 
 
+def foot_meshes(match: Match) -> tuple[tuple[Floats, Ints], ...]:
+    """The feet of a match as light meshes, in mm in the canonical frame, each on its own side."""
+    scans = (foot.aligned for foot in match.feet)
+    return tuple(lighter_mesh(scan.vertices_mm, scan.faces, DRAWN_FACES) for scan in scans)
+
+
 def best_comparisons(path: Path, match: Match) -> tuple[Comparison, ...]:
     """Each foot of a match in the best last, with drawable meshes; a foot that cannot be placed
     in it is left out.

@@ -65,3 +65,5 @@ from footfit.results.values import Notice as Notice
 from footfit.results.values import SearchBy as SearchBy
 from footfit.results.values import SideName as SideName
 from footfit.results.values import Verdict as Verdict
+from footfit.results.width import FootWidth as FootWidth
+from footfit.results.width import WidthShare as WidthShare

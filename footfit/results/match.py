@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from itertools import zip_longest
 from typing import TYPE_CHECKING
 
 from footfit.geometry.fit.sizes import SYSTEMS, foot_sizes
@@ -28,6 +29,7 @@ if TYPE_CHECKING:
     from footfit.results.last_record import LastRecord
     from footfit.results.profile import Profiled
     from footfit.results.values import Measured, Notice, SearchBy, SideName, Verdict
+    from footfit.results.width import FootWidth
 
 CANDIDATE_COLUMNS = (
     *("rank", "last", *LABELS),
@@ -104,6 +106,7 @@ class Match(Document):
     size_system: str | None = None
     best_verdict: Verdict | None = None
     heel: HeelQuestion = AS_SCANNED
+    widths: tuple[FootWidth, ...] = ()
 
     columns = (
         *("path", "foot_side", "by", *CANDIDATE_COLUMNS, "flare_distance", "flare_delta_deg"),
@@ -117,9 +120,12 @@ class Match(Document):
     def _keys(self) -> Json:
         count = sum(count for _, count in self.rejected)
         return {
-            **fields(self, "catalogue_lasts", "reference", "heel"),
+            **fields(self, "catalogue_lasts", "reference", "heel", "widths"),
             "heel_model": self.heel.model,
-            "feet": [foot_part(foot) for foot in self.feet],
+            "feet": [
+                foot_part(foot) | {"width": width.to_dict() if width else None}
+                for foot, width in zip_longest(self.feet, self.widths)
+            ],
             "catalogue": {"lasts": self.catalogue_lasts, "reference": self.reference},
             "rejected": {"count": count, "by_reason": dict(self.rejected)},
         }

@@ -18,6 +18,7 @@ ByName = Literal["fit", "flare", "shape"]
 """What to rank by."""
 Least = Literal["good", "acceptable"]
 """The verdict that is asked for."""
+HTML = ("html", "htm")
 
 
 def match(
@@ -50,6 +51,17 @@ def match(
         "--fail-under", "Exit with 7 if the first last of a customer is not at least this."
     ),
     html: Path | None = options.output_file("--html", "Write a page that opens in any browser."),
+    sheet: Path | None = options.output_file(
+        "--sheet", "Write the customer's sheet: one page to hand over, which prints on one A4."
+    ),
+    title: str = options.head_text(
+        "--title", "Show this text above the page and the sheet. footfit stores it nowhere.", "TEXT"
+    ),
+    customer: str = options.head_text(
+        "--customer",
+        "Show this name of a customer on the page and the sheet. footfit stores it nowhere.",
+        "NAME",
+    ),
     csv: Path | None = options.CSV,
     *,
     lasts: options.Lasts,
@@ -62,9 +74,10 @@ def match(
 
     The toe room comes first: the last's functional length less the foot's.
 
-    Example: footfit match left.stl right.stl --pair --html report.html
+    Example: footfit match left.stl right.stl --pair --html report.html --sheet sheet.html
     """
     from dataclasses import replace
+    from functools import partial
 
     from footfit.api import files
     from footfit.cli.answers import answer_outcomes, sources_of
@@ -75,8 +88,18 @@ def match(
     if by == "shape" and fail_under is not None:
         raise BadOption("--fail-under goes with --by fit or flare: a search by shape judges no fit")
     catalogue = lasts.open()
-    page = OutputFile(html, ("html", "htm"), lambda answer, _: files.page(answer, catalogue.path))
-    outputs = Outputs((page,), Match, csv, force)
+    if by != "fit" and sheet is not None:
+        raise BadOption("--sheet goes with --by fit: the sheet says which shoe fits")
+    if (title or customer) and html is None and sheet is None:
+        raise BadOption("--title and --customer go with --html or --sheet, which show them")
+    files.require_short(title=title, customer=customer)
+    page = partial(files.page, title=title, customer=customer)
+    handed_over = partial(files.sheet, title=title, customer=customer)
+    pages = (
+        OutputFile(html, HTML, lambda answer, _: page(answer, catalogue.path)),
+        OutputFile(sheet, HTML, lambda answer, _: handed_over(answer)),
+    )
+    outputs = Outputs(pages, Match, csv, force)
     outputs.refuse(as_json=mode.json)
     sources = sources_of(feet, reading, lasts, split=batch.split, quiet=mode.quiet)
     customers = 1 if pair else len(sources)

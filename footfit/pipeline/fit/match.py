@@ -18,6 +18,7 @@ from footfit.pipeline.fit.scoring import UNKNOWN_SCORE, VERDICTS
 from footfit.pipeline.fit.toe_box import NOT_STORED
 from footfit.pipeline.fit.zones import NOT_READ, TOE_BOX
 from footfit.pipeline.scan.measure import unusual_measures
+from footfit.pipeline.width.foot_width import foot_widths
 from footfit.results.heel import FLARE, heel_words
 from footfit.results.values import notices_about
 
@@ -93,6 +94,7 @@ def matched(
         size_system=question.size_system,
         best_verdict=_best_verdict(judged, ranked),
         heel=judged.heels.question,
+        widths=foot_widths(feet, profile.name),
     )
 
 

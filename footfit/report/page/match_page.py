@@ -21,7 +21,12 @@ PAIR_NOTICES = {"pair_difference", "feet_differ_by_a_size"}
 
 
 def match_page(
-    match: Match, shapes: Shapes | None = None, comparisons: Sequence[Comparison] = ()
+    match: Match,
+    shapes: Shapes | None = None,
+    comparisons: Sequence[Comparison] = (),
+    *,
+    title: str = "",
+    customer: str = "",
 ) -> str:
     """One customer's answer as a whole HTML page; the same bytes for the same match.
 
@@ -36,6 +41,8 @@ def match_page(
     comparisons : sequence of Comparison
         The feet in the best last, as ``pipeline.drawables.best_comparisons`` gives them; without
         any the page has no surface to show.
+    title, customer : str
+        What the shop wants to read above the page; shown and not kept.
     """
     shown = match.candidates or match.nearest
     several = f"the {'best' if match.candidates else 'nearest'} lasts"
@@ -45,6 +52,8 @@ def match_page(
         "match.html.jinja",
         scene=scene_of(longer) if longer else None,
         match=match,
+        page_title=title,
+        customer=customer,
         names=", ".join(file_name(foot.aligned.alignment.info.path) for foot in match.feet),
         shown=shown,
         judged=any(candidate.verdict for candidate in shown),

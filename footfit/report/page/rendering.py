@@ -8,7 +8,7 @@ from functools import cache
 from importlib import resources
 from typing import TYPE_CHECKING, Any
 
-from footfit.report.wording import comparison_words, text
+from footfit.report.wording import comparison_words, sheet_words, text
 from footfit.version import __version__
 
 if TYPE_CHECKING:
@@ -31,11 +31,19 @@ FILTERS = (
     comparison_words.lengths_words,
     comparison_words.surfaces_words,
     comparison_words.swing_words,
+    sheet_words.fit_words,
+    sheet_words.shoe_labels,
 )
 """The words and numbers that a template asks for by the function's name."""
 
 
-def html_page(template: str | Template, *, scene: Scene | None = None, **values: object) -> str:
+def html_page(
+    template: str | Template,
+    *,
+    scene: Scene | None = None,
+    style: str = "style.css",
+    **values: object,
+) -> str:
     """A whole page; with the viewer's script, and the policy that lets it run, for a ``scene``.
 
     Parameters
@@ -44,6 +52,8 @@ def html_page(template: str | Template, *, scene: Scene | None = None, **values:
         The name of a template of this package, or one that ``templates`` made.
     scene : Scene, optional
         The page's 3D view.
+    style : str
+        The name of a style sheet of this package.
     **values
         What the template shows.
 
@@ -54,11 +64,11 @@ def html_page(template: str | Template, *, scene: Scene | None = None, **values:
     """
     from markupsafe import Markup
 
-    style, script = page_file("style.css"), page_file("scene.js") if scene else ""
+    look, script = page_file(style), page_file("scene.js") if scene else ""
     own = {
         "version": __version__,
-        "policy": policy(style, script),
-        "style": Markup(style),
+        "policy": policy(look, script),
+        "style": Markup(look),
         "script": Markup(script),
     }
     return templates().get_template(template).render(values, scene=scene, **own)

@@ -1,0 +1,1 @@
+"""How wide a foot is: the width fitting of its size, and its place among a survey's people."""
