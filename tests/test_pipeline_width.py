@@ -11,7 +11,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from footfit.geometry.fit.sizes import SYSTEMS, exact_size
-from footfit.geometry.fit.widths import LETTERS, RULES, fittings, letter
+from footfit.geometry.fit.width_fitting import LETTERS, RULES, fittings, letter
 from footfit.pipeline.fit.fit_profile import fit_profile
 from footfit.pipeline.fit.match import Question, matched
 from footfit.pipeline.width.foot_width import foot_widths, survey, width_share

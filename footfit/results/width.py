@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 from footfit.results.values import Json, Part, fields, part
 
 if TYPE_CHECKING:
-    from footfit.geometry.fit.widths import Fitting
+    from footfit.geometry.fit.width_fitting import Fitting
 
 
 @dataclass(frozen=True, slots=True)

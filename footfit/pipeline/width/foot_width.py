@@ -9,7 +9,7 @@ from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
 
-from footfit.geometry.fit.widths import fittings
+from footfit.geometry.fit.width_fitting import fittings
 from footfit.results import FootWidth, Measured, Profiled, WidthShare
 
 FILE = Path(__file__).parent / "survey.toml"

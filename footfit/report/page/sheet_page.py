@@ -102,7 +102,7 @@ def sized(size: Size, width: FootWidth) -> str:
     Examples
     --------
     >>> from footfit.geometry.fit.sizes import foot_size
-    >>> from footfit.geometry.fit.widths import Fitting
+    >>> from footfit.geometry.fit.width_fitting import Fitting
     >>> wide = FootWidth((Fitting("mondopoint", "98", False),), ())
     >>> [sized(foot_size(251.0, SYSTEMS[name]), wide) for name in ("uk", "mondopoint")]
     ['UK 6.5', 'Mondopoint 250/98']
