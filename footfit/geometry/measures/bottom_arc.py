@@ -44,8 +44,8 @@ class BottomArc:
         return float((standing - self.stands[:3, 3]) @ self.stands[:3, 0])
 
 
-def bottom_arc(stance: Stance) -> BottomArc:
-    """The arc of the bottom of a last that stands so."""
-    line = side_line(stance.middle_mm, stance.length_mm, FlareDefinition())
+def bottom_arc(stance: Stance, definition: FlareDefinition | None = None) -> BottomArc:
+    """The arc of the bottom of a last that stands so, smoothed as the definition says."""
+    line = side_line(stance.middle_mm, stance.length_mm, definition or FlareDefinition())
     end_mm = line.unrolled(np.array([[stance.length_mm, 0.0, 0.0]]))[0, 0]
     return BottomArc(line, stance.standing_transform, float(end_mm))

@@ -2,16 +2,18 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
+from footfit.geometry.flare.definition import FlareDefinition
 from footfit.geometry.flare.unrolling import SideLine
 from footfit.geometry.measures.bottom_arc import bottom_arc
 from footfit.geometry.measures.landmarks import Shape
 from footfit.geometry.measures.measure_value import MeasureValue, no_ball
 from footfit.geometry.measures.underside import BOTTOM, underside
 from footfit.geometry.mesh.outermost_point import tip
+from footfit.geometry.mesh.surface import area_vectors
 from footfit.geometry.numeric.arrays import Floats, Ints
 from footfit.geometry.numeric.smoothing import local_quadratic
 from footfit.geometry.stance.middle_line import low_points, turned
@@ -19,6 +21,7 @@ from footfit.geometry.stance.stance import Stance
 
 FOREPART = 0.7
 TURNS = 2  # of the direction towards the farthest toe; the second changes it by under .01 mm
+AHEAD = np.array([1.0, 0.0])
 OPEN_BOTTOM = "the sole is open at the heel or the ball"
 
 
@@ -26,17 +29,22 @@ OPEN_BOTTOM = "the sole is open at the heel or the ball"
 class AlongSettings:
     """How a last's bottom is measured along its arc and its ground.
 
-    ``feather_deg`` is the angle of the line that touches the feather edge, from a direction between
-    the ground and the bottom's own at its end: ``own_share`` of the latter. If a last is bent, the
-    heel's back turns with the seat or stays upright; half-way, the edge stays in both cases. The
-    line is turned by ``turn_deg`` both ways to find where it touches.
+    The line along the bottom is read in ``line_window``, a share of the standing length: nearer to
+    its ends the edges round off. A feather edge is looked for within ``near_end`` of the standing
+    length from the line's end: the ball of a last with a high heel lies lower than its heel. The
+    line that touches the edge is turned by ``turn_deg`` both ways to find where.
+    The wall of the heel's back is read at heights over the bottom (``wall``) up to ``wall_deep``
+    from the rearmost place, over the length; its faces look back by ``wall_back`` in plan.
     Where the bottom lies less than ``tread_height`` of the standing length over the ground, it is
     tread; it is read at ``tread_points`` places from ``tread_reach``.
     """
 
-    feather_deg: float = 45.0
-    own_share: float = 0.5
+    line_window: tuple[float, float] = (0.06, 0.965)
+    near_end: float = 0.15
     turn_deg: float = 12.0
+    wall: tuple[float, float] = (0.02, 0.07)
+    wall_deep: float = 0.12
+    wall_back: float = 0.7
     tread_height: float = 0.002
     tread_reach: tuple[float, float] = (0.40, 0.95)
     tread_points: int = 276
@@ -115,19 +123,11 @@ def bottom_length(shape: Shape) -> MeasureValue:
     """
     if shape.stance is None:
         return MeasureValue(None, OPEN_BOTTOM)
-    arc = bottom_arc(shape.stance)
-    start, end = np.column_stack([arc.line.x_mm, arc.line.z_mm])[[1, -2]]
-    run = float(arc.line.arc_mm[-2] - arc.line.arc_mm[1])
-    low = _low_faces(shape, shape.stance)
-    behind = _beyond(shape, low, start, start - _next_point(arc.line, 1))
-    ahead = _beyond(shape, low, end, end - _next_point(arc.line, -2))
-    return MeasureValue(behind + run + ahead)
-
-
-def _next_point(line: SideLine, end: int) -> Floats:
-    """The point of a side line that is next to one of its ends, inward, (2,)."""
-    inward = end + (1 if end > 0 else -1)
-    return np.array([line.x_mm[inward], line.z_mm[inward]])
+    definition = replace(FlareDefinition(), line_window=ALONG.line_window)
+    line = bottom_arc(shape.stance, definition).line
+    behind = _beyond(shape, line, 1, _heel_wall(shape, line))
+    run = float(line.arc_mm[-2] - line.arc_mm[1])
+    return MeasureValue(behind + run + _beyond(shape, line, -2, AHEAD))
 
 
 def _low_faces(shape: Shape, stance: Stance) -> Ints:
@@ -138,32 +138,48 @@ def _low_faces(shape: Shape, stance: Stance) -> Ints:
     return np.asarray(shape.faces[a & b & c])
 
 
-def _beyond(shape: Shape, low: Ints, end: Floats, outward: Floats) -> float:
-    """How far the feather edge lies beyond an end (2,) of the bottom's line, along it.
+def _heel_wall(shape: Shape, line: SideLine) -> Floats:
+    """Where the wall of the heel's back looks, along the ground and up, (2,)."""
+    assert shape.stance is not None
+    stands = shape.stance.standing_transform
+    standing = shape.vertices_mm @ stands[:3, :3].T + stands[:3, 3]
+    along, _, over = line.unrolled(standing)[shape.faces].mean(axis=1).T / shape.length_mm
+    looks = area_vectors(standing, shape.faces)
+    low, high = ALONG.wall
+    wall = (over > low) & (over < high) & (np.abs(along) < ALONG.wall_deep)
+    wall &= -looks[:, 0] > ALONG.wall_back * np.hypot(looks[:, 0], looks[:, 1])
+    total = looks[wall].sum(axis=0)[[0, 2]]
+    return np.asarray(total / np.linalg.norm(total) if total.any() else -AHEAD)
 
-    A tangent with the normal n has the distance h from the end. As it turns, h changes by h' and n
-    by n': it touches at h n + h' n'. Reaches are steadier than the vertices of an edge.
+
+def _beyond(shape: Shape, line: SideLine, end: int, wall: Floats) -> float:
+    """How far the feather edge lies beyond an end (1 or -2) of the bottom's line, along it.
+
+    The edge is where a line touches that is half-way between the bottom and the wall, which looks
+    towards ``wall`` (2,). So it is the same place whether a last's wall turns with its bottom or
+    stays upright when it is bent. A tangent with the normal n has the distance h from the end. As
+    it turns, h changes by h' and n by n': it touches at h n + h' n'. Reaches are steadier than the
+    vertices of an edge.
     """
     assert shape.stance is not None
-    stance = shape.stance
-    along, up = stance.standing_transform[:3, :3][[0, 2]]
-    origin = stance.standing_transform[[0, 2], 3]
-    out = outward / np.linalg.norm(outward)
-    level = np.array([np.sign(out[0]), 0.0])
-    aim = ALONG.own_share * out + (1.0 - ALONG.own_share) * level
-    aim /= np.linalg.norm(aim)
-    down = np.array([aim[1], -aim[0]]) * (1.0 if aim[0] > 0.0 else -1.0)
-    angle, turn = np.radians(ALONG.feather_deg), np.radians(ALONG.turn_deg)
+    stance, forward = shape.stance, float(np.sign(end)) * -1.0
+    stands = stance.standing_transform
+    ends = np.column_stack([line.x_mm, line.z_mm])[[end, end - int(forward)]]
+    out = (ends[0] - ends[1]) / np.linalg.norm(ends[0] - ends[1])
+    half = wall + forward * np.array([out[1], -out[0]])
+    half /= np.linalg.norm(half)
+    down = forward * np.array([half[1], -half[0]])
+    low = _low_faces(shape, stance)
+    middle = shape.vertices_mm[low].mean(axis=1) @ stands[0, :3] + stands[0, 3]
+    near = low[np.abs(middle - ends[0, 0]) < ALONG.near_end * stance.length_mm]
+    turn = np.radians(ALONG.turn_deg)
     heights = []
-    for at in (angle - turn, angle, angle + turn):
-        normal = np.cos(at) * aim + np.sin(at) * down
-        direction = normal[0] * along + normal[1] * up
-        reach = tip(shape.vertices_mm, low, direction, shape.length_mm).reach
-        heights.append(reach + float(normal @ (origin - end)))
+    for at in (-turn, 0.0, turn):
+        normal = np.cos(at) * half + np.sin(at) * down
+        reach = tip(shape.vertices_mm, near, normal @ stands[[0, 2], :3], shape.length_mm).reach
+        heights.append(reach + float(normal @ (stands[[0, 2], 3] - ends[0])))
     change = (heights[2] - heights[0]) / (2.0 * np.sin(turn))
-    touch = heights[1] * (np.cos(angle) * aim + np.sin(angle) * down)
-    touch += change * (np.cos(angle) * down - np.sin(angle) * aim)
-    return float(touch @ out)
+    return float((heights[1] * half + change * down) @ out)
 
 
 def tread_from(shape: Shape) -> MeasureValue:
