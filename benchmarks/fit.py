@@ -24,7 +24,7 @@ from footfit.geometry.flare.profile_distance import profile_distances
 from footfit.pipeline.fit.fit_profile import fit_profile
 from footfit.pipeline.fit.match import Question, matched
 from footfit.pipeline.fit.scoring import scales
-from footfit.pipeline.fit.zones import last_shape, pitch_gain_mm
+from footfit.pipeline.fit.zones import bottom_gain, last_shape
 from footfit.pipeline.scan.flare import profiled_scan
 from footfit.pipeline.scan.measure import last_record, shape_measures
 from footfit.results import LastLabels, LastRecord, Library, Profiled
@@ -143,7 +143,9 @@ def grid_rows(count: int, seed: int) -> Iterator[list[str]]:
     meshes = {name: last_mesh(spec) for name, spec in specs.items()}
     girths = {name: girth_mm(mesh, "last") for name, mesh in meshes.items()}
     lasts = tuple(stored(mesh, name, rng) for name, mesh in meshes.items())
-    gains = np.array([pitch_gain_mm(last_shape(last)) for last in lasts[:: len(lasts) // LENGTHS]])
+    gains = np.array(
+        [bottom_gain(last_shape(last)).value for last in lasts[:: len(lasts) // LENGTHS]]
+    )
     library = Library(lasts, len(lasts), None)
     feet = true_feet(sorted(SCANS.glob("*.stl")))
     length, width, both, verdicts, missed = 0, 0, 0, [], []

@@ -10,7 +10,6 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from scipy.spatial import ConvexHull
 
 from footfit.geometry.measures.heights import toe_height
 from footfit.geometry.measures.landmarks import Shape
@@ -24,7 +23,6 @@ from tests.reading import read_scan
 from tests.scans import aligned, right_shape
 from tests.solids import capped
 from tests.strategies import seeds
-from tools.bent_lasts import bent
 from tools.last_specs import ToeShape
 from tools.lasts import LastSpec, half_width_mm, last_mesh, standing, true_heading_deg, varied
 
@@ -139,32 +137,6 @@ def test_a_last_is_measured_along_its_ground_and_its_bottom() -> None:
     assert found["stick_length"] == pytest.approx(stick_mm, abs=1.4)  # measured .7
     overhang_mm = drafted.bottom_length_mm - found["bottom_length"]
     assert 2.0 < overhang_mm < 8.0  # what the heel's back and the tip stand out over the feather
-
-
-@pytest.mark.parametrize("turning", [0.0, 1.0])
-def test_the_bottom_of_one_last_is_as_long_at_every_heel(turning: float) -> None:
-    """Its sections stay upright, or turn with the bottom: real bending lies between."""
-    spec = replace(LEVEL, length_mm=255.0, heel_height_mm=0.0, toe_spring_mm=6.0)
-    vertices, faces = last_of(spec)
-    stance = Shape(vertices, faces, "last").stance
-    assert stance is not None
-    transform = stance.standing_transform
-    flat = vertices @ transform[:3, :3].T + transform[:3, 3]
-    lengths = []
-    for heel_mm in (0.0, 60.0, 110.0):
-        raised = bent(flat, stance.length_mm, heel_mm, turning)
-        at_rest = resting(raised)
-        lengths.append(taken(at_rest, faces, "last")["bottom_length"])
-    assert np.ptp(lengths) < 2.0  # measured 1.6 and .7
-
-
-def resting(vertices: np.ndarray) -> np.ndarray:
-    """A standing last laid on its seat and its ball."""
-    hull = vertices[ConvexHull(vertices[:, [0, 2]]).vertices][:, [0, 2]]
-    edges = np.roll(hull, -1, axis=0) - hull
-    below = edges[np.argmax(np.where(edges[:, 0] > 0, edges[:, 0], 0.0))]
-    laid = turned(vertices, float(np.arctan2(below[1], below[0])))
-    return laid - laid.min(axis=0) * [1.0, 0.0, 1.0]
 
 
 def test_the_bottom_is_as_wide_as_from_feather_to_feather() -> None:

@@ -2,18 +2,24 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
+from dataclasses import asdict, replace
 from typing import Any
 
 import numpy as np
 import pytest
+from scipy.optimize import brentq
 
 from footfit.errors import BadOption, BadProfile
+from footfit.geometry.fit.along_the_bottom import (
+    ALONG_BOTTOM,
+    LastLengths,
+    length_along_bottom,
+)
 from footfit.pipeline.fit.heel_model import FILE, heel_model, heel_model_of, heel_question
 from footfit.pipeline.fit.heels import heel_change, heels_of
 from footfit.pipeline.fit.match import Question, matched, meets
 from footfit.pipeline.fit.scoring import distance_spread, fit_distance, scores
-from footfit.pipeline.fit.zones import last_shape, pitch_gain_mm
+from footfit.pipeline.fit.zones import LENGTHS
 from footfit.results import Candidate, HeelQuestion, LastRecord, Match, Measure, Measured
 from footfit.results.heel import AS_SCANNED, FLARE
 from tests import answers
@@ -42,13 +48,46 @@ WHOLE |= {"short_heel_girth": 320.0, "long_heel_girth": 340.0}
 
 
 def heeled(name: str, drop_mm: float | None, **more: Any) -> LastRecord:
-    """A last whose label says its heel, and whose length says what its bottom's is."""
+    """A last whose label says its heel, and that is as long along its bottom as its length says."""
     record = last(name, heel_height_mm=drop_mm, **more)
-    bottom_mm = record.length_mm or 0.0
-    gain = pitch_gain_mm(last_shape(record))
-    rows = {row.name: row for row in record.measures}
-    rows["length"] = replace(rows["length"], measured=Measured(bottom_mm - gain, SD_MM))
-    return replace(record, measures=tuple(rows.values()))
+    if drop_mm is None:
+        return record
+    lengths = bottom_of(record.length_mm or 0.0, drop_mm)
+    rows = tuple(
+        Measure(key, Measured(value, SD_MM), LENGTHS[key]) for key, value in asdict(lengths).items()
+    )
+    return replace(record, measures=record.measures + rows)
+
+
+def bottom_of(length_mm: float, heel_mm: float) -> LastLengths:
+    """The measures of a last that is ``length_mm`` along its bottom."""
+    stick_mm = length_mm - heel_mm**2 / (1.2 * length_mm)
+    drawn = LastLengths(
+        bottom_length=length_mm,
+        stick_length=stick_mm,
+        heel_height=heel_mm,
+        seat_angle_deg=0.25 * heel_mm,
+        tread_from=0.6 * stick_mm,
+        tread_to=0.8 * stick_mm,
+        toe_spring_tip=6.0,
+    )
+
+    def off_mm(bottom_mm: float) -> float:
+        return (
+            length_along_bottom(length_mm, replace(drawn, bottom_length=bottom_mm))[0] - length_mm
+        )
+
+    high = heel_mm > ALONG_BOTTOM.level_mm
+    return (
+        replace(drawn, bottom_length=brentq(off_mm, 0.5 * length_mm, 1.5 * length_mm))
+        if high
+        else drawn
+    )
+
+
+def bottom_sd_mm(length_mm: float, heel_mm: float) -> float:
+    """How unsure its length along the bottom is."""
+    return length_along_bottom(length_mm, bottom_of(length_mm, heel_mm))[1]
 
 
 def answer(*lasts: LastRecord, heel: HeelQuestion = HEEL, **more: Any) -> Match:
@@ -96,7 +135,8 @@ def test_every_zone_compares_the_foot_as_it_is_in_the_heel(drop_mm: float, share
     for name, value in expected.items():
         clearance = zone(found, name).clearance
         assert clearance.value == pytest.approx(value, abs=ROUNDING), name
-        scan = 2.0**0.5 * scan_sd.get(name, SD_MM)
+        bottom_sd = bottom_sd_mm(273.0, drop_mm) if name == "length" else 0.0
+        scan = np.hypot(2.0**0.5 * scan_sd.get(name, SD_MM), bottom_sd)
         sd = np.hypot(scan, share * model_sd.get(name, 2.0))
         assert clearance.sd == pytest.approx(sd, abs=ROUNDING), name
     assert found.flare.delta_deg == pytest.approx(-2.0 * share, abs=ROUNDING)
@@ -142,7 +182,9 @@ def test_as_scanned_is_what_was_measured(by: str) -> None:
             assert here.clearance == there.clearance
             continue
         assert here.clearance.value == pytest.approx(there.clearance.value, abs=ROUNDING)
-        assert here.clearance.sd == pytest.approx(there.clearance.sd, abs=EXACT)
+        bottom_sd = bottom_sd_mm(273.0, 60.0) if here.zone == "length" else 0.0
+        sd = np.hypot(there.clearance.sd, bottom_sd)
+        assert here.clearance.sd == pytest.approx(sd, abs=EXACT)
     assert found.why == flat.why
     assert found.fits[0].heel is None
     assert answer(heeled("a", 60.0), heel=AS_SCANNED).to_dict()["heel_model"] is None

@@ -21,7 +21,7 @@ from footfit.pipeline.fit.compare import best_comparison
 from footfit.pipeline.fit.fit_profile import fit_profile
 from footfit.pipeline.fit.match import Question, matched, meets
 from footfit.pipeline.fit.scoring import rescan_spread
-from footfit.pipeline.fit.zones import BALL_SHARE, ball_line_mm, last_shape, pitch_gain_mm
+from footfit.pipeline.fit.zones import BALL_SHARE, ball_line_mm
 from footfit.pipeline.scan.reading import profiled_source
 from footfit.report.page.match_page import match_page
 from footfit.report.terminal.match_tables import match_table
@@ -398,22 +398,6 @@ def test_the_profile_is_in_the_answer_with_its_hash() -> None:
     assert found.fit_profile == fit_profile("dress")
 
 
-# ---------------------------------------------------------------- pitch
-
-
-def test_a_heel_makes_the_bottom_longer_than_its_chord() -> None:
-    """Against the triangle: the forepart of true length f rises by the pitch from the chord."""
-    chord_mm, forepart_mm = 190.0, 80.0
-    for heel_mm in (20.0, 45.0, 75.0):
-        pitch = np.arcsin(heel_mm / chord_mm)
-        length_mm = chord_mm + forepart_mm * np.cos(pitch)
-        pitched = last("a", length_mm, heel_height_mm=heel_mm, ball_length=chord_mm)
-        gain = pitch_gain_mm(last_shape(replace(pitched, extent_mm=length_mm)))
-        assert length_mm + gain == pytest.approx(chord_mm + forepart_mm)
-    flat = last("a", heel_height_mm=None)
-    assert pitch_gain_mm(last_shape(flat)) == 0.0
-
-
 # ---------------------------------------------------------------- the library
 
 
@@ -456,17 +440,17 @@ def test_lasts_that_were_measured_otherwise_are_said(stocked: Any, tmp_path: Pat
 
 
 def test_a_last_that_is_searched_for_is_as_long_as_itself(stocked: Any) -> None:
-    """Along its bottom, as every last of the library: the pitch is no clearance.
+    """Along its bottom, as every last of the library: the heel is no clearance.
 
     The stored last stands by its label, at 25 mm of heel, and the mesh by its shape, at 23.5 mm.
-    That is 0.087 mm of length.
+    That is 0.186 mm of length.
     """
     found = choice(stocked, None, None)
     path = SAMPLES / "lasts" / "derby-40.stl"
     mesh = profiled_source(Source(str(path)), ReadingOptions())
     best = matched([mesh], found, Question(by="shape")).candidates[0]
     assert best.last == "derby-40"
-    assert dict(best.clearance_mm)["length"].value == pytest.approx(0.0, abs=0.17)
+    assert dict(best.clearance_mm)["length"].value == pytest.approx(0.0, abs=0.35)
 
 
 def test_what_was_not_judged_passes_no_check_and_is_said() -> None:

@@ -20,7 +20,9 @@ class AlongBottomSettings:
     ----------
     level_mm, raised_mm : float
         Up to the first heel height a last counts as level: its own length is taken. From the second
-        on the length along the bottom is taken, and between them a part of it.
+        on the length along the bottom is taken, and between them a part of each.
+    between_sd_mm : float
+        The two differ by so much there, times the part of the one and the part of the other.
     seat : float
         The seat is straight as far from the rearmost point; its angle is measured up to there.
     overhang, overhang_sd : float
@@ -35,8 +37,9 @@ class AlongBottomSettings:
         The toe is taken to spring over at least as much.
     """
 
-    level_mm: float = 5.0
-    raised_mm: float = 25.0
+    level_mm: float = 10.0
+    raised_mm: float = 40.0
+    between_sd_mm: float = 4.5
     seat: float = 0.14
     overhang: float = 0.0235
     overhang_sd: float = 0.006
@@ -96,7 +99,9 @@ def length_along_bottom(
     usual_sd_mm = settings.overhang_sd * last.bottom_length
     trust = usual_sd_mm**2 / (usual_sd_mm**2 + sd_mm**2)
     along_mm = last.bottom_length - spring_mm + usual_mm + trust * (overhang_mm - usual_mm)
-    return level_mm + part * (along_mm - level_mm), part * math.sqrt(trust) * sd_mm
+    between_sd_mm = (1.0 - part) * settings.between_sd_mm
+    spread_mm = part * math.hypot(math.sqrt(trust) * sd_mm, between_sd_mm)
+    return level_mm + part * (along_mm - level_mm), spread_mm
 
 
 def _bend_mm(last: LastLengths, settings: AlongBottomSettings) -> float:

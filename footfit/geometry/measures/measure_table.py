@@ -69,7 +69,7 @@ MEASURES: tuple[MeasureDefinition, ...] = (
     MeasureDefinition(widths.bottom_width_heel, 1, 0.2, LAST),
     MeasureDefinition(lengths.tape_length, 1, 0.25, LAST),
     MeasureDefinition(lengths.stick_length, 1, 0.3, LAST),
-    MeasureDefinition(lengths.bottom_length, 1, 0.5, LAST),
+    MeasureDefinition(lengths.bottom_length, 2, 0.5, LAST),
     MeasureDefinition(heights.toe_spring_tip, 1, 0.8, LAST),
     MeasureDefinition(lengths.tread_from, 1, 2.0, LAST),
     MeasureDefinition(lengths.tread_to, 1, 2.0, LAST),

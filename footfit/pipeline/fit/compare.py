@@ -128,6 +128,7 @@ def compared(
     heels = heels_of(asked, [last.record])
     inside = placed_foot(foot, last, heels)
     pairs = section_pairs(inside.foot, last.shape)
+    room = toe_room(foot, last.record, heels)
     return results.Comparison(
         foot=foot,
         last=last.record,
@@ -140,8 +141,8 @@ def compared(
         clearance_mm=inside.clearance_mm,
         zones=inside.zones,
         sections=tuple(_section(pair, heels) for pair in pairs),
-        warnings=_warnings(foot, last.record),
-        toe_room=toe_room(foot, last.record, heels),
+        warnings=_warnings(foot, last.record, room),
+        toe_room=room,
         heel=heel_change(heels, 0, foot),
     )
 
@@ -160,7 +161,9 @@ def best_comparison(path: Path, match: results.Match, foot: int = 0) -> results.
         return None
 
 
-def _warnings(foot: results.Profiled, last: results.LastRecord) -> tuple[results.Notice, ...]:
+def _warnings(
+    foot: results.Profiled, last: results.LastRecord, room: results.Measured
+) -> tuple[results.Notice, ...]:
     notices = list(foot.aligned.alignment.warnings)
     first, second = comparison_nouns(foot)
     if not foot.aligned.alignment.pose.sole:
@@ -168,9 +171,7 @@ def _warnings(foot: results.Profiled, last: results.LastRecord) -> tuple[results
             f"the {first}'s scan has no sole: do not trust the clearance under it, nor its height"
         )
         notices.append(results.Notice("no_sole", words))
-    longer = last.extent_mm - foot.aligned.alignment.extent_mm
-    if foot.length_mm is not None and last.length_mm is not None:
-        longer = last.length_mm - foot.length_mm
+    longer = last.extent_mm - foot.aligned.alignment.extent_mm if room.value is None else room.value
     if abs(longer) > FAR_MM:
         words = f"the {second} is {abs(longer):.0f} mm {'longer' if longer > 0 else 'shorter'}"
         notices.append(results.Notice("far_size", f"{words} than the {first}: it fits in no zone"))

@@ -9,12 +9,18 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, fields
 
 import numpy as np
 
+from footfit.geometry.fit.along_the_bottom import (
+    ALONG_BOTTOM,
+    LastLengths,
+    length_along_bottom,
+)
 from footfit.geometry.flare.definition import CHANNELS, FlareProfile
 from footfit.geometry.flare.profile_distance import DISTANCE
+from footfit.geometry.measures.measure_table import measure_named
 from footfit.geometry.numeric.arrays import Floats
 from footfit.pipeline.fit.heels import Heels, full_change
 from footfit.pipeline.fit.scoring import Column
@@ -24,13 +30,11 @@ from footfit.results.heel import FLARE
 LENGTH_SD_MM = 0.5
 """Repeatability of an aligned length between two scans of one shape (docs/alignment.md)."""
 PLAN_SD = DISTANCE.sd[CHANNELS.index("plan")]
-HEEL_FROM_MM = 5.0
-"""From this heel height on a last is pitched; below, the correction is under 0.05 mm."""
 BALL_SHARE = 0.72
 """Where the ball lies, over the length, if it was not measured."""
-STEEPEST = 0.6
-"""The sine of the steepest pitch that counts: a heel of 110 mm."""
-
+OTHER_DEFINITION = "measured by another definition; type: footfit upgrade-catalogue"
+LENGTHS = {field.name: measure_named(field.name).definition_id for field in fields(LastLengths)}
+"""The measures that say how long a last is along its bottom, with their definitions."""
 
 TOE_HEIGHT, TOES = "toe_height", "toes"
 TOE_BOX = frozenset({TOE_HEIGHT, TOES})
@@ -260,7 +264,7 @@ def measure_difference(foot: ZoneShape, last: ZoneShape, name: str) -> Clearance
             reason = shape.measures[name].measured.reason or "not measured"
             return missing(f"the {kind}: {reason}")
     if foot.measures[name].definition != last.measures[name].definition:
-        return missing("measured by another definition; type: footfit upgrade-catalogue")
+        return missing(OTHER_DEFINITION)
     ours, theirs = foot.measures[name].measured, last.measures[name].measured
     assert ours.value is not None
     assert theirs.value is not None
@@ -277,24 +281,35 @@ def _length(foot: ZoneShape, last: ZoneShape) -> Clearance:
         if foot_mm is None or last_mm is None:
             return measure_difference(foot, last, "length")
         room = Clearance(last_mm - foot_mm, LENGTH_SD_MM, LENGTH_SD_MM)
-    return replace(room, value=room.value + pitch_gain_mm(last) - pitch_gain_mm(foot))
+    ours, theirs = bottom_gain(foot), bottom_gain(last)
+    if ours.reason is not None or theirs.reason is not None:
+        return missing(ours.reason or theirs.reason or "")
+    return Clearance(
+        room.value + theirs.value - ours.value,
+        math.hypot(room.foot_sd, ours.last_sd),
+        math.hypot(room.last_sd, theirs.last_sd),
+    )
 
 
-def pitch_gain_mm(last: ZoneShape) -> float:
-    """How much longer a pitched last is along its bottom than along X.
+def bottom_gain(last: ZoneShape) -> Clearance:
+    """How much longer a last with a heel is along its bottom than along its resting plane.
 
-    The frame rests a last on its seat and its ball, so X lies along their chord. The forepart
-    stands on the ground and rises from that chord by the pitch, whose sine is the heel height over
-    the chord. A foot that was scanned flat lies along the bottom, so the forepart counts with its
-    own length.
+    Without the measures of its bottom the toe room of a last with a high heel is not known.
     """
-    heel = last.heel_height_mm
-    if heel is None or heel < HEEL_FROM_MM:
-        return 0.0
-    ball = last.measured_mm("ball_length")
-    chord = BALL_SHARE * last.extent_mm if ball is None else ball
-    sine = min(heel / chord, STEEPEST)
-    return (last.extent_mm - chord) * (1.0 / math.sqrt(1.0 - sine * sine) - 1.0)
+    heel_mm = last.heel_height_mm
+    if heel_mm is None or heel_mm <= ALONG_BOTTOM.level_mm:
+        return Clearance(0.0)
+    found = [last.measures.get(name) for name in LENGTHS]
+    known = [row.measured.value for row in found if row is not None]
+    lengths = [value for value in known if value is not None]
+    level_mm = last.measured_mm("functional_length") or last.measured_mm("length")
+    if level_mm is None or len(lengths) < len(LENGTHS):
+        low = heel_mm < ALONG_BOTTOM.raised_mm
+        return Clearance(0.0) if low else missing("the last: its bottom is not measured")
+    if any(row is not None and row.definition != LENGTHS[row.name] for row in found):
+        return missing(OTHER_DEFINITION)
+    along_mm, sd_mm = length_along_bottom(level_mm, LastLengths(*lengths))
+    return Clearance(along_mm - level_mm, last_sd=sd_mm)
 
 
 def ball_line_mm(ball_mm: Floats, room_mm: Floats, asked_mm: float) -> Floats:
