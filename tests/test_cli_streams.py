@@ -76,6 +76,26 @@ def test_what_a_command_writes_is_written_though_its_answer_is_lost(shop: Path) 
     assert (shop / "copy.footfit").exists()
 
 
+@pytest.mark.parametrize(
+    ("stream", "code"), [("| true", 0), pytest.param("> /dev/full", 2, marks=FULL)]
+)
+@pytest.mark.parametrize(
+    "command",
+    [
+        "measure foot.stl --csv answer.csv",
+        "align foot.stl -o answer.stl",
+        "compare foot.stl derby-40 --html answer.html --catalogue lasts.footfit",
+        "list-lasts --csv answer.csv --catalogue lasts.footfit",
+    ],
+)
+def test_files_are_written_though_nobody_reads_the_answer(
+    command: str, stream: str, code: int, shop: Path
+) -> None:
+    run = bash(f"footfit {command} {stream}", shop)
+    assert run.code == code, run.err
+    assert [path.suffix for path in shop.glob("answer.*")] != []
+
+
 @pytest.mark.parametrize("stream", ["2>&-", pytest.param("2> /dev/full", marks=FULL)])
 def test_without_stderr_the_answer_and_the_code_are_the_same(stream: str, shop: Path) -> None:
     assert bash(f"{LIST} {stream}", shop).out == bash(LIST, shop).out

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any, TypeVar
 
 import typer
 
-from footfit.cli.console import answer, error_line, say, say_notices, show
+from footfit.cli.console import AnswerLost, ReaderGone, answer, error_line, say, say_notices, show
 from footfit.cli.notices import Notices
 from footfit.cli.options import STDOUT
 from footfit.cli.outputs import say_written
@@ -76,6 +76,7 @@ def answer_outcomes(
     errors: list[FootfitError] = []
     tables: list[T] = []
     notices = Notices(mode)
+    lost: Exception | None = None
     with failures_last(mode) as say_failure, progress(mode, scans) as bar:
         for outcome in bar.items(outcomes):
             result = outcome.value
@@ -87,7 +88,12 @@ def answer_outcomes(
                     answer(line)
                 say_failure(line)
                 continue
-            tell(result, mode, notices)
+            try:
+                tell(result, mode, notices)
+            except (ReaderGone, AnswerLost) as error:
+                if not outputs.paths:
+                    raise
+                lost, mode = error, replace(mode, answers=False)  # the files are still wanted
             write_files(outputs, result, mode, bar)
             if outputs.csv is not None:
                 tables.append(result)
@@ -97,6 +103,8 @@ def answer_outcomes(
         if errors and mode.total > 1:
             say(f"{len(errors)} of {mode.total} meshes failed", quiet=mode.quiet or mode.json)
         say_written(outputs.write_csv(tables), quiet=mode.quiet)
+    if lost is not None:
+        raise lost
     return common_code(int(error.exit) for error in errors)
 
 
@@ -108,11 +116,17 @@ def _advised(error: FootfitError) -> FootfitError:
 
 
 def answer_result(result: Any, mode: OutputMode, outputs: Outputs) -> None:
-    """Tell a single result, and write its files."""
-    tell(result, replace(mode, answers=outputs.csv != STDOUT))
+    """Tell a single result, and write its files, also if nobody reads the answer."""
+    lost: Exception | None = None
+    try:
+        tell(result, replace(mode, answers=outputs.csv != STDOUT))
+    except (ReaderGone, AnswerLost) as error:
+        lost = error
     with progress(mode) as bar:
         write_files(outputs, result, mode, bar)
     say_written(outputs.write_csv([result]), quiet=mode.quiet)
+    if lost is not None:
+        raise lost
 
 
 def write_files(outputs: Outputs, result: Any, mode: OutputMode, bar: Progress) -> None:

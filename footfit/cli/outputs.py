@@ -54,12 +54,13 @@ class Outputs:
             raise BadOption("--csv - and --json both write to stdout; give --csv a file")
         if self.csv != STDOUT:
             refuse_existing(self.csv, force=self.force)
-        paths = [path.absolute() for path in self._paths()]
-        for path in self._paths():
+        paths = [path.absolute() for path in self.paths]
+        for path in self.paths:
             if paths.count(path.absolute()) > 1:
                 raise BadOption("is named for two outputs; name two files", str(path))
 
-    def _paths(self) -> list[Path]:
+    @property
+    def paths(self) -> list[Path]:
         """Every file that is written."""
         paths = [file.path for file in self.files] + [self.csv]
         return [path for path in paths if path is not None and path != STDOUT]
@@ -72,7 +73,7 @@ class Outputs:
         BadOption
             The scan would be lost, also with --force.
         """
-        there = [path for path in self._paths() if path.exists()]
+        there = [path for path in self.paths if path.exists()]
         for source in sources if there else ():
             name = source.path or ""
             read = Path(name if Path(name).exists() else name.rpartition("#")[0])
