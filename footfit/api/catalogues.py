@@ -28,6 +28,7 @@ from footfit.pipeline.batch.sources import Source
 from footfit.pipeline.library import backup, check, lasts
 
 if TYPE_CHECKING:
+    from footfit.pipeline.evidence.recording import Said
     from footfit.pipeline.fit.match import Question
     from footfit.pipeline.library.ingest import Entry, HoldSignals, KeepMesh
 
@@ -136,6 +137,62 @@ class Catalogue:
 
         around = stored_last(self.path, last)
         return compared(profiled_shape(foot, reading), around, heel_options(reading))
+
+    # ------------------------------------------------------------ the fit log
+
+    def record_fit(
+        self,
+        last: str,
+        foot: Shape,
+        said: Said,
+        *,
+        consent: bool = False,
+        profile: str = "walking",
+        **reading: Unpack[CompareKeywords],
+    ) -> results.RecordOutcome:
+        """Store what a wearer said of a shoe, with the clearances of the foot in its last.
+
+        No mesh, no file name and no name is stored. ``consent``: the wearer agrees that ratings and
+        clearances are kept.
+
+        Raises
+        ------
+        BadOption
+            There is no consent, or no such profile; nothing is stored.
+        UnknownLast, InputError, GeometryRefused
+            As `compare`; HalfScan if the length of the foot is not known.
+        """
+        from footfit.pipeline.evidence.recording import NO_CONSENT, fit_entry
+        from footfit.pipeline.fit.fit_profile import fit_profile
+
+        if not consent:
+            raise BadOption(NO_CONSENT)
+        asked = fit_profile(profile)
+        with store.open_catalogue(self.path) as catalogue:
+            record = catalogue.record(catalogue.name(last))
+        shape = profiled_shape(foot, reading)
+        entry = fit_entry(shape, record, asked, heel_options(reading), said)
+        with self._written() as catalogue:
+            catalogue.fit_log.add(entry)
+        return results.RecordOutcome(entry)
+
+    def fits(self) -> results.FitList:
+        """Every entry of the fit log, oldest first."""
+        with store.open_catalogue(self.path) as catalogue:
+            return results.FitList(catalogue.fit_log.entries())
+
+    def forget_fits(self, asked: str) -> results.ForgetOutcome:
+        """Remove the entries of a wearer's code, or one entry by its id, for good.
+
+        Raises
+        ------
+        UnknownFit
+            There is no such code or id.
+        """
+        with self._written() as catalogue:
+            return catalogue.fit_log.forget(asked)
+
+    # ------------------------------------------------------------ the question
 
     def _question(self, question: MatchKeywords) -> Question:
         from footfit.pipeline.fit.fit_profile import fit_profile

@@ -13,6 +13,7 @@ from footfit import results
 from footfit.report.terminal import (
     catalogue_tables,
     comparison_tables,
+    evidence_tables,
     match_tables,
     scan_tables,
 )
@@ -116,5 +117,8 @@ FORMS: dict[type, Form] = {
     results.CheckOutcome: Form(catalogue_tables.check_catalogue_table),
     results.BackupOutcome: Form(catalogue_tables.backup_catalogue_line),
     results.RestoreOutcome: Form(catalogue_tables.restore_catalogue_table),
+    results.RecordOutcome: Form(evidence_tables.record_fit_line),
+    results.FitList: Form(evidence_tables.list_fits_table),
+    results.ForgetOutcome: Form(evidence_tables.forget_fits_line),
     results.DemoOutcome: Form(catalogue_tables.demo_table),
 }

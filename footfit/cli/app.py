@@ -18,6 +18,7 @@ HEADINGS = {
     "Start here": "demo",
     "The paper's commands": "ingest-last set-reference align flare curvature measure match",
     "Fit": "compare",
+    "What wearers say": "record-fit list-fits forget-fits",
     "The library of lasts": (
         "list-lasts show-last rename-last remove-last export-last catalogue-info check-catalogue"
         " backup-catalogue restore-catalogue upgrade-catalogue"

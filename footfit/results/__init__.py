@@ -25,6 +25,7 @@ from footfit.results.fit_entries import FitEntry as FitEntry
 from footfit.results.fit_entries import FitList as FitList
 from footfit.results.fit_entries import ForgetOutcome as ForgetOutcome
 from footfit.results.fit_entries import RatedZone as RatedZone
+from footfit.results.fit_entries import RecordOutcome as RecordOutcome
 from footfit.results.heel import HeelChange as HeelChange
 from footfit.results.heel import HeelModel as HeelModel
 from footfit.results.heel import HeelQuestion as HeelQuestion

@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Literal
 
-from footfit.results.values import Document, Json, Part, SideName, exact, fields, part, rows
+from footfit.results.values import Document, Json, Part, SideName, exact, fields, part
 
 Outcome = Literal["kept", "returned", "altered"]
 
@@ -69,10 +69,34 @@ class FitEntry(Part):
         return fields(self) | {"zones": part({zone.zone: zone for zone in self.zones})}
 
 
-COLUMNS = (
-    *("id", "recorded", "wearer", "last", "side", "profile", "profile_version"),
+PLACES: dict[str, tuple[str, ...]] = {
+    "toe": ("length", "toe_height"),
+    "ball": ("ball_girth", "ball_width"),
+    "waist": ("waist_girth",),
+    "instep": ("instep_girth",),
+    "heel": ("heel_width", "short_heel_girth"),
+    "opening": ("long_heel_girth",),
+}
+"""The places that a wearer can name, and the zones that a rating of each speaks for."""
+
+OF_ENTRY = (
+    *("id", "recorded", "wearer", "last", "last_sha256", "foot_sha256", "side"),
+    *("profile", "profile_version", "profile_sha256", "footfit_version"),
     *("comfort", "outcome", "alteration", "hours", "days"),
 )
+OF_ZONE = ("place", "rating", "zone", "unit", "clearance", "sd", "definition")
+
+
+@dataclass(frozen=True, slots=True)
+class RecordOutcome(Document):
+    """The entry that was stored."""
+
+    entry: FitEntry
+
+    schema = "record-fit/1"
+
+    def _keys(self) -> Json:
+        return {"status": "recorded", **self.entry._keys()}
 
 
 @dataclass(frozen=True, slots=True)
@@ -81,31 +105,40 @@ class FitList(Document):
 
     entries: tuple[FitEntry, ...]
 
-    schema = "fits/1"
-    rows_by = "fits"
+    columns = (*OF_ENTRY, *OF_ZONE)
+    schema = "list-fits/1"
 
     def _keys(self) -> Json:
         return {"fits": list(self.entries)}
 
-    def to_rows(self) -> list[Json]:
-        """One row for each entry; ratings and clearances have a column for each place and zone."""
-        places = sorted({place for entry in self.entries for place in entry.ratings})
-        zones = list(dict.fromkeys(z.zone for entry in self.entries for z in entry.zones))
-        columns = (
-            *COLUMNS,
-            *(f"rating_{place}" for place in places),
-            *(f"clearance_{zone}" for zone in zones),
-        )
-        return rows(columns, (_row(entry, places, zones) for entry in self.entries))
+    def rows(self) -> list[Json]:
+        """A row for each zone of each entry, with the rating that speaks for it, if there is one.
+
+        A place that was rated and has no measured zone has a row of its own.
+        """
+        values = [
+            (*(getattr(entry, name) for name in OF_ENTRY), *of_zone)
+            for entry in self.entries
+            for of_zone in _zone_rows(entry)
+        ]
+        return [dict(zip(self.columns, row, strict=True)) for row in values]
 
 
-def _row(entry: FitEntry, places: list[str], zones: list[str]) -> list[object]:
-    clearance = {zone.zone: zone.clearance for zone in entry.zones}
-    return [
-        *(getattr(entry, name) for name in COLUMNS),
-        *(entry.ratings.get(place) for place in places),
-        *(clearance.get(zone) for zone in zones),
+def _zone_rows(entry: FitEntry) -> list[tuple[object, ...]]:
+    place_of = {zone: place for place, zones in PLACES.items() for zone in zones}
+    rows: list[tuple[object, ...]] = []
+    for zone in entry.zones:
+        place = place_of.get(zone.zone)
+        rating = None if place is None else entry.ratings.get(place)
+        values = (zone.zone, zone.unit, zone.clearance, zone.sd, zone.definition)
+        rows.append((None if rating is None else place, rating, *values))
+    shown = {row[0] for row in rows}
+    rows += [
+        (place, rating, None, None, None, None, None)
+        for place, rating in entry.ratings.items()
+        if place not in shown
     ]
+    return rows or [(None,) * len(OF_ZONE)]
 
 
 @dataclass(frozen=True, slots=True)
@@ -116,3 +149,6 @@ class ForgetOutcome(Document):
     entries: int
 
     schema = "forget-fits/1"
+
+    def _keys(self) -> Json:
+        return {"status": "forgotten", **fields(self)}

@@ -21,7 +21,7 @@ from footfit.errors import NoCatalogue
 from footfit.meshes.copies.compact_copy import compact_copy
 from footfit.pipeline.library.backup import back_up, restore
 from footfit.results import MeshCopy
-from tests import answers, records
+from tests import answers, fits, records
 from tests.torture.migrations import OLD_FILE, later_schema
 
 MAIN = "lasts.footfit"
@@ -201,6 +201,20 @@ def migrating(folder: Path, done: int) -> Iterator[None]:
         yield
 
 
+def recording(folder: Path, done: int) -> Iterator[None]:
+    """Entries of the fit log, each in an opening of its own, and two that are forgotten."""
+    for step in RECORDS[done:]:
+        step(folder)
+        yield
+
+
+RECORDS: tuple[Callable[[Path], None], ...] = (
+    *(_edit(lambda c, entry: c.fit_log.add(entry), fits.entry(n)) for n in range(6)),
+    _edit(lambda c: c.fit_log.forget("W2")),
+    _edit(lambda c: c.fit_log.forget(fits.entry(4).id)),
+)
+
+
 def _old_file(folder: Path) -> None:
     shutil.copy(OLD_FILE, folder / MAIN)
 
@@ -208,4 +222,6 @@ def _old_file(folder: Path) -> None:
 INGEST = Script("ingest", filling)
 EDIT = Script("edit, backup, restore", editing, _filled)
 MIGRATE = Script("migrate", migrating, _old_file)
-SCRIPTS = {script.name.split(",")[0]: script for script in (INGEST, EDIT, MIGRATE)}
+RECORD = Script("record fits", recording, _filled)
+ALL = (INGEST, EDIT, MIGRATE, RECORD)
+SCRIPTS = {script.name.split(",")[0]: script for script in ALL}

@@ -11,16 +11,7 @@ import numpy as np
 from footfit.errors import BadOption
 from footfit.pipeline.evidence.ratings_model import MODEL, RATINGS, Ratings
 from footfit.results import FitEntry
-
-PLACES: dict[str, tuple[str, ...]] = {
-    "toe": ("length", "toe_height"),
-    "ball": ("ball_girth", "ball_width"),
-    "waist": ("waist_girth",),
-    "instep": ("instep_girth",),
-    "heel": ("heel_width", "short_heel_girth"),
-    "opening": ("long_heel_girth",),
-}
-"""The places that a wearer can name, and the zones that a rating of each speaks for."""
+from footfit.results.fit_entries import PLACES
 
 
 @dataclass(frozen=True, slots=True)

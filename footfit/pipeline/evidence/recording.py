@@ -1,0 +1,121 @@
+"""An entry of the fit log: what a match knew of a foot in a last, and what its wearer said."""
+
+from __future__ import annotations
+
+import re
+import secrets
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+from datetime import UTC, datetime
+
+from footfit.errors import BadOption, HalfScan
+from footfit.pipeline.evidence.zone_ratings import place_ratings
+from footfit.pipeline.fit.ranking import foot_fits, judged_lasts
+from footfit.results import FitEntry, FitProfile, HeelQuestion, LastRecord, Profiled, RatedZone
+from footfit.results.fit_entries import Outcome
+from footfit.version import __version__
+
+CODE = re.compile(r"[A-Za-z0-9._-]{1,40}")
+LONGEST_ALTERATION = 200
+NO_CONSENT = (
+    "nothing was stored: the wearer must agree that ratings and clearances are kept;"
+    " then add --consent"
+)
+
+
+@dataclass(frozen=True, slots=True)
+class Said:
+    """What a wearer said of a shoe; checked when it is made.
+
+    Raises
+    ------
+    BadOption
+        Nothing is said, or a value is not possible.
+    """
+
+    zones: Sequence[str] = ()
+    comfort: float | None = None
+    outcome: Outcome | None = None
+    alteration: str | None = None
+    hours: float | None = None
+    days: float | None = None
+    wearer: str | None = None
+    worn: Mapping[str, object] = field(default_factory=dict)
+
+    def __post_init__(self) -> None:
+        place_ratings(self.zones)
+        if not self.zones and self.comfort is None and self.outcome is None:
+            raise BadOption(
+                "nothing is said of the fit; add --zone, --comfort, --kept, --returned or --altered"
+            )
+        if self.comfort is not None and not 0.0 <= self.comfort <= 100.0:
+            raise BadOption(f"comfort {self.comfort:g} is not from 0 (worst) to 100 (best)")
+        for name, value in (("hours", self.hours), ("days", self.days)):
+            if value is not None and not 0.0 <= value <= 100_000.0:
+                raise BadOption(f"{name} {value:g} is not possible")
+        if self.wearer is not None and not CODE.fullmatch(self.wearer):
+            raise BadOption(
+                f"{self.wearer!r} is no code; take up to 40 letters, digits, dots and dashes,"
+                " and never a name"
+            )
+        if self.alteration is not None and not 0 < len(self.alteration) <= LONGEST_ALTERATION:
+            raise BadOption(f"say in 1 to {LONGEST_ALTERATION} characters what was altered")
+
+
+def fit_entry(
+    foot: Profiled, last: LastRecord, profile: FitProfile, heel: HeelQuestion, said: Said
+) -> FitEntry:
+    """The entry for a foot that wore a shoe on this last, with the clearances of a match.
+
+    Raises
+    ------
+    HalfScan
+        The length of the foot is not known.
+    """
+    alignment = foot.aligned.alignment
+    if alignment.length.value is None:
+        words = f"{alignment.length.reason}; its clearances are not known: scan again"
+        raise HalfScan(words, alignment.info.path)
+    (fit,) = foot_fits(judged_lasts([foot], [last], profile, "fit", heel), 0)
+    known = definitions(last)
+    zones = [
+        RatedZone(
+            zone=zone.zone,
+            unit=zone.unit,
+            clearance=zone.clearance.value,
+            sd=zone.clearance.sd or 0.0,
+            definition=known.get(zone.zone, ""),
+        )
+        for zone in fit.zones
+        if zone.clearance.value is not None
+    ]
+    return FitEntry(
+        id=secrets.token_hex(6),
+        recorded=datetime.now(UTC).strftime("%Y-%m-%dT%H:%M:%SZ"),
+        last=last.labels.name,
+        last_sha256=last.info.sha256,
+        foot_sha256=alignment.info.sha256,
+        side=alignment.side.side,
+        wearer=said.wearer,
+        profile=profile.name,
+        profile_version=profile.version,
+        profile_sha256=profile.sha256,
+        worn={"drop_mm": last.drop_mm, **said.worn},
+        zones=tuple(zones),
+        ratings=place_ratings(said.zones),
+        comfort=said.comfort,
+        outcome=said.outcome,
+        alteration=said.alteration,
+        hours=said.hours,
+        days=said.days,
+        footfit_version=__version__,
+    )
+
+
+def definitions(last: LastRecord) -> dict[str, str]:
+    """The definition of each zone's measure on a last; the toe room has that of its length."""
+    by_name = {measure.name: measure.definition for measure in last.measures}
+    length = by_name.get("functional_length", by_name.get("length", ""))
+    ball = by_name.get("ball_length", "")
+    flare = last.flare.definition.version
+    return by_name | {"length": length, "ball_line": ball, "flare": flare, "plan": flare}
