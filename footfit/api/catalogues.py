@@ -171,7 +171,7 @@ class Catalogue:
         with store.open_catalogue(self.path) as catalogue:
             record = catalogue.record(catalogue.name(last))
         shape = profiled_shape(foot, reading)
-        entry = fit_entry(shape, record, asked, heel_options(reading), said)
+        entry = fit_entry(shape, record, asked, heel_options(reading), said, self.path)
         with self._written() as catalogue:
             catalogue.fit_log.add(entry)
         return results.RecordOutcome(entry)

@@ -70,7 +70,7 @@ class FitEntry(Part):
 
 
 PLACES: dict[str, tuple[str, ...]] = {
-    "toe": ("length", "toe_height"),
+    "toe": ("length", "toe_height", "toes"),
     "ball": ("ball_girth", "ball_width"),
     "waist": ("waist_girth",),
     "instep": ("instep_girth",),

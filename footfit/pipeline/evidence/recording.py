@@ -7,6 +7,7 @@ import secrets
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from datetime import UTC, datetime
+from pathlib import Path
 
 from footfit.errors import BadOption, HalfScan
 from footfit.pipeline.evidence.zone_ratings import place_ratings
@@ -17,6 +18,8 @@ from footfit.version import __version__
 
 CODE = re.compile(r"[A-Za-z0-9._-]{1,40}")
 LONGEST_ALTERATION = 200
+TOES = "toes/1"
+"""The definition of the walls beside the toes; a change of it needs another number."""
 NO_CONSENT = (
     "nothing was stored: the wearer must agree that ratings and clearances are kept;"
     " then add --consent"
@@ -63,9 +66,16 @@ class Said:
 
 
 def fit_entry(
-    foot: Profiled, last: LastRecord, profile: FitProfile, heel: HeelQuestion, said: Said
+    foot: Profiled,
+    last: LastRecord,
+    profile: FitProfile,
+    heel: HeelQuestion,
+    said: Said,
+    file: Path | None = None,
 ) -> FitEntry:
     """The entry for a foot that wore a shoe on this last, with the clearances of a match.
+
+    ``file`` is the catalogue that holds the sections of the last, for its toe box.
 
     Raises
     ------
@@ -76,7 +86,7 @@ def fit_entry(
     if alignment.length.value is None:
         words = f"{alignment.length.reason}; its clearances are not known: scan again"
         raise HalfScan(words, alignment.info.path)
-    (fit,) = foot_fits(judged_lasts([foot], [last], profile, "fit", heel), 0)
+    (fit,) = foot_fits(judged_lasts([foot], [last], profile, "fit", heel, file), 0)
     known = definitions(last)
     zones = [
         RatedZone(
@@ -118,4 +128,10 @@ def definitions(last: LastRecord) -> dict[str, str]:
     length = by_name.get("functional_length", by_name.get("length", ""))
     ball = by_name.get("ball_length", "")
     flare = last.flare.definition.version
-    return by_name | {"length": length, "ball_line": ball, "flare": flare, "plan": flare}
+    return by_name | {
+        "length": length,
+        "ball_line": ball,
+        "flare": flare,
+        "plan": flare,
+        "toes": TOES,
+    }
