@@ -306,6 +306,7 @@ def test_the_library_commands(footfit: Footfit, catalogue: Path, tmp_path: Path)
     [
         ("list-lasts",),
         ("show-last", "x"),
+        ("edit-last", "x", "--size", "40"),
         ("rename-last", "x", "y"),
         ("remove-last", "x"),
         ("export-last", "x", "-o", "x.stl"),

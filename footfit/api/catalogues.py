@@ -13,6 +13,7 @@ from footfit.api.inputs import (
     Feet,
     FilePath,
     IngestKeywords,
+    LabelKeywords,
     MatchKeywords,
     Meshes,
     Shape,
@@ -330,6 +331,13 @@ class Catalogue:
         """Give a last another name; raises UnknownLast or NameTaken."""
         with self._written() as catalogue:
             return catalogue.rename(name, new_name)
+
+    def edit_last(self, name: str, **labels: Unpack[LabelKeywords]) -> results.EditOutcome:
+        """Change labels of a last; raises UnknownLast, or BadOption for a value no last has."""
+        from footfit.pipeline.library.edit import edit_last
+
+        self._chosen.clear()
+        return edit_last(self.path, name, labels)  # type: ignore[arg-type]
 
     def remove(self, name: str) -> results.RemoveOutcome:
         """Remove a last; raises UnknownLast, or BadOption for the reference."""

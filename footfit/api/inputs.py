@@ -83,6 +83,21 @@ class MatchKeywords(CompareKeywords, total=False):
     clearance: bool
 
 
+class LabelKeywords(TypedDict, total=False):
+    """Labels of a last that change; None or an empty text removes a label.
+
+    ``heel_height_mm``, ``toe_spring_mm`` and ``platform_mm`` decide how the last stands.
+    """
+
+    style: str | None
+    size: str | None
+    size_system: str | None
+    width_label: str | None
+    heel_height_mm: float | None
+    toe_spring_mm: float | None
+    platform_mm: float | None
+
+
 class IngestKeywords(ReadingKeywords, total=False):
     """How lasts are stored: over one of the same name, only as a trial, by how many processes.
 

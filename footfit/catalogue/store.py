@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+import sqlite3
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from footfit.catalogue.checks.damage import findings
 from footfit.catalogue.file.copying import copy_into
@@ -19,6 +21,7 @@ from footfit.catalogue.rows.columns import (
     LAST,
     MEASURE,
     MESH_COPY,
+    NOTICE,
     REFERENCE,
     SECTION,
     Table,
@@ -67,6 +70,11 @@ from footfit.results import (
     ShapeSections,
 )
 
+if TYPE_CHECKING:
+    import sqlalchemy as sa
+
+LABEL_COLUMNS = tuple(name for name in LAST.readers("labels") if name != "name")
+"""What is said of a last and may change."""
 STANCE_COLUMNS = ("standing_transform", "ground_sd_deg", "stance_by")
 """What a frame has that is measured again."""
 
@@ -178,7 +186,10 @@ class Catalogue:
             There is no such last, or it was stored without a mesh; the copy is damaged.
         """
         with self.file.reading() as connection:
-            copies = rows(connection, MESH_COPY, last_id(connection, name))
+            return self._copy_of(connection, last_id(connection, name), name)
+
+    def _copy_of(self, connection: sqlite3.Connection, key: int, name: str) -> MeshCopy:
+        copies = rows(connection, MESH_COPY, key)
         if not copies:
             raise UnknownLast(f"{name!r} was stored without its mesh; use ingest-last --replace")
         if copies[0].get("sha256") != row_digest(MESH_COPY, copies[0]):
@@ -306,6 +317,38 @@ class Catalogue:
             seal(connection, stored.id)
         return RenameOutcome(new_name, stored.name)
 
+    def edit(
+        self,
+        name: str,
+        change: Callable[
+            [LastRecord, Callable[[], MeshCopy]], tuple[LastRecord, ShapeSections | None]
+        ],
+    ) -> tuple[LastRecord, LastRecord]:
+        """Replace the labels of a last, its warnings and what is measured from its mesh.
+
+        ``change`` makes the new record from the stored one, inside the transaction; it also gets a
+        function that reads the mesh copy. Without sections the stored ones stay. The record before
+        and the one after are returned.
+
+        Raises
+        ------
+        UnknownLast, CatalogueDamaged
+            There is no such last; its stored numbers were changed.
+        FootfitError
+            As ``change``; nothing is changed then.
+        """
+        with self.file.atomic() as connection:
+            driver = driver_of(connection)
+            stored = intact_last(driver, last_id(driver, name))
+            before = record_of(stored, last_names(driver))
+            after, sections = change(before, lambda: self._copy_of(driver, stored.id, stored.name))
+            if after.labels != before.labels:
+                row = LAST.row(after)
+                update_row(connection, LAST, stored.id, {name: row[name] for name in LABEL_COLUMNS})
+                write_owned(connection, stored.id, NOTICE, after)
+                _write_measured(connection, stored.id, after, sections)
+        return before, after
+
     def set_reference(self, name: str) -> ReferenceOutcome:
         """Make a last the reference, and rewrite the ``paper_transform`` of every last.
 
@@ -332,10 +375,17 @@ class Catalogue:
         with self.file.atomic() as connection:
             driver = driver_of(connection)
             key = intact_last(driver, last_id(driver, record.labels.name)).id
-            for table in (FLARE, MEASURE):
-                write_owned(connection, key, table, record)
-            stance = {name: FRAME.row(record)[name] for name in STANCE_COLUMNS}
-            update_row(connection, FRAME, key, stance)
-            if sections is not None:
-                write_sealed(connection, key, SECTION, sections)
-            seal(connection, key)
+            _write_measured(connection, key, record, sections)
+
+
+def _write_measured(
+    connection: sa.Connection, key: int, record: LastRecord, sections: ShapeSections | None
+) -> None:
+    """Write all that is measured from the mesh of a last, and seal the last."""
+    for table in (FLARE, MEASURE):
+        write_owned(connection, key, table, record)
+    stance = {name: FRAME.row(record)[name] for name in STANCE_COLUMNS}
+    update_row(connection, FRAME, key, stance)
+    if sections is not None:
+        write_sealed(connection, key, SECTION, sections)
+    seal(connection, key)

@@ -39,6 +39,7 @@ from footfit.results.library import BackupOutcome as BackupOutcome
 from footfit.results.library import CatalogueFacts as CatalogueFacts
 from footfit.results.library import CheckOutcome as CheckOutcome
 from footfit.results.library import DemoOutcome as DemoOutcome
+from footfit.results.library import EditOutcome as EditOutcome
 from footfit.results.library import ExportOutcome as ExportOutcome
 from footfit.results.library import Finding as Finding
 from footfit.results.library import IngestOutcome as IngestOutcome

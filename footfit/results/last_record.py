@@ -7,14 +7,22 @@ from typing import TYPE_CHECKING
 
 from footfit.geometry.fit import sizes
 from footfit.results.profile import flare_part
-from footfit.results.values import Document, Json, Measured, fields, measures_part, part
+from footfit.results.values import (
+    Document,
+    Json,
+    Measured,
+    Notice,
+    fields,
+    measures_part,
+    part,
+)
 
 if TYPE_CHECKING:
     from footfit.geometry.flare.definition import FlareProfile
     from footfit.geometry.numeric.arrays import Floats
     from footfit.results.alignment import Eigenframe, PoseQuality, SideVerdict
     from footfit.results.meshes import MeshInfo
-    from footfit.results.values import Measure, Notice
+    from footfit.results.values import Measure
 
 
 @dataclass(frozen=True, slots=True)
@@ -91,6 +99,14 @@ class LastRecord:
     def label_check(self) -> sizes.LabelCheck | None:
         """The label compared with the length; None if the label gives no number."""
         return sizes.label_check(self.labels.size, self.labels.size_system, self.length_mm)
+
+    @property
+    def label_notices(self) -> tuple[Notice, ...]:
+        """A notice if the size on the label is more than a size from the length."""
+        check = self.label_check
+        if check is None or not check.flagged:
+            return ()
+        return (Notice("size_contradicted", sizes.label_words(check)),)
 
     def entry(self, reference: str | None) -> Json:
         """One line of the library: labels as given, geometry as measured."""

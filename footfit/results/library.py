@@ -158,6 +158,32 @@ class RemoveOutcome(Document):
 
 
 @dataclass(frozen=True, slots=True)
+class EditOutcome(Document):
+    """A last with other labels: each that changed, with its value before and after.
+
+    ``measured_again`` names the measures that its new stance changed. ``warnings`` say which labels
+    the geometry contradicts.
+    """
+
+    last: str
+    changes: tuple[tuple[str, str | float | None, str | float | None], ...]
+    measured_again: tuple[str, ...]
+    flare_angle_deg: float
+    warnings: tuple[Notice, ...] = ()
+
+    schema = "edit-last/1"
+
+    @property
+    def status(self) -> str:
+        """Whether anything changed."""
+        return "edited" if self.changes else "unchanged"
+
+    def _keys(self) -> Json:
+        changes = {name: {"before": old, "after": new} for name, old, new in self.changes}
+        return fields(self) | {"status": self.status, "changes": changes}
+
+
+@dataclass(frozen=True, slots=True)
 class ExportOutcome(Document):
     """The file of a last; ``faces`` and ``error_mm`` are None for a record in JSON."""
 

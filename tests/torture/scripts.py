@@ -20,7 +20,7 @@ from footfit.catalogue.store import open_catalogue
 from footfit.errors import NoCatalogue
 from footfit.meshes.copies.compact_copy import compact_copy
 from footfit.pipeline.library.backup import back_up, restore
-from footfit.results import MeshCopy
+from footfit.results import LastRecord, MeshCopy
 from tests import answers, fits, records
 from tests.torture.migrations import OLD_FILE, later_schema
 
@@ -169,7 +169,15 @@ EDITS: tuple[Callable[[Path], None], ...] = (
     _edit(lambda c: c.remove("graded")),
     lambda folder: _restore(folder, "backup.footfit"),
     _edit(lambda c: c.set_reference("last-5")),
+    _edit(lambda c: c.edit("last-0", _relabelled)),
 )
+
+
+def _relabelled(record: LastRecord, _: object) -> tuple[LastRecord, None]:
+    """Another heel height with another stance, as an edit makes them."""
+    other = records.last("last-0", 60)
+    labels = replace(record.labels, heel_height_mm=40.0, style="edited")
+    return replace(record, labels=labels, flare=other.flare, measures=other.measures), None
 
 
 def _back_up(folder: Path, name: str) -> None:

@@ -3,29 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from pathlib import Path
 
 from footfit.catalogue.store import Catalogue, open_catalogue
-from footfit.geometry.flare.definition import FlareDefinition, FlareProfile
-from footfit.geometry.measures.landmarks import Shape
-from footfit.geometry.numeric.arrays import Floats
-from footfit.geometry.stance.stance import stance_of
+from footfit.geometry.flare.definition import FlareDefinition
 from footfit.pipeline.batch.runs import HERE, outcomes
 from footfit.pipeline.library.lasts import has_other_measures
-from footfit.pipeline.scan.flare import shape_flare
-from footfit.pipeline.scan.kept_sections import kept_sections
-from footfit.pipeline.scan.measure import shape_measures
-from footfit.pipeline.scan.preparation import stored_shape
-from footfit.pipeline.scan.standing import last_stance, stance_labels
-from footfit.results import (
-    LastRecord,
-    LastStance,
-    Measure,
-    Notice,
-    ShapeSections,
-    UpgradeOutcome,
-)
+from footfit.pipeline.library.measured_copy import MeasuredCopy, measured_copy, with_measured
+from footfit.results import LastRecord, MeshCopy, Notice, UpgradeOutcome
 
 AT_A_TIME = 256
 """Mesh copies that are held in memory; each is 60 kB, or a few MB if the whole mesh is kept."""
@@ -36,20 +22,9 @@ class StoredMesh:
     """A mesh copy to measure again; ``path`` names the last in errors."""
 
     path: str
-    data: bytes
+    copy: MeshCopy
     record: LastRecord
     reprofile: bool
-
-
-@dataclass(frozen=True, slots=True)
-class MeasuredAgain:
-    """What is measured from a mesh copy; no ``flare`` where the stored profile stays."""
-
-    measures: tuple[Measure, ...]
-    flare: FlareProfile | None
-    sections: ShapeSections
-    stance: LastStance | None
-    standing_transform: Floats | None
 
 
 def upgrade(path: Path, jobs: int = HERE) -> UpgradeOutcome:
@@ -107,7 +82,7 @@ def _renew(
 ) -> Iterator[tuple[str, str]]:
     """Measure lasts again and store each; yield the name of each that fails, and why."""
     meshes = [
-        StoredMesh(name, catalogue.mesh_copy(name).data, record, again)
+        StoredMesh(name, catalogue.mesh_copy(name), record, again)
         for record, again in work
         for name in (record.labels.name,)
     ]
@@ -116,30 +91,9 @@ def _renew(
         if new is None:
             yield record.labels.name, f"{record.labels.name!r} stays as it is: {outcome.error}"
             continue
-        record = replace(
-            record,
-            measures=new.measures,
-            standing_transform=new.standing_transform,
-            ground_sd_deg=None if new.stance is None else new.stance.ground_sd_deg,
-            stance_by=None if new.stance is None else new.stance.decided_by,
-        )
-        if new.flare is not None:
-            old = record.flare.definition.version
-            record = replace(record, flare=new.flare, upgraded_from=old)
-        catalogue.update_measured(record, new.sections)
+        catalogue.update_measured(with_measured(record, new), new.sections)
 
 
-def _measured_again(mesh: StoredMesh) -> MeasuredAgain:
+def _measured_again(mesh: StoredMesh) -> MeasuredCopy:
     """The slow part of an upgrade. It does not use the catalogue, and runs in a worker."""
-    kind = mesh.record.pose.kind
-    right = stored_shape(mesh.data, mesh.record.side.side)
-    stance = stance_of(*right, kind, stance_labels(mesh.record.labels))
-    flare = shape_flare(*right, kind, stance) if mesh.reprofile else None
-    measures = shape_measures(*right, kind, stance)
-    return MeasuredAgain(
-        measures,
-        flare,
-        kept_sections(*right, kind, stance),
-        last_stance(Shape(*right, kind, stance)),
-        None if stance is None or kind == "foot" else stance.standing_transform,
-    )
+    return measured_copy(mesh.record, mesh.copy, reprofile=mesh.reprofile)

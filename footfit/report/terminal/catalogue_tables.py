@@ -149,6 +149,25 @@ def set_reference_line(outcome: results.ReferenceOutcome) -> Text:
     return line.append(f"  {outcome.rewritten} stored {noun} rewritten", "not bold")
 
 
+def edit_last_line(outcome: results.EditOutcome) -> Text:
+    """The labels that changed, and what was measured again."""
+    line = Text(f"{outcome.status}  ").append(visible(outcome.last), "bold")
+    for label, before, after in outcome.changes:
+        noun = label.removesuffix("_mm").replace("_", " ")
+        line.append(f"  {noun}: {_label_words(before)} to {_label_words(after)}", "not bold")
+    if outcome.measured_again:
+        names = ", ".join(name.replace("_", " ") for name in outcome.measured_again)
+        line.append(f"; measured again: {names}", "not bold")
+    return line
+
+
+def _label_words(value: str | float | None) -> str:
+    """A label's value; a number is in mm."""
+    if value is None:
+        return "none"
+    return visible(value) if isinstance(value, str) else f"{value:g} mm"
+
+
 def rename_last_line(outcome: results.RenameOutcome) -> Text:
     """A last under its new name."""
     names = f"{visible(outcome.renamed_from)} to {visible(outcome.last)}"
