@@ -96,7 +96,7 @@ def test_a_heel_label_decides_the_stance_as_at_the_ingest(catalogue: Path, tmp_p
     for row, target in zip(edited.measures, wanted.measures, strict=True):
         assert row.definition == target.definition
         assert row.measured.value == pytest.approx(target.measured.value, abs=SCAN_MM), row.name
-        assert row.measured.total_sd == pytest.approx(target.measured.total_sd, abs=0.005), row.name
+        assert row.measured.total_sd == pytest.approx(target.measured.total_sd, abs=0.02), row.name
     assert edited.flare.angle_deg == pytest.approx(wanted.flare.angle_deg, abs=0.002)
     assert [n.code for n in edited.warnings] == [n.code for n in wanted.warnings]
     assert findings(catalogue) == []
