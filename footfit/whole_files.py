@@ -11,6 +11,11 @@ from pathlib import Path
 
 from footfit.errors import BadOption, OutputExists
 
+KEPT_OF_NAME = 40
+"""So many characters of a file's name come back in that of its partial file: a name of 255 bytes
+leaves no room for more.
+"""
+
 
 def require_free(path: Path, *, replace: bool) -> None:
     """Refuse a path that no file could be given at the end.
@@ -53,7 +58,7 @@ def partial_beside(final: Path) -> Iterator[Path]:
     OSError
         The folder is missing or takes no file.
     """
-    prefix = f".{final.name}."
+    prefix = f".{final.name[:KEPT_OF_NAME]}."
     descriptor, name = tempfile.mkstemp(dir=final.parent, prefix=prefix, suffix=".partial")
     os.close(descriptor)
     partial = Path(name)

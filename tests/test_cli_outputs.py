@@ -146,3 +146,14 @@ def test_no_output_replaces_a_scan_a_catalogue_or_another_output(
     assert run.code == 2
     assert len(run.err.splitlines()) == 1
     assert {path: path.read_bytes() for path in tmp_path.iterdir()} == kept
+
+
+@pytest.mark.parametrize("sign", ["n", "ü"])
+def test_the_longest_name_that_a_folder_takes_is_written(sign: str, tmp_path: Path) -> None:
+    path = tmp_path / (sign * (250 // len(sign.encode())) + ".csv")
+    write_output(path, "first", force=False)
+    write_output(path, "second", force=True)
+    assert path.read_text() == "second"
+    with pytest.raises(BadOption, match="too long"):
+        write_output(path.with_name(path.name + "xx"), "third", force=False)
+    assert list(tmp_path.iterdir()) == [path]
