@@ -53,7 +53,8 @@ def sheet_facts(document: dict[str, Any], title: str, customer: str, day: str) -
     best, fits = document["candidates"] or document["nearest"], bool(document["candidates"])
     yield from _shoes(best, fits=fits)
     if fits:
-        verdicts = {v for fit in best[0]["fits"] for v in _places(fit).values()}
+        places = [_places(fit) for fit in best[0]["fits"]]
+        verdicts = {v for known in places for place, v in known.items() if place != "sole"}
         order = [verdict for verdict in MARKS if verdict in verdicts]
         marks = [text for verdict in order for text in (MARKS[verdict], verdict)]
         if marks:

@@ -66,11 +66,7 @@ def sheet_page(
         fits=bool(match.candidates),
         survey=survey,
         picture=picture_data(feet_figure(drawn)),
-        marks=[
-            verdict
-            for verdict in sheet_words.ORDER
-            if any(verdict in foot.verdicts.values() for foot in drawn)
-        ],
+        marks=sorted({v for foot in drawn for v in foot.marks().values()}, key=sheet_words.rank),
     )
 
 

@@ -59,6 +59,10 @@ class DrawnFoot:
     length_mm: float
     verdicts: Mapping[str, Verdict]
 
+    def marks(self) -> dict[str, Verdict]:
+        """The verdicts at places that a picture can show."""
+        return {place: v for place, v in self.verdicts.items() if place in STATIONS}
+
 
 def feet_figure(feet: Sequence[DrawnFoot]) -> Figure:
     """The feet beside each other from above, then each from its inner side, all to one scale."""
@@ -79,9 +83,8 @@ def _draw_from_above(axes: Axes, foot: DrawnFoot, long_mm: float, *, named: bool
     half, bottom = 0.5 * WIDE_MM, low - MARGIN_MM
     frame = shading.Frame(middle - half, middle + half, bottom, bottom + long_mm)
     show_image(axes, _image(seen, foot.mesh[1], frame), frame)
-    for place, verdict in foot.verdicts.items():
-        if place in STATIONS:
-            _draw_mark(axes, _middle(seen, low + STATIONS[place] * foot.length_mm), verdict)
+    for place, verdict in foot.marks().items():
+        _draw_mark(axes, _middle(seen, low + STATIONS[place] * foot.length_mm), verdict)
     if named and foot.side:
         write_beside(axes, foot.side, (middle, bottom), fontsize=9, color=QUIET)
 
