@@ -114,7 +114,7 @@ def _shoes(shown: list[dict[str, Any]], *, fits: bool) -> Iterator[Fact]:
         yield fact(f"{name} 1", [candidate["last"], *labels, *verdict], SHEET)
         yield fact(f"{name} 2", room_text, SHEET)
     if not shown:
-        yield fact("best 1", "No shoe here fits.", SHEET)
+        yield fact("best 1", "No shoe here could be judged.", SHEET)
     if fits and len(shown) == 1:
         yield fact("next 1", "No other shoe here fits.", SHEET)
 

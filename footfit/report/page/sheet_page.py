@@ -5,13 +5,13 @@ from __future__ import annotations
 from collections.abc import Sequence
 from datetime import date
 
-from footfit.geometry.fit.sizes import SYSTEMS, Size, foot_sizes, system_named
+from footfit.geometry.fit.sizes import SYSTEMS, foot_sizes, system_named
 from footfit.report.page.rendering import html_page, picture_data
 from footfit.report.pictures.feet_figure import DrawnFoot, feet_figure
 from footfit.report.pictures.sides import Mesh
-from footfit.report.wording import sheet_words
+from footfit.report.wording import sheet_words, width_words
 from footfit.report.wording.text import SHOWN_SYSTEMS
-from footfit.results import FootWidth, Match, Measured
+from footfit.results import Match, Measured
 
 USUAL_SYSTEM = "eu"
 COMPARED = {"length": "Length", "ball_girth": "Around the ball", "ball_width": "Width of the ball"}
@@ -56,8 +56,10 @@ def sheet_page(
         day=sheet_words.date_words(day),
         size=sizes[asked.name],
         width=widest.fitting(asked.name),
-        other_sizes=[sized(sizes[name], widest) for name in SHOWN_SYSTEMS if name != asked.name],
-        shares=[(share.people, sheet_words.share_words(share)) for share in widest.shares],
+        other_sizes=[
+            width_words.sized(sizes[name], widest) for name in SHOWN_SYSTEMS if name != asked.name
+        ],
+        shares=[(share.people, width_words.share_words(share)) for share in widest.shares],
         widest_side=wider_side(match),
         compared=compared(match),
         differences=differences(match),
@@ -90,21 +92,6 @@ def measure_of(match: Match, place: int, name: str) -> Measured:
     """A measure of one of the feet; unknown where there is no such foot or measure."""
     rows = match.feet[place].measures if place < len(match.feet) else ()
     return next((row.measured for row in rows if row.name == name), Measured(None))
-
-
-def sized(size: Size, width: FootWidth) -> str:
-    """A size with the width beside it, where its system has one.
-
-    Examples
-    --------
-    >>> from footfit.geometry.fit.sizes import foot_size
-    >>> from footfit.geometry.fit.width_fitting import Fitting
-    >>> wide = FootWidth((Fitting("mondopoint", "98", False),), ())
-    >>> [sized(foot_size(251.0, SYSTEMS[name]), wide) for name in ("uk", "mondopoint")]
-    ['UK 6.5', 'Mondopoint 250/98']
-    """
-    fitting = width.fitting(size.system)
-    return size.words + (fitting.after_size if fitting else "")
 
 
 def compared(match: Match) -> list[tuple[str, list[Measured]]]:

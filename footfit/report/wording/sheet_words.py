@@ -7,18 +7,12 @@ from dataclasses import dataclass
 from datetime import date
 
 from footfit.report.wording.text import plain, size_text
-from footfit.results import Candidate, FootFit, Measured, SideName, Verdict, WidthShare, ZoneFit
+from footfit.results import Candidate, FootFit, Measured, SideName, Verdict, ZoneFit
 
 EQUALLY_LONG_MM = 1.0
 """Feet whose lengths differ by less are equally long: scans repeat to about 0.4 mm."""
 EQUALLY_WIDE_MM = 2.0
 """Feet whose ball girths differ by less are equally wide: scans repeat to about 0.8 mm."""
-SHARE_STEP = 10.0
-LEAST_SHARE, LARGEST_SHARE = 5.0, 95.0
-"""A share is said in steps of 10 %, because a girth is not surer than that; the ends stand for
-"nearly nobody" and "nearly everybody"."""
-CLASSES = ((10.0, "very narrow"), (30.0, "narrow"), (70.0, "medium"), (90.0, "wide"))
-"""The name of a width up to a share in percent; above the last it is "very wide"."""
 ORDER: tuple[Verdict, ...] = ("good", "acceptable", "poor", "reject")
 DEGREES: dict[Verdict, str] = {
     "good": "",
@@ -153,49 +147,6 @@ def _lacking(candidate: Candidate) -> str:
     faulty = {place for fit in known for place, verdict in fit.items() if verdict != "good"}
     places = [PLACES[name].name for name in candidate.not_judged if name in PLACES]
     return ", ".join(dict.fromkeys(f"the {place}" for place in places if place not in faulty))
-
-
-def share_words(share: WidthShare) -> str:
-    """How wide a foot is among people, or why nobody knows.
-
-    Examples
-    --------
-    >>> share_words(WidthShare("women", 83.2, 4.0))
-    'wide: wider than about 80 % of women with feet this long'
-    >>> share_words(WidthShare("men", 24.0, 4.0))
-    'narrow: narrower than about 80 % of men with feet this long'
-    >>> share_words(WidthShare("men", None, None, "the survey has no children"))
-    'not compared: the survey has no children'
-    """
-    if share.percent is None:
-        return f"not compared: {share.reason}"
-    least = about_percent(share.percent)
-    than = f"wider than about {least:g} %"
-    if least < 50.0:
-        than = f"narrower than about {100.0 - least:g} %"
-    return f"{width_class(share.percent)}: {than} of {share.people} with feet this long"
-
-
-def about_percent(percent: float) -> float:
-    """A share as the sheet says it.
-
-    Examples
-    --------
-    >>> [about_percent(value) for value in (0.0, 8.0, 54.9, 97.0)]
-    [5.0, 10.0, 50.0, 95.0]
-    """
-    return min(max(SHARE_STEP * round(percent / SHARE_STEP), LEAST_SHARE), LARGEST_SHARE)
-
-
-def width_class(percent: float) -> str:
-    """The name of a width by its share.
-
-    Examples
-    --------
-    >>> [width_class(value) for value in (3.0, 29.0, 50.0, 71.0, 99.0)]
-    ['very narrow', 'narrow', 'medium', 'wide', 'very wide']
-    """
-    return next((name for most, name in CLASSES if percent < most), "very wide")
 
 
 def difference_words(values_mm: Sequence[float], equal_mm: float, word: str) -> str:

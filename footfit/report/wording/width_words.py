@@ -1,0 +1,88 @@
+"""How wide a foot is, in words: beside its size, and among the people of a survey."""
+
+from __future__ import annotations
+
+from footfit.geometry.fit.sizes import SYSTEMS, Size, foot_size
+from footfit.results import FootWidth, WidthShare
+
+SHARE_STEP = 10.0
+LEAST_SHARE, LARGEST_SHARE = 5.0, 95.0
+"""A share is said in steps of 10 %, because a girth is not surer than that; the ends stand for
+"nearly nobody" and "nearly everybody"."""
+CLASSES = ((10.0, "very narrow"), (30.0, "narrow"), (70.0, "medium"), (90.0, "wide"))
+"""The name of a width up to a share in percent; above the last it is "very wide"."""
+
+
+def sized(size: Size, width: FootWidth) -> str:
+    """A size with the width beside it, where its system has one.
+
+    Examples
+    --------
+    >>> from footfit.geometry.fit.width_fitting import Fitting
+    >>> wide = FootWidth((Fitting("mondopoint", "98", False),), ())
+    >>> [sized(foot_size(251.0, SYSTEMS[name]), wide) for name in ("uk", "mondopoint")]
+    ['UK 6.5', 'Mondopoint 250/98']
+    """
+    fitting = width.fitting(size.system)
+    return size.words + (fitting.after_size if fitting else "")
+
+
+def fittings_words(width: FootWidth, size_mm: float) -> str:
+    """The widths of a foot in every system that has one, each with the customer's size.
+
+    Examples
+    --------
+    >>> from footfit.geometry.fit.width_fitting import fittings
+    >>> fittings_words(FootWidth(fittings(251.0, 231.0, 97.6), ()), 251.0)
+    'EU 40 (width about D), UK 6.5 (width about E), Mondopoint 250/98'
+    """
+    systems = [SYSTEMS[fitting.system] for fitting in width.fittings]
+    return ", ".join(sized(foot_size(size_mm, system), width) for system in systems)
+
+
+def shares_words(width: FootWidth) -> str:
+    """How wide a foot is among women and among men."""
+    return "; ".join(f"{share.people}: {share_words(share)}" for share in width.shares)
+
+
+def share_words(share: WidthShare) -> str:
+    """How wide a foot is among people, or why nobody knows.
+
+    Examples
+    --------
+    >>> share_words(WidthShare("women", 83.2, 4.0))
+    'wide: wider than about 80 % of women with feet this long'
+    >>> share_words(WidthShare("men", 24.0, 4.0))
+    'narrow: narrower than about 80 % of men with feet this long'
+    >>> share_words(WidthShare("men", None, None, "the survey has no children"))
+    'not compared: the survey has no children'
+    """
+    if share.percent is None:
+        return f"not compared: {share.reason}"
+    least = about_percent(share.percent)
+    than = f"wider than about {least:g} %"
+    if least < 50.0:
+        than = f"narrower than about {100.0 - least:g} %"
+    return f"{width_class(share.percent)}: {than} of {share.people} with feet this long"
+
+
+def about_percent(percent: float) -> float:
+    """A share as the sheet says it.
+
+    Examples
+    --------
+    >>> [about_percent(value) for value in (0.0, 8.0, 54.9, 97.0)]
+    [5.0, 10.0, 50.0, 95.0]
+    """
+    return min(max(SHARE_STEP * round(percent / SHARE_STEP), LEAST_SHARE), LARGEST_SHARE)
+
+
+def width_class(percent: float) -> str:
+    """The name of a width by its share.
+
+    Examples
+    --------
+    >>> [width_class(value) for value in (3.0, 29.0, 50.0, 71.0, 99.0)]
+    ['very narrow', 'narrow', 'medium', 'wide', 'very wide']
+    """
+    return next((name for most, name in CLASSES if percent < most), "very wide")
