@@ -41,8 +41,25 @@ def fittings_words(width: FootWidth, size_mm: float) -> str:
 
 
 def shares_words(width: FootWidth) -> str:
-    """How wide a foot is among women and among men."""
-    return "; ".join(f"{share.people}: {share_words(share)}" for share in width.shares)
+    """How wide a foot is among women and among men, or the reason why nobody knows.
+
+    Examples
+    --------
+    >>> shares_words(FootWidth((), (WidthShare("women", 83.2, 4.0), WidthShare("men", 24.0, 4.0))))
+    'wider than about 80 % of women and narrower than about 80 % of men with feet this long'
+    """
+    known = [share for share in width.shares if share.percent is not None]
+    reasons = dict.fromkeys(share.reason or "" for share in width.shares if share.percent is None)
+    words = " and ".join(_than(share) for share in known)
+    return "; ".join([f"{words} with feet this long"] * bool(known) + list(reasons))
+
+
+def _than(share: WidthShare) -> str:
+    """A known share in words, without its class."""
+    least = about_percent(share.percent or 0.0)
+    if least < 50.0:
+        return f"narrower than about {100.0 - least:g} % of {share.people}"
+    return f"wider than about {least:g} % of {share.people}"
 
 
 def share_words(share: WidthShare) -> str:
@@ -59,11 +76,7 @@ def share_words(share: WidthShare) -> str:
     """
     if share.percent is None:
         return f"not compared: {share.reason}"
-    least = about_percent(share.percent)
-    than = f"wider than about {least:g} %"
-    if least < 50.0:
-        than = f"narrower than about {100.0 - least:g} %"
-    return f"{width_class(share.percent)}: {than} of {share.people} with feet this long"
+    return f"{width_class(share.percent)}: {_than(share)} with feet this long"
 
 
 def about_percent(percent: float) -> float:
