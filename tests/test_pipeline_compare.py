@@ -101,8 +101,10 @@ def test_a_foot_in_a_last_far_too_short_is_said(stocked):
 def test_a_last_without_a_bottom_is_refused():
     vertices, faces = last().shape.vertices_mm, last().shape.faces
     front = faces[(vertices[faces][:, :, 0] < 60.0).all(axis=1)]
-    with pytest.raises(NoSole):
-        compared(comparison().foot, replace(last(), shape=Shape(vertices, front, "last")))
+    foot = comparison().foot
+    with pytest.raises(NoSole) as refused:
+        compared(foot, replace(last(), shape=Shape(vertices, front, "last")))
+    assert refused.value.path == foot.aligned.alignment.info.path is not None
 
 
 def test_a_match_is_shown_in_its_best_last(scan, stocked):

@@ -8,7 +8,7 @@ from pathlib import Path
 
 from footfit import results
 from footfit.catalogue.store import open_catalogue
-from footfit.errors import CatalogueDamaged, NoSole, UnknownLast
+from footfit.errors import CatalogueDamaged, NoSole, UnknownLast, errors_at
 from footfit.geometry.fit.clearance import ZoneClearance, foot_clearance, zone_clearances
 from footfit.geometry.fit.foot_in_heel import foot_in_heel
 from footfit.geometry.fit.paired_sections import SIZES, SectionPair, section_pairs
@@ -126,7 +126,8 @@ def compared(
     """
     asked = heel_question(as_scanned=True) if foot.is_last else heel or heel_question()
     heels = heels_of(asked, [last.record])
-    inside = placed_foot(foot, last, heels)
+    with errors_at(foot.aligned.alignment.info.path):
+        inside = placed_foot(foot, last, heels)
     pairs = section_pairs(inside.foot, last.shape)
     room = toe_room(foot, last.record, heels)
     return results.Comparison(
