@@ -101,7 +101,7 @@ def _give_free_name(partial: Path, final: Path) -> None:
         os.link(partial, final)
     except FileExistsError:
         raise
-    except OSError:
+    except (OSError, AttributeError):  # the drive, or the system, has no links
         os.close(os.open(final, os.O_CREAT | os.O_EXCL | os.O_WRONLY))
         try:
             partial.replace(final)

@@ -26,7 +26,7 @@ SIGNALS_OF_WINDOWS = (
 )
 LACKING_IN_OS = (
     *("chown", "fchmod", "fchown", "fork", "forkpty", "getegid", "geteuid", "getgid", "getloadavg"),
-    *("getpgid", "killpg", "lockf", "mkfifo", "mknod", "pipe2", "posix_fallocate"),
+    *("getpgid", "killpg", "link", "lockf", "mkfifo", "mknod", "pipe2", "posix_fallocate"),
     *("pread", "pwrite", "sched_getaffinity", "set_blocking", "setsid", "statvfs", "sync", "wait"),
     *("O_CLOEXEC", "O_DIRECTORY", "O_NOCTTY", "O_NOFOLLOW", "O_NONBLOCK", "O_SYNC"),
 )
