@@ -2,11 +2,18 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+from dataclasses import replace
 from pathlib import Path
+from typing import Any
 
 import pytest
 
-from tests.conftest import SAMPLES, Footfit
+import footfit as library
+from footfit.catalogue.store import open_catalogue
+from footfit.errors import BadOption
+from footfit.results import Notice
+from tests.conftest import SAMPLES, Footfit, Run
 
 LAST = SAMPLES / "lasts" / "derby-38.stl"
 
@@ -94,3 +101,126 @@ def test_the_only_last_may_go_and_what_follows_is_said(footfit: Footfit, catalog
         "reference": None,
     }
     assert footfit("check-catalogue", *here).code == 0
+
+
+# ---------------------------------------------------------------- filters and order
+
+
+def listed(run: Run) -> list[str]:
+    """The names of the lasts in the order of the document."""
+    return [last["last"] for last in run.document["lasts"]]
+
+
+@pytest.mark.parametrize(
+    ("given", "names"),
+    [
+        (("--style", "DERBY", "--size", "40"), ["derby-40"]),
+        (("--width", "g", "--size", "39,0"), ["derby-39"]),
+        (("--width", "E"), ["loafer-39", "loafer-40", "loafer-42", "loafer-43"]),
+        (("--size", "42"), ["loafer-42", "trainer-42"]),
+        (("--style", "none"), []),
+    ],
+)
+def test_lasts_are_listed_by_their_labels(
+    footfit: Footfit, stocked: Path, given: tuple[str, ...], names: list[str]
+) -> None:
+    here = ("--catalogue", stocked)
+    run = footfit("list-lasts", *given, *here, "--json")
+    assert (run.code, listed(run)) == (0, names)
+    rows = footfit("list-lasts", *given, *here, "--csv", "-").out.splitlines()[1:]
+    assert [row.partition(",")[0] for row in rows] == names
+    shown = " ".join(footfit("list-lasts", *given, *here).out.split())
+    assert f"{len(names)} of 14 lasts: " in shown
+
+
+@pytest.mark.parametrize(
+    ("sort", "key"),
+    [
+        ("size", lambda last: float(last["size"])),
+        ("length", lambda last: last["length_mm"]),
+        ("ball-girth", lambda last: last["ball_girth_mm"]),
+        ("flare", lambda last: last["flare_angle_deg"]),
+        ("heel", lambda last: last["heel_height_mm"]),
+        ("name", lambda last: last["last"]),
+    ],
+)
+def test_lasts_are_sorted(
+    footfit: Footfit, stocked: Path, sort: str, key: Callable[[dict[str, Any]], float]
+) -> None:
+    run = footfit("list-lasts", "--sort", sort, "--catalogue", stocked, "--json")
+    lasts = run.document["lasts"]
+    assert len(lasts) == 14
+    assert [key(last) for last in lasts] == sorted(map(key, lasts))
+
+
+def test_what_has_no_value_comes_last(footfit: Footfit, catalogue: Path) -> None:
+    here = ("--catalogue", catalogue)
+    assert footfit("edit-last", "derby-38", "--size", "wide", *here).code == 0
+    assert footfit("edit-last", "trainer-38", "--size", "10 1/2", *here).code == 0
+    names = listed(footfit("list-lasts", "--sort", "size", *here, "--json"))
+    assert (names[0], names[-1]) == ("trainer-38", "derby-38")
+
+
+def test_an_order_that_is_not_known_is_refused(footfit: Footfit, stocked: Path) -> None:
+    run = footfit("list-lasts", "--sort", "colour", "--catalogue", stocked)
+    assert (run.code, len(run.err.splitlines())) == (2, 1)
+    with pytest.raises(BadOption, match="name, size, length"):
+        library.open_catalogue(stocked).lasts(sort="colour")
+
+
+# ---------------------------------------------------------------- marks
+
+
+@pytest.mark.parametrize(
+    ("code", "letter", "words"),
+    [
+        ("side_contradicted", "S", "the other side"),
+        ("low_side_confidence", "U", "the side is not sure"),
+        ("looks_like_a_foot", "F", "nearer to a foot's"),
+        ("suspect_flare", "O", "hardly any last has such a flare"),
+        ("stance_label_contradicted", "H", "heel height, toe spring or platform"),
+        ("open_end", "W", "another warning"),
+        ("a_code_of_a_later_version", "W", "another warning"),
+    ],
+)
+def test_every_stored_warning_is_marked(
+    footfit: Footfit, catalogue: Path, code: str, letter: str, words: str
+) -> None:
+    with open_catalogue(catalogue, write=True) as opened:
+        record = opened.record("derby-40")
+        warned = replace(record, warnings=(Notice(code, "as it was said"),))
+        opened.add(warned, opened.mesh_copy("derby-40"), replace=True)
+    run = footfit("list-lasts", "--catalogue", catalogue)
+    line = next(line for line in run.out.splitlines() if line.lstrip().startswith("derby-40"))
+    assert line.split()[1] == letter
+    legend = " ".join(run.out.split())
+    assert f"{letter} " in legend
+    assert words in legend
+    assert "show-last NAME says more" in legend
+    entries = footfit("list-lasts", "--catalogue", catalogue, "--json").document["lasts"]
+    codes = {entry["last"]: [notice["code"] for notice in entry["warnings"]] for entry in entries}
+    assert {name: found for name, found in codes.items() if found} == {"derby-40": [code]}
+
+
+def test_a_sound_library_has_no_legend(footfit: Footfit, stocked: Path) -> None:
+    assert "says more" not in footfit("list-lasts", "--catalogue", stocked).out
+
+
+def test_ingest_says_a_wrong_size_and_counts_the_warned(footfit: Footfit, tmp_path: Path) -> None:
+    manifest = tmp_path / "m.csv"
+    lines = [f"{SAMPLES / 'lasts' / f'derby-{size}.stl'},{label},eu" for size, label in WRONG]
+    manifest.write_text("\n".join(["path,size,size_system", *lines]) + "\n")
+    command = ("ingest-last", "--manifest", manifest, "--catalogue", tmp_path / "c")
+    run = footfit(*command, "--json")
+    codes = [[notice["code"] for notice in line["warnings"]] for line in run.lines]
+    assert codes == [[], ["size_contradicted"]]
+    assert "derby-39.stl: labelled 6.0 sizes larger than its length: it is EU 39" in run.err
+    assert "1 of 2 lasts have warnings; footfit list-lasts marks them" in run.err
+    again = footfit(*command)
+    assert "have warnings" not in again.err, "nothing new was stored"
+    table = footfit("list-lasts", "--catalogue", tmp_path / "c").out
+    assert "derby-39    L  -" in table
+
+
+WRONG = ((38, 38), (39, 45))
+"""The size of a sample last, and its label."""

@@ -234,7 +234,7 @@ def test_rows_are_flat_dicts_that_share_their_columns(stocked: Path, foot: Path)
             profiled,
             lasts.match(profiled),
             lasts.lasts(),
-            lasts.compare(profiled, lasts.lasts().by_name()[0].labels.name),
+            lasts.compare(profiled, lasts.lasts().ordered()[0].labels.name),
         ]
     for table in tables:
         rows = table.rows()

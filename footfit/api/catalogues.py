@@ -294,9 +294,19 @@ class Catalogue:
             hold_signals=hold_signals,
         )
 
-    def lasts(self) -> results.Library:
-        """Every intact last, by name; ``warnings`` name the damaged ones."""
-        return lasts.list_lasts(self.path)
+    def lasts(
+        self,
+        *,
+        style: str | None = None,
+        size: str | None = None,
+        width_label: str | None = None,
+        sort: str = "name",
+    ) -> results.Library:
+        """The intact lasts that have these labels; ``warnings`` name the damaged ones.
+
+        ``sort`` is name, size, length, ball-girth, flare or heel.
+        """
+        return lasts.list_lasts(self.path, sort, style=style, size=size, width_label=width_label)
 
     def name(self, name: str) -> str:
         """The name of a last as it is stored, for one in any case; raises UnknownLast."""

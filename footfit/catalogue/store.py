@@ -158,10 +158,13 @@ class Catalogue:
             stored = intact_last(connection, last_id(connection, name))
             return record_of(stored, last_names(connection))
 
-    def lasts(self, style: str | None = None, size_system: str | None = None) -> StoredLasts:
-        """Every intact last that has these labels, by name; no mesh is read."""
+    def lasts(self, **labels: str | None) -> StoredLasts:
+        """Every intact last that has these labels, by name; no mesh is read.
+
+        ``style``, ``size``, ``size_system`` and ``width_label`` filter; None lets all pass.
+        """
         with self.file.reading() as connection:
-            return verified_records(connection, style=style, size_system=size_system)
+            return verified_records(connection, **labels)
 
     def reference(self, name: str | None = None) -> Reference | None:
         """The reference last, None in an empty catalogue; or what the last ``name`` would be as it.

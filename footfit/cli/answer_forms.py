@@ -110,7 +110,7 @@ FORMS: dict[type, Form] = {
     results.StoredLast: Form(catalogue_tables.show_last_table),
     results.ReferenceOutcome: Form(catalogue_tables.set_reference_line),
     results.EditOutcome: Form(
-        catalogue_tables.edit_last_line, lambda outcome: (outcome.last, outcome.warnings)
+        catalogue_tables.edit_last_table, lambda outcome: (outcome.last, outcome.warnings)
     ),
     results.RenameOutcome: Form(catalogue_tables.rename_last_line),
     results.RemoveOutcome: Form(catalogue_tables.remove_last_line),

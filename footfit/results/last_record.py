@@ -87,13 +87,22 @@ class LastRecord:
         """The value of ``length``."""
         return self.length.value
 
+    def value_of(self, measure: str) -> float | None:
+        """The value of a measure; None if it has none."""
+        return next((row.measured.value for row in self.measures if row.name == measure), None)
+
+    @property
+    def heel_height_mm(self) -> float | None:
+        """The heel height over the ground: as labelled, else as measured."""
+        labelled = self.labels.heel_height_mm
+        return self.value_of("heel_height") if labelled is None else labelled
+
     @property
     def drop_mm(self) -> float | None:
         """How much higher the heel stands than the forepart: as labelled, else as measured."""
         if self.labels.heel_height_mm is not None:
             return self.labels.heel_height_mm - (self.labels.platform_mm or 0.0)
-        rows = (row.measured.value for row in self.measures if row.name == "heel_height")
-        return next(rows, None)
+        return self.value_of("heel_height")
 
     @property
     def label_check(self) -> sizes.LabelCheck | None:
@@ -107,6 +116,11 @@ class LastRecord:
         if check is None or not check.flagged:
             return ()
         return (Notice("size_contradicted", sizes.label_words(check)),)
+
+    @property
+    def notices(self) -> tuple[Notice, ...]:
+        """All that should be known of it: the stored warnings, and what the labels contradict."""
+        return (*self.warnings, *self.label_notices)
 
     def entry(self, reference: str | None) -> Json:
         """One line of the library: labels as given, geometry as measured."""
@@ -122,6 +136,8 @@ class LastRecord:
                 "flare_angle_deg": self.flare.angle_deg,
                 "class": self.flare.flare_class,
                 "reference": self.labels.name == reference,
+                "ball_girth_mm": self.value_of("ball_girth"),
+                "warnings": self.notices,
             }
         )
 
@@ -172,5 +188,4 @@ class StoredLast(Document):
             **record.eigenframe.to_dict(),
             "printed_frame": record.printed_frame,
             "pose": record.pose,
-            "warnings": record.warnings,
         }

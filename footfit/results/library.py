@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
 from footfit.errors import FootfitError
+from footfit.geometry.fit.sizes import label_number
 from footfit.results.alignment import Reference
 from footfit.results.last_record import LastRecord
 from footfit.results.meshes import MeshInfo
@@ -245,11 +248,29 @@ class RestoreOutcome(Document):
     schema = "restore-catalogue/1"
 
 
+SORTS: Mapping[str, Callable[[LastRecord], float | str | None]] = {
+    "name": lambda record: record.labels.name.casefold(),
+    "size": lambda record: (label_number(record.labels.size) or (None,))[0],
+    "length": lambda record: record.length_mm,
+    "ball-girth": lambda record: record.value_of("ball_girth"),
+    "flare": lambda record: record.flare.angle_deg,
+    "heel": lambda record: record.heel_height_mm,
+}
+"""What a list of lasts is sorted by: the least comes first."""
+
+
+def _none_last(value: float | str | None) -> tuple[bool, Any]:
+    unknown = value is None or value != value  # a NaN is unknown too
+    return unknown, 0.0 if unknown else value
+
+
 @dataclass(frozen=True, slots=True)
 class Library(Document):
     """The lasts to choose from, and the state of their catalogue.
 
-    ``file`` is the catalogue that their sections are read from, None if there is none.
+    ``sort`` names the order in which they are listed, one of `SORTS`. ``filters`` are the labels
+    that they were chosen by. ``file`` is the catalogue that their sections are read from, None if
+    there is none.
     """
 
     lasts: tuple[LastRecord, ...]
@@ -258,27 +279,32 @@ class Library(Document):
     rejected: tuple[tuple[str, int], ...] = ()
     warnings: tuple[Notice, ...] = ()
     file: Path | None = None
+    sort: str = "name"
+    filters: tuple[tuple[str, str], ...] = ()
 
     columns = (
         *("last", *LABELS, "heel_height_mm", "family", "parent", "side"),
         *("length_mm", "flare_angle_deg", "class", "reference"),
-        *("size_by_length", "label_flagged"),
+        *("size_by_length", "label_flagged", "ball_girth_mm", "warnings"),
     )
 
-    def by_name(self) -> list[LastRecord]:
-        """The lasts in the order of their names."""
-        return sorted(self.lasts, key=lambda record: record.labels.name)
+    def ordered(self) -> list[LastRecord]:
+        """The lasts in the order that is asked for; those without the value come last."""
+        by_name = sorted(self.lasts, key=lambda record: record.labels.name)
+        value = SORTS[self.sort]
+        return sorted(by_name, key=lambda record: _none_last(value(record)))
 
     schema = "list-lasts/2"
 
     def _keys(self) -> Json:
-        entries = [record.entry(self.reference) for record in self.by_name()]
+        entries = [record.entry(self.reference) for record in self.ordered()]
         return {"reference": self.reference, "lasts": entries}
 
     def rows(self) -> list[Json]:
-        """A table: a row for each last, by name, with its label's check."""
-        entries = [record.entry(self.reference) for record in self.by_name()]
+        """A table: a row for each last, with its label's check and the codes of its warnings."""
+        entries = [record.entry(self.reference) for record in self.ordered()]
         for entry in entries:
+            entry["warnings"] = " ".join(notice["code"] for notice in entry["warnings"]) or None
             check = entry["label_check"] or {}
             entry["size_by_length"] = check.get("size_by_length")
             entry["label_flagged"] = check.get("flagged")

@@ -10,6 +10,7 @@ from dataclasses import dataclass
 from footfit.catalogue.rows.array_blobs import definition_text
 from footfit.catalogue.rows.records import record_of
 from footfit.catalogue.rows.verified_rows import last_names, stored_lasts
+from footfit.geometry.fit.sizes import label_number
 from footfit.geometry.flare.definition import FlareDefinition
 from footfit.results import LastRecord
 
@@ -58,6 +59,13 @@ def rejection(record: LastRecord, filters: Mapping[str, str | None]) -> str | No
     """
     for name, wanted in filters.items():
         label = getattr(record.labels, name)
-        if wanted is not None and (label is None or label.casefold() != wanted.casefold()):
+        if wanted is not None and (label is None or not _same(name, label, wanted)):
             return name
     return None
+
+
+def _same(name: str, label: str, wanted: str) -> bool:
+    """Whether two labels say the same; "42.5" and "42,5" are one size."""
+    if name == "size" and label_number(label) is not None:
+        return label_number(label) == label_number(wanted)
+    return label.strip().casefold() == wanted.strip().casefold()

@@ -93,6 +93,7 @@ def ingest_last(
     mode = changed(mode, total=len(batch))
     say_notices(unused_rows(batch, rows), str(manifest), quiet=mode.quiet)
     refused: list[int] = []
+    warned = 0
     catalogue, notices = lasts.open_to_make(dry_run=dry_run), Notices(mode)
     outcomes = catalogue.ingest_each(
         batch,
@@ -105,10 +106,14 @@ def ingest_last(
     with reader_required(), failures_last(mode) as tell_failure, progress(mode) as bar:
         for outcome in bar.items(outcomes):
             tell(outcome, mode, notices)
+            warned += bool(outcome.warnings)
             if outcome.failure is not None:
                 refused.append(int(outcome.failure.exit))
                 tell_failure(error_line(outcome.failure, as_json=mode.json, verbose=mode.verbose))
         notices.close()
+        if warned:
+            words = f"{warned} of {mode.total} lasts have warnings; footfit list-lasts marks them"
+            say(words, quiet=mode.quiet)
         if dry_run:
             say(f"{catalogue.path}: a dry run, nothing was stored", quiet=mode.quiet)
     raise typer.Exit(common_code(refused))

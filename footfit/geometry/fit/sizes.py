@@ -207,7 +207,7 @@ def label_check(
     >>> label_check("38", "eu", 280.0).flagged, label_check("large", "eu", 280.0)
     (True, None)
     """
-    system, labelled = system_named(system_name), _labelled(label)
+    system, labelled = system_named(system_name), label_number(label)
     if system is None or labelled is None or last_length_mm is None:
         return None
     number, child = labelled
@@ -221,15 +221,16 @@ def label_check(
     return LabelCheck(system.name, by_length[nearest], off)
 
 
-def _labelled(label: str | None) -> tuple[float, bool] | None:
+def label_number(label: str | None) -> tuple[float, bool] | None:
     """The number of a label, and whether the label says that it is a child's (12C, 12K).
 
     Examples
     --------
-    >>> [_labelled(label)[0] for label in ("6½", "6,5", "6.5 ", "6 1/2")]
+    >>> [label_number(label)[0] for label in ("6½", "6,5", "6.5 ", "6 1/2")]
     [6.5, 6.5, 6.5, 6.5]
-    >>> [round(_labelled(label)[0], 3) for label in ("42⅔", "42 2/3", "42 ⅔")], _labelled("42W")
-    ([42.667, 42.667, 42.667], None)
+    >>> [round(label_number(label)[0], 3) for label in ("42⅔", "42 2/3", "42 ⅔")]
+    [42.667, 42.667, 42.667]
+    >>> label_number("42W")
     """
     parts = _LABEL.fullmatch(label or "")
     if parts is None:

@@ -308,7 +308,7 @@ def _success(
         last=record.labels.name,
         side=record.side.side,
         flare_angle_deg=record.flare.angle_deg,
-        warnings=record.warnings if changed else (),
+        warnings=record.notices if changed else (),
         reference=first,
         info=record.info if changed else None,
     )

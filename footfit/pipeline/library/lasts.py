@@ -8,27 +8,37 @@ from pathlib import Path
 
 from footfit.catalogue.file.opening import FIRST_STEPS
 from footfit.catalogue.store import Catalogue, open_catalogue
-from footfit.errors import EmptyCatalogue
+from footfit.errors import BadOption, EmptyCatalogue
 from footfit.geometry.measures.measure_table import of_kind
 from footfit.geometry.pose.paper_frame import paper_frame_angle_deg
 from footfit.results import LastRecord, Library, Notice, StoredLast
+from footfit.results.library import SORTS
 from footfit.results.values import notices_about
 
 
-def list_lasts(path: Path) -> Library:
-    """Every intact last by name, whatever its definition; a warning names each damaged one.
+def list_lasts(path: Path, sort: str = "name", **labels: str | None) -> Library:
+    """Every intact last, whatever its definition; a warning names each damaged one.
+
+    ``labels`` filter: ``style``, ``size`` and ``width_label``. ``sort`` is one of `SORTS`.
 
     Raises
     ------
+    BadOption
+        There is no such order.
     NoCatalogue, CatalogueUnusable
         There is no catalogue, or it cannot be read.
     """
+    if sort not in SORTS:
+        raise BadOption(f"lasts are sorted by {', '.join(SORTS)}, not by {sort!r}")
     with open_catalogue(path) as catalogue:
-        stored, reference = catalogue.lasts(), _reference(catalogue)
+        stored, reference = catalogue.lasts(**labels), _reference(catalogue)
+        total = len(catalogue.names())
     return Library(
         lasts=stored.records,
-        total=len(stored.records) + len(stored.damaged),
+        total=total,
         reference=reference,
+        sort=sort,
+        filters=tuple((name, value) for name, value in labels.items() if value is not None),
         warnings=notices_about(str(path), map(_damaged, stored.damaged)),
     )
 
@@ -71,7 +81,10 @@ def library(path: Path, style: str | None = None, size_system: str | None = None
         total = len(catalogue.names())
         if not total:
             raise EmptyCatalogue(f"the catalogue holds no last; {FIRST_STEPS}", str(path))
-        stored, reference = catalogue.lasts(style, size_system), _reference(catalogue)
+        stored, reference = (
+            catalogue.lasts(style=style, size_system=size_system),
+            _reference(catalogue),
+        )
     current = tuple(r for r in stored.records if r.labels.name not in stored.outdated)
     return Library(
         lasts=current,

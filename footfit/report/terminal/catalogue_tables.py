@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping, Sequence
+from typing import NamedTuple
 
 from rich.console import Group, RenderableType
 from rich.text import Text
@@ -31,32 +32,107 @@ from footfit.report.wording.text import (
 MEGABYTE = 1_000_000
 
 
+class Mark(NamedTuple):
+    """A letter for warnings of these codes, and what it says of a last."""
+
+    letter: str
+    codes: frozenset[str]
+    words: str
+
+
+MARKS = (
+    Mark(
+        "S",
+        frozenset({"side_contradicted"}),
+        "the shape looks like the other side than the one that was given",
+    ),
+    Mark("U", frozenset({"low_side_confidence"}), "the side is not sure"),
+    Mark("F", frozenset({"looks_like_a_foot"}), "the shape is nearer to a foot's than to a last's"),
+    Mark(
+        "L",
+        frozenset({"size_contradicted"}),
+        "the size on the label is more than a size from the length",
+    ),
+    Mark("O", frozenset({"suspect_flare"}), "hardly any last has such a flare"),
+    Mark(
+        "H",
+        frozenset({"stance_label_contradicted"}),
+        "the shape contradicts the labels of heel height, toe spring or platform",
+    ),
+)
+"""The warnings with a mark of their own; their sentences stand below the list."""
+OTHER = Mark("W", frozenset(), "another warning of the scan")
+NAMED = 3
+"""So many lasts are named beside a mark."""
+
+
+def marks_of(record: results.LastRecord) -> tuple[Mark, ...]:
+    """The marks of a last: one for each kind of its warnings, stored ones and those of its labels.
+
+    Examples
+    --------
+    >>> MARKS[0].letter, OTHER.letter
+    ('S', 'W')
+    """
+    codes = {notice.code for notice in record.notices}
+    known = tuple(mark for mark in MARKS if mark.codes & codes)
+    return known if codes <= frozenset().union(*(m.codes for m in MARKS)) else (*known, OTHER)
+
+
 def list_lasts_table(library: results.Library) -> RenderableType:
-    """The library, one line per last, by name: a star marks the reference, "!" a wrong label."""
-    ordered, reference = library.by_name(), library.reference
-    heads = ("last", "style", "size", "side", "length\nmm", "flare\ndeg", "class", "heel\nmm")
-    table = lined_table(*heads, right=frozenset({"length\nmm", "flare\ndeg", "heel\nmm"}))
-    notes: list[Text] = []
+    """The library, one line per last: a star marks the reference, letters mark warnings."""
+    ordered, reference = library.ordered(), library.reference
+    numbers = ("length\nmm", "ball\nmm", "flare\ndeg", "heel\nmm")
+    heads = ("last", "!", "style", "size", "side", *numbers[:3], "class", numbers[3])
+    table = lined_table(*heads, right=frozenset(numbers))
+    marked: dict[Mark, list[str]] = {}
     for record in ordered:
-        labels, heel = record.labels, record.labels.heel_height_mm
+        labels, marks = record.labels, marks_of(record)
+        for mark in marks:
+            marked.setdefault(mark, []).append(labels.name)
         star = " *" if labels.name == reference else ""
-        off = off_label(record)
-        notes += [Text(f"! {visible(labels.name)}: {label_words(off)}", "yellow")] if off else []
-        size = size_text(labels)
         table.add_row(
             cell(labels.name, "bold").append(star),
+            Text("".join(mark.letter for mark in marks), "bold yellow"),
             cell(labels.style),
-            cell(size).append(" !", "bold yellow") if off else cell(size),
+            cell(size_text(labels)),
             record.side.side or "undecided",
-            "-" if record.length_mm is None else plain(record.length_mm),
+            _number(record.length_mm),
+            _number(record.value_of("ball_girth"), 0),
             signed(record.flare.angle_deg),
             record.flare.flare_class or "-",
-            "-" if heel is None else plain(heel, 0),
+            _number(record.heel_height_mm, 0),
         )
-    noun = "last" if len(ordered) == 1 else "lasts"
-    words = f"{len(ordered)} {noun}; * {visible(reference)} is the reference" if reference else ""
-    closing = Text(words or f"{len(ordered)} {noun}; no reference is set", "dim")
-    return Group(table, *notes, closing)
+    return Group(table, *_legend(marked), Text(_count(library, len(ordered)), "dim"))
+
+
+def _number(value: float | None, digits: int = 1) -> str:
+    return "-" if value is None else plain(value, digits)
+
+
+def _legend(marked: Mapping[Mark, Sequence[str]]) -> list[Text]:
+    """What each mark in the list says, with the lasts that have it."""
+    lines = []
+    for mark in (*MARKS, OTHER):
+        names = marked.get(mark, ())
+        if names:
+            more = f" and {len(names) - NAMED} more" if len(names) > NAMED else ""
+            named = ", ".join(map(visible, names[:NAMED]))
+            lines.append(Text(f"{mark.letter}  {mark.words}: {named}{more}", "yellow"))
+    return [*lines, Text("footfit show-last NAME says more", "dim")] if lines else []
+
+
+def _count(library: results.Library, listed: int) -> str:
+    """How many lasts are listed, and which one is the reference."""
+    noun = "last" if listed == 1 else "lasts"
+    count = f"{listed} {noun}"
+    if library.filters:
+        asked = ", ".join(f"{name.replace('_', ' ')} {visible(v)}" for name, v in library.filters)
+        count = f"{listed} of {library.total} lasts: {asked}"
+    reference = library.reference
+    if reference is None:
+        return f"{count}; no reference is set"
+    return f"{count}; * {visible(reference)} is the reference"
 
 
 def off_label(record: results.LastRecord) -> LabelCheck | None:
@@ -149,16 +225,16 @@ def set_reference_line(outcome: results.ReferenceOutcome) -> Text:
     return line.append(f"  {outcome.rewritten} stored {noun} rewritten", "not bold")
 
 
-def edit_last_line(outcome: results.EditOutcome) -> Text:
+def edit_last_table(outcome: results.EditOutcome) -> RenderableType:
     """The labels that changed, and what was measured again."""
-    line = Text(f"{outcome.status}  ").append(visible(outcome.last), "bold")
-    for label, before, after in outcome.changes:
-        noun = label.removesuffix("_mm").replace("_", " ")
-        line.append(f"  {noun}: {_label_words(before)} to {_label_words(after)}", "not bold")
+    rows = [
+        (label.removesuffix("_mm").replace("_", " "), f"{_label_words(old)} to {_label_words(new)}")
+        for label, old, new in outcome.changes
+    ]
     if outcome.measured_again:
         names = ", ".join(name.replace("_", " ") for name in outcome.measured_again)
-        line.append(f"; measured again: {names}", "not bold")
-    return line
+        rows.append(("measured again", names))
+    return facts(*rows, title=f"{outcome.status}  {outcome.last}")
 
 
 def _label_words(value: str | float | None) -> str:
@@ -179,8 +255,8 @@ def remove_last_line(outcome: results.RemoveOutcome) -> Text:
     line = Text("removed  ").append(visible(outcome.last), "bold")
     if outcome.left:
         return line
-    words = "  the catalogue is empty: the next last that you ingest becomes the reference"
-    return line.append(words, "not bold")
+    words = "the catalogue is empty: the next last that you ingest becomes the reference"
+    return line.append(f"\n{words}", "not bold")
 
 
 def export_last_line(outcome: results.ExportOutcome) -> Text:
