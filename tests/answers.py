@@ -188,7 +188,7 @@ def candidate(rank, last, foot_length_mm=260.0, foot_turn_deg=10.0, **more):
     room, more_or_less = last.length_mm - foot_length_mm, "more" if delta > 0 else "less"
     values = {
         "verdict": None,
-        "why": f"{room:.1f} mm toe room (asked 13); "
+        "why": f"{room:.1f} mm toe room (wanted: 13 mm); "
         f"turns {abs(delta):.1f} deg {more_or_less} inward than the foot",
         "tied_with": (),
         "mirrored": False,

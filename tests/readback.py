@@ -19,6 +19,7 @@ import numpy as np
 from footfit import __version__
 from footfit.geometry.fit.sizes import foot_size, foot_sizes, system_named
 from footfit.geometry.flare.definition import FlareProfile
+from footfit.pipeline.fit.zones import ZONES
 from footfit.results import (
     Candidate,
     Comparison,
@@ -36,9 +37,12 @@ MARKS = {"good": "●", "acceptable": "▲", "poor": "■", "reject": "✕", Non
 
 UNKNOWN_HEEL = "the heel of the last is not known"
 
+OTHER_FOOT = "shown on the last of the other foot"
+
 SAID = "said"
 """Begins the name of a fact that stands somewhere in a sentence of its own."""
 
+ZONE_ENDS = dict.fromkeys(ZONES, "_mm") | {"ball_line": "_percent", "flare": "_deg", "plan": ""}
 FIT_NAMES = ("length", "ball_width", "ball_girth", "heel_width", "instep_girth")
 SYSTEMS = ("eu", "uk", "us-men", "us-women", "mondopoint")
 _NUMBER = re.compile(r"[+-]?\d")
@@ -112,14 +116,20 @@ def holds(text: str, values: Sequence[str]) -> bool:
 # ------------------------------------------------------------------ numbers as they are shown
 
 
-def signed(value: float | None, digits: int = 1) -> str:
+def signed(value: float | None, digits: int = 1, kept: int = 3) -> str:
     """With a sign, also where it is +0.0."""
-    return "-" if value is None else format(_rounded(value, digits), f"+.{digits}f")
+    text = plain(value, digits, kept)
+    return text if text.startswith("-") else f"+{text}"
 
 
-def plain(value: float | None, digits: int = 1) -> str:
-    """Without a plus."""
-    return "-" if value is None else format(_rounded(value, digits), f".{digits}f")
+def plain(value: float | None, digits: int = 1, kept: int = 3) -> str:
+    """Without a plus: the number with ``kept`` decimals that a document has, rounded half up."""
+    if value is None:
+        return "-"
+    document, step = round(abs(float(value)) * 10**kept), 10 ** (kept - digits)
+    units = (document + step // 2) // step
+    sign = "-" if value < 0 and units else ""
+    return f"{sign}{units // 10**digits}" + (f".{units % 10**digits:0{digits}d}" if digits else "")
 
 
 def csv_number(value: float | None, digits: int) -> str:
@@ -145,7 +155,11 @@ def match_facts(match: Match, comparisons: Sequence[Comparison] = ()) -> Iterato
     profile = match.profile if match.by == "fit" else None
     lead = [*files, match.catalogue_lasts, match.by, profile, __version__]
     yield fact("lead", lead, PAGE)
-    left_out = [text for why, count in match.rejected for text in (count, why.replace("_", " "))]
+    left_out = [
+        text
+        for why, count in match.rejected
+        for text in (count, why.replace("_", " ") if why.startswith("too") else None)
+    ]
     yield fact(f"{SAID} left out", left_out or ["No last was left out"], PAGE)
     searched = [len(match.candidates), match.catalogue_lasts, match.by, profile, *left_out]
     yield fact(f"{SAID} searched", searched, TERMINAL)
@@ -157,6 +171,7 @@ def match_facts(match: Match, comparisons: Sequence[Comparison] = ()) -> Iterato
         yield fact(f"note {number}", notice.message, PAGE)
     for number, foot in enumerate(match.feet, 1):
         yield from foot_facts(match, foot, f"foot {number}")
+    yield from size_facts(match)
     if len(match.feet) > 1 and not any("differ" in known.code for known in match.warnings):
         lengths = [foot.length_mm for foot in match.feet]
         yield fact(f"{SAID} pair", plain(abs(lengths[0] - lengths[1])), PAGE)
@@ -166,9 +181,11 @@ def match_facts(match: Match, comparisons: Sequence[Comparison] = ()) -> Iterato
     for candidate in shown:
         yield from candidate_facts(candidate, judged=judged)
     yield from zone_facts(shown, best=match.candidates[:1])
-    for candidate in match.candidates:
-        for number, foot in enumerate(match.feet):
+    for number, foot in enumerate(match.feet):
+        for candidate in match.candidates:
             yield from match_csv_facts(match, candidate, number, foot)
+        if not match.candidates:
+            yield from empty_csv_facts(match, number, foot)
     names = [candidate.last for candidate in shown[:3]]
     for name in files:
         yield fact(f"{SAID} under the flare of {name}", [name, *names], PAGE)
@@ -196,17 +213,6 @@ def foot_facts(match: Match, foot: Profiled, name: str) -> Iterator[Fact]:
     yield fact(f"{name} scan", [f"{alignment.info.faces:,}", alignment.info.units], PAGE)
     line = [_file(foot), word, "last" if is_last else "foot", plain(foot.length_mm), *turn]
     yield fact(f"{SAID} of {name}", [*line, flare.flare_class], TERMINAL)
-    system, sizes = system_named(match.size_system), foot_sizes(foot.length_mm)
-    words = {size.system: size.words for size in sizes}
-    usual = [words[known] for known in SYSTEMS]
-    if system is not None:
-        size = foot_size(foot.length_mm, system)
-        rest = [words[known] for known in SYSTEMS if known != system.name]
-        yield fact(f"{name} sizes", [size.words, *size.beside, *rest], PAGE)
-        yield fact(f"{SAID} sizes of {name}", [size.words, *size.beside], TERMINAL)
-    elif not is_last:
-        yield fact(f"{name} sizes", usual, PAGE)
-        yield fact(f"{SAID} sizes of {name}", usual, TERMINAL)
     taken = {row.name: row.measured for row in foot.measures}
     for measure in {"length": Measured(foot.length_mm)} | taken:
         measured = taken.get(measure, Measured(foot.length_mm))
@@ -218,6 +224,24 @@ def foot_facts(match: Match, foot: Profiled, name: str) -> Iterator[Fact]:
         yield fact(f"{name} lacking", said, PAGE)
     for number, notice in enumerate(alignment.warnings, 1):
         yield fact(f"{name} note {number}", notice.message, PAGE)
+
+
+def size_facts(match: Match) -> Iterator[Fact]:
+    """The one size of a customer, beside the foot that it is taken from: the longest."""
+    longest = max(foot.length_mm for foot in match.feet)
+    system = system_named(match.size_system)
+    words = {size.system: size.words for size in foot_sizes(longest)}
+    shown = [words[known] for known in SYSTEMS if system is None or known != system.name]
+    if match.by == "shape" and match.feet[0].aligned.alignment.pose.kind == "last":
+        return
+    asked = []
+    if system is not None:
+        size = foot_size(longest, system)
+        asked = [size.words, *size.beside]
+    for number, foot in enumerate(match.feet, 1):
+        if foot.length_mm == longest:
+            yield fact(f"foot {number} sizes", [*asked, *shown], PAGE)
+    yield fact(f"{SAID} size", asked or shown, TERMINAL)
 
 
 def best_facts(match: Match) -> Iterator[Fact]:
@@ -248,12 +272,12 @@ def candidate_facts(candidate: Candidate, *, judged: bool) -> Iterator[Fact]:
         yield fact(f"{name} verdict", mark, PAGE)
         yield fact(f"{name} verdict", verdict or "-", TERMINAL)
     spread = None if room.sd is None else plain(room.sd)
-    yield fact(f"{name} room", [signed(room.value), spread], PAGE)
-    yield fact(f"{name} room", signed(room.value), TERMINAL)
+    yield fact(f"{name} room", [_room(candidate, room), spread], PAGE)
+    yield fact(f"{name} room", _room(candidate, room), TERMINAL)
     yield fact(f"{name} flare", signed(candidate.flare.delta_deg), *both)
-    yield fact(f"{name} distance", plain(candidate.distance, 2), *both)
+    yield fact(f"{name} distance", plain(candidate.distance, 2, 6), *both)
     yield fact(f"{name} why", [candidate.why, *_ties(candidate, named=1)], PAGE)
-    mirrored = "mirrored" if candidate.mirrored else None
+    mirrored = OTHER_FOOT if candidate.mirrored else None
     sentence = [candidate.why, mirrored, *_ties(candidate, named=3)]
     yield fact(f"{name} why", sentence, TERMINAL)
     for number, room_there in enumerate(candidate.surfaces, 1):
@@ -262,11 +286,19 @@ def candidate_facts(candidate: Candidate, *, judged: bool) -> Iterator[Fact]:
         yield fact(f"{name} surface {number}", words, *both)
 
 
+def _room(candidate: Candidate, room: Measured) -> str:
+    """The toe room with the decimals that its verdict needs."""
+    zones = [zone for fit in candidate.fits for zone in fit.zones]
+    digits = [zone.digits for zone in zones if zone.zone == "length" and zone.counts]
+    return signed(room.value, digits[0] if digits else 1)
+
+
 def zone_facts(shown: Sequence[Candidate], best: Sequence[Candidate]) -> Iterator[Fact]:
     """The zones of every last shown on the page; of the best one in a terminal."""
     judged = [candidate for candidate in shown if candidate.fits]
     for index, zone in enumerate(judged[0].fits[0].zones if judged else ()):
-        name = f"zone {zone.zone.replace('_', ' ')}"
+        same = " (0 = the same)" if zone.unit == "ratio" else ""
+        name = f"zone {zone.label or zone.zone.replace('_', ' ')}{same}"
         yield fact(f"{name} asked", signed(zone.target), PAGE)
         for candidate in judged:
             feet = [fit.zones[index] for fit in candidate.fits]
@@ -276,8 +308,7 @@ def zone_facts(shown: Sequence[Candidate], best: Sequence[Candidate]) -> Iterato
         feet = [fit.zones[index] for fit in best[0].fits]
         yield fact(f"{name} asked", signed(zone.target), TERMINAL)
         for number, foot in enumerate(feet, 1):
-            digits = 2 if foot.unit == "ratio" else 1
-            yield fact(f"{name} foot {number}", signed(foot.clearance.value, digits), TERMINAL)
+            yield fact(f"{name} foot {number}", clearance_text(foot), TERMINAL)
         yield fact(f"{name} verdict", _worst(feet), TERMINAL)
     if best and best[0].fits:
         yield fact(f"{SAID} zones of", best[0].last, TERMINAL)
@@ -319,10 +350,50 @@ def match_csv_facts(
         measured = clearances.get(name, Measured(None))
         cells[f"clearance_{name}_mm"] = mm(measured.value)
         cells[f"clearance_{name}_sd_mm"] = mm(measured.sd)
-    cells |= heel_cells(None if fit is None else fit.heel)
+    cells |= heel_cells(None if fit is None else fit.heel) | foot_cells(match, foot, "ranked")
+    zones = {} if fit is None else {row.zone: row for row in fit.zones}
+    for name, end in ZONE_ENDS.items():
+        row = zones.get(name)
+        known = Measured(None) if row is None else row.clearance
+        if name not in FIT_NAMES:
+            cells[f"clearance_{name}{end}"] = mm(known.value)
+            cells[f"clearance_{name}_sd{end}"] = mm(known.sd)
+        cells[f"verdict_{name}"] = None if row is None else row.verdict
+        cells[f"not_counted_{name}"] = None if row is None else row.not_counted or known.reason
     for column, value in cells.items():
         text = "" if value is None else value
         yield fact(f"foot {number + 1} last {candidate.rank} {column}", text, CSV)
+
+
+def foot_cells(match: Match, foot: Profiled, status: str) -> dict[str, object]:
+    """What every row of a foot says of it."""
+    system = system_named(match.size_system) or system_named("eu")
+    longest = max(each.length_mm for each in match.feet)
+    return {
+        "status": status,
+        "foot_length_mm": mm(foot.length_mm),
+        "foot_size": foot_size(foot.length_mm, system).words,
+        "customer_size": foot_size(longest, system).words,
+        "error": None,
+    }
+
+
+def empty_csv_facts(match: Match, number: int, foot: Profiled) -> Iterator[Fact]:
+    """The row of a foot that no last fits."""
+    cells: dict[str, object] = {
+        "path": foot.aligned.alignment.info.path,
+        "foot_side": foot.aligned.alignment.side.side,
+        "by": match.by,
+        "profile": match.profile,
+        "profile_sha256": None if match.fit_profile is None else match.fit_profile.sha256,
+        **foot_cells(match, foot, "no_last_fits"),
+    }
+    for column in Match.columns:
+        value = cells.get(column)
+        if column == "why":
+            counts = ", ".join(f"{n} {why}" for why, n in match.rejected) or "none"
+            value = f"no last fits: left out are {counts}"
+        yield fact(f"foot {number + 1} last  {column}", "" if value is None else value, CSV)
 
 
 def heel_cells(heel: HeelChange | None) -> dict[str, object]:
@@ -357,9 +428,14 @@ def _page_zones(feet: Sequence[ZoneFit]) -> list[str]:
     for zone in feet:
         known = zone.clearance.value is not None
         verdict = zone.verdict if known else None
-        number = [signed(zone.clearance.value)] if known else []
+        number = [clearance_text(zone)] if known else []
         texts += [*number, f"{MARKS[verdict]} ({verdict or 'not judged'})"]
     return texts
+
+
+def clearance_text(zone: ZoneFit) -> str:
+    """A clearance with the decimals that its verdict needs."""
+    return signed(zone.clearance.value, max(zone.digits, 2 if zone.unit == "ratio" else 1))
 
 
 def _worst(feet: Sequence[ZoneFit]) -> str:
@@ -371,22 +447,31 @@ def _worst(feet: Sequence[ZoneFit]) -> str:
     return reasons[0] if reasons else "counts nothing"
 
 
+PLACES = {
+    "bottom": "under the foot",
+    "medial": "on the inner side",
+    "lateral": "on the outer side",
+    "dorsal": "on top of the foot",
+    "toe": "at the toes",
+}
+
+
 def _surface(room: SurfaceClearance) -> list[str]:
     """Where more than a tenth of a zone is tight, and where it is loose: the two largest each."""
     if room.reason is not None:
         return [room.reason]
     texts = []
-    for word, area, edge in (("tight", "tight_cm2", "p05_mm"), ("loose", "loose_cm2", "p95_mm")):
+    named = (("presses most", "tight_cm2", "p05_mm"), ("loosest", "loose_cm2", "p95_mm"))
+    for word, area, edge in named:
         zones = [
             zone
             for zone in room.zones
             if getattr(zone, edge) is not None and getattr(zone, area) > 0.1 * zone.area_cm2
         ]
-        zones.sort(key=lambda zone: -getattr(zone, area))
-        for zone in zones[:2]:
-            texts += [zone.zone, signed(getattr(zone, edge)), plain(getattr(zone, area), 0)]
+        zones.sort(key=lambda zone: -abs(getattr(zone, edge)))
         if zones:
-            texts.insert(len(texts) - 3 * len(zones[:2]), word)
+            size = plain(abs(getattr(zones[0], edge)))
+            texts += [word, PLACES[zones[0].zone], size, *(PLACES[z.zone] for z in zones[1:2])]
     return texts or ["nowhere tight", "2", "8"]
 
 
@@ -417,7 +502,7 @@ def comparison_facts(comparison: Comparison) -> Iterator[Fact]:
     """Everything that the page, the terminal and the CSV of a comparison show."""
     foot, last = comparison.foot.aligned.alignment, comparison.last
     delta = last.flare.angle_deg - comparison.foot.flare.angle_deg
-    mirrored = "mirrored" if comparison.mirrored else None
+    mirrored = OTHER_FOOT if comparison.mirrored else None
     lengths = [plain(foot.length_mm), plain(last.length_mm)]
     room, heel = comparison.toe_room, comparison.heel
     turn = {} if heel is None else dict(heel.changes)
@@ -434,6 +519,16 @@ def comparison_facts(comparison: Comparison) -> Iterator[Fact]:
     yield from heel_facts(heel)
     numbers = [mm(room.value), mm(room.sd), room.reason or ""]
     yield from _compare_csv(comparison, ("whole", "length", "toe_room"), ["mm", "", "", *numbers])
+    known_measures = []
+    for name, clearance in comparison.measured_clearance:
+        cells = ["mm", "", "", mm(clearance.value), mm(clearance.sd), clearance.reason or ""]
+        yield from _compare_csv(comparison, ("whole", name, "clearance"), cells)
+        if clearance.value is not None:
+            words = name.replace("_", " ")
+            known_measures += [words, signed(clearance.value), plain(clearance.sd)]
+    yield fact(
+        f"{SAID} measures", ["last minus foot in mm", *(known_measures or ["none"])], TERMINAL, PAGE
+    )
     if heel is not None:
         cells = ["mm", "", "", mm(heel.drop_mm), "", "" if heel.drop_mm else UNKNOWN_HEEL]
         yield from _compare_csv(comparison, ("heel", "last", "drop"), cells)
@@ -500,14 +595,16 @@ def _compare_csv(
 
 def room_facts(comparison: Comparison, name: str, *, area: bool, where: str) -> Iterator[Fact]:
     """The room by zone as a table; the area only where there is place for it."""
-    swing = comparison.placement.swing_mm
-    way = "medial" if swing > 0 else "lateral"
-    yield fact(f"{SAID} swing of {name}", [plain(abs(swing)), way], where)
+    swing, turn = comparison.placement.swing_mm, comparison.flare_delta_deg
+    way = "inner side" if swing > 0 else "outer side"
+    if (swing > 0) == (turn < 0):
+        way = f"turns {'less' if swing > 0 else 'more'} inward"
+    yield fact(f"{SAID} swing of {name}", [way, plain(abs(swing))], where)
     for zone in comparison.zones:
         place = f"{name} {zone.zone}"
         known = zone.mean_mm is not None
-        tight, loose = (plain(value, 0) for value in (zone.tight_cm2, zone.loose_cm2))
-        whole = plain(zone.area_cm2, 0)
+        tight, loose = (plain(value, 0, 1) for value in (zone.tight_cm2, zone.loose_cm2))
+        whole = plain(zone.area_cm2, 0, 1)
         yield fact(f"{place} mean", signed(zone.mean_mm), where)
         edges = [signed(zone.p05_mm), signed(zone.p95_mm)]
         if where == PAGE:

@@ -192,7 +192,7 @@ def test_a_detected_unit_is_said_once(last, unit):
     said = [notice.message for notice in found.warnings if notice.code == "units_detected"]
     assert len(said) == (unit != "mm"), "plain millimetres are no surprise"
     if said:
-        assert f"taken as {UNIT_NAMES[unit]}, so the length is 268 mm" in said[0]
+        assert f"taken as {UNIT_NAMES[unit]}, so the length is {found.length_mm:.1f} mm" in said[0]
     declared = aligned(scan_of(*last, units=unit, source="declared")).alignment
     assert "units_detected" not in codes(declared)
 

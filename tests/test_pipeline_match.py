@@ -150,7 +150,9 @@ def test_the_verdict_comes_first_whatever_the_toe_room_says() -> None:
     assert [c.last for c in found.candidates] == ["long", "tight"]
     assert [c.verdict for c in found.candidates] == ["acceptable", "poor"]
     why = found.candidates[1].why
-    assert why.endswith("ball girth 9.0 mm tighter than asked, behind long by that")
+    assert why.endswith(
+        "ball girth: 9.0 mm smaller than the foot (wanted: the same), behind long by that"
+    )
 
 
 def test_among_equal_verdicts_a_good_toe_room_comes_first() -> None:
@@ -159,14 +161,14 @@ def test_among_equal_verdicts_a_good_toe_room_comes_first() -> None:
     assert [c.verdict for c in found.candidates] == ["acceptable", "acceptable"]
     assert [c.last for c in found.candidates] == ["wide", "long"]
     assert found.candidates[0].distance > found.candidates[1].distance
-    assert found.candidates[1].why == "17.5 mm toe room (asked 13): further off than wide"
+    assert found.candidates[1].why == "17.5 mm toe room (wanted: 13 mm): further off than wide"
 
 
 def test_a_last_that_was_not_judged_in_full_stands_behind_its_verdict() -> None:
     found = answer(last("lacking", ball_girth=None), last("long", 278.0, ball_girth=246.0))
     assert [c.last for c in found.candidates] == ["long", "lacking"]
     assert [c.verdict for c in found.candidates] == ["acceptable", "acceptable"]
-    assert found.candidates[1].why == "13.0 mm toe room (asked 13); not judged: ball girth"
+    assert found.candidates[1].why == "13.0 mm toe room (wanted: 13 mm); not judged: ball girth"
     assert meets(found, "acceptable")
 
 
@@ -361,7 +363,9 @@ def test_a_pair_that_differs_by_a_size_is_advised() -> None:
 
 def test_the_first_is_said_by_its_worst_zone() -> None:
     (found,) = answer(last("a", ball_girth=237.0)).candidates
-    assert found.why == "13.0 mm toe room (asked 13); ball girth 3.0 mm tighter than asked"
+    room, worst = found.why.split("; ")
+    assert room == "13.0 mm toe room (wanted: 13 mm)"
+    assert worst == "ball girth: 3.0 mm smaller than the foot (wanted: the same)"
     (found,) = answer(last("a")).candidates
     assert found.why.endswith("near the target in every zone judged")
 
@@ -369,8 +373,10 @@ def test_the_first_is_said_by_its_worst_zone() -> None:
 def test_the_next_is_said_by_what_puts_it_behind_the_first() -> None:
     found = answer(last("best"), last("wide", ball_width=101.0), last("long", 279.0))
     why = {c.last: c.why for c in found.candidates}
-    assert why["wide"].endswith("ball width 5.0 mm wider than asked, behind best by that")
-    assert why["long"] == "19.0 mm toe room (asked 13): further off than best"
+    assert why["wide"].endswith(
+        "ball width: 3.0 mm wider than the foot (wanted: 2 mm narrower), behind best by that"
+    )
+    assert why["long"] == "19.0 mm toe room (wanted: 13 mm): further off than best"
 
 
 def test_where_nothing_fits_the_nearest_three_say_what_they_miss_by() -> None:
@@ -379,7 +385,7 @@ def test_where_nothing_fits_the_nearest_three_say_what_they_miss_by() -> None:
     assert found.candidates == ()
     assert [c.last for c in found.nearest] == ["b", "d", "c"]
     assert {c.verdict for c in found.nearest} == {"reject"}
-    assert found.nearest[0].why == "2.0 mm toe room (asked 13), 6.0 mm past the limit"
+    assert found.nearest[0].why == "2.0 mm toe room (wanted: 13 mm), 6.0 mm past the limit"
     assert "nothing_fits" in [n.code for n in found.warnings]
 
 
@@ -490,6 +496,6 @@ def test_where_no_length_is_known_no_last_is_shown_and_that_is_said() -> None:
     assert dict(found.rejected) == {"length_unknown": 1}
     (notice,) = [n for n in found.warnings if n.code == "nothing_fits"]
     assert "the length of no last is known" in notice.message
-    assert "1 length unknown" in match_page(found)
-    assert "1 length unknown" in terminal_text(match_table(found))
+    assert "1 of unknown length" in match_page(found)
+    assert "1 of unknown length" in terminal_text(match_table(found))
     assert best_comparison(Path("none.footfit"), found) is None

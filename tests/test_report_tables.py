@@ -91,9 +91,9 @@ def test_nothing_fits_is_an_answer() -> None:
 def test_a_verdict_is_a_word_and_has_its_column_once_it_is_there() -> None:
     match = answers.match()
     judged = tuple(replace(c, verdict="acceptable") for c in match.candidates)
-    assert "verdict" not in terminal_text(match_tables.match_table(match))
+    assert "  verdict" not in terminal_text(match_tables.match_table(match))
     text = terminal_text(match_tables.match_table(replace(match, candidates=judged)), 120)
-    assert "verdict" in text
+    assert "  verdict" in text
     assert text.count("acceptable") == len(judged)
 
 
@@ -139,7 +139,7 @@ def test_ties_and_mirroring_are_said() -> None:
     match = answers.match()
     first = replace(match.candidates[0], tied_with=("a", "b", "c", "d"), mirrored=True)
     text = terminal_text(match_tables.match_table(replace(match, candidates=(first,))), 240)
-    assert "; mirrored; tied with a, b, c and 1 more" in text
+    assert "; shown on the last of the other foot; tied with a, b, c and 1 more" in text
 
 
 def test_plain_text_has_no_escape_and_colour_has() -> None:

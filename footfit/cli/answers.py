@@ -74,7 +74,7 @@ def answer_outcomes(
 
     mode = replace(mode, answers=outputs.csv != STDOUT)
     errors: list[FootfitError] = []
-    tables: list[T] = []
+    tables: list[Any] = []
     notices = Notices(mode)
     lost: Exception | None = None
     with failures_last(mode) as say_failure, progress(mode, scans) as bar:
@@ -83,6 +83,8 @@ def answer_outcomes(
             if result is None:
                 assert outcome.error is not None
                 errors.append(outcome.error)
+                if outputs.csv is not None and outputs.failed_table is not None:
+                    tables.append(outputs.failed_table(outcome.item, outcome.error))
                 line = error_line(_advised(outcome.error), as_json=mode.json, verbose=mode.verbose)
                 if mode.json and mode.answers:
                     answer(line)
@@ -96,7 +98,7 @@ def answer_outcomes(
                 lost, mode = error, replace(mode, answers=False)  # the files are still wanted
             write_files(outputs, result, mode, bar)
             if outputs.csv is not None:
-                tables.append(result)
+                tables.append(outputs.as_table(result))
             if then is not None:
                 then(result)
         notices.close()

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 from footfit.cli.console import answer, say
 from footfit.cli.options import STDOUT
-from footfit.errors import BadOption, CatalogueUnusable
+from footfit.errors import BadOption, CatalogueUnusable, FootfitError
 from footfit.pipeline.export import file_kind
 from footfit.whole_files import give_name, partial_beside, require_free, sync
 
@@ -32,12 +32,17 @@ class OutputFile:
 
 @dataclass(frozen=True, slots=True)
 class Outputs:
-    """The files that a command writes: ``files`` for a single result, a CSV for all tables."""
+    """The files that a command writes: ``files`` for a single result, a CSV for all tables.
+
+    ``as_table`` makes the table of a result, ``failed_table`` that of an item that failed.
+    """
 
     files: tuple[OutputFile, ...] = ()
     table: type[Any] | None = None
     csv: Path | None = None
     force: bool = False
+    as_table: Callable[[Any], Any] = lambda result: result
+    failed_table: Callable[[Any, FootfitError], Any] | None = None
 
     def refuse(self, *, as_json: bool) -> None:
         """Stop before any work if a file could not be written at the end.

@@ -50,6 +50,7 @@ from footfit.results.library import RenameOutcome as RenameOutcome
 from footfit.results.library import RestoreOutcome as RestoreOutcome
 from footfit.results.library import UpgradeOutcome as UpgradeOutcome
 from footfit.results.match import Candidate as Candidate
+from footfit.results.match import FailedMatch as FailedMatch
 from footfit.results.match import FlareDifference as FlareDifference
 from footfit.results.match import Match as Match
 from footfit.results.meshes import MeshCopy as MeshCopy
@@ -59,6 +60,7 @@ from footfit.results.meshes import ShapeSections as ShapeSections
 from footfit.results.profile import MeasuredScan as MeasuredScan
 from footfit.results.profile import Profiled as Profiled
 from footfit.results.profile import SurfaceCurvature as SurfaceCurvature
+from footfit.results.profile import WideMeasures as WideMeasures
 from footfit.results.values import Confidence as Confidence
 from footfit.results.values import Measure as Measure
 from footfit.results.values import Measured as Measured

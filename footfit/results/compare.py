@@ -6,7 +6,17 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from footfit.results.heel import FLARE, HeelChange
-from footfit.results.values import Document, Json, Measured, Part, fields, json_number, part, rows
+from footfit.results.values import (
+    Document,
+    Json,
+    Measured,
+    Part,
+    fields,
+    json_number,
+    measured_part,
+    part,
+    rows,
+)
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
@@ -86,7 +96,8 @@ class Comparison(Document):
     """A foot, or another last, in a last, both as right shapes in the last's frame, mm.
 
     ``heel`` is what the last's heel changes of the foot; None for a foot that is taken as scanned.
-    The surfaces and sections are of the foot as it is in the heel. ``toe_room`` is that of a match.
+    The surfaces and sections are of the foot as it is in the heel. ``toe_room`` and
+    ``measured_clearance``, by measure, are those of a match.
     ``vertices_mm`` (n, 3) and ``faces`` (m, 3) are the foot in its place, ``clearance_mm`` (n,) its
     clearance at each vertex, NaN where no shoe covers the foot; ``last_vertices_mm`` and
     ``last_faces`` are the last. ``mirrored``: the last is of the other side.
@@ -105,6 +116,7 @@ class Comparison(Document):
     sections: tuple[SectionComparison, ...]
     warnings: tuple[Notice, ...]
     toe_room: Measured
+    measured_clearance: tuple[tuple[str, Measured], ...] = ()
     heel: HeelChange | None = None
 
     columns = (
@@ -124,7 +136,7 @@ class Comparison(Document):
         turn_deg = 0.0 if turn is None or turn.value is None else turn.value
         return self.last.flare.angle_deg - self.foot.flare.angle_deg - turn_deg
 
-    schema = "compare/2"
+    schema = "compare/3"
 
     def _keys(self) -> Json:
         alignment = self.foot.aligned.alignment
@@ -138,6 +150,7 @@ class Comparison(Document):
             "length_mm": _lengths_part(alignment.length_mm, self.last.length_mm),
             "extent_mm": _lengths_part(alignment.extent_mm, self.last.extent_mm),
             "toe_room_mm": self.toe_room,
+            "clearance_mm": measured_part((("length", self.toe_room), *self.measured_clearance)),
             "flare_delta_deg": self.flare_delta_deg,
             "heel": self.heel,
             "docking": part(fields(self.placement, "hinge_mm", "hinge_length_mm")),
@@ -147,8 +160,8 @@ class Comparison(Document):
         }
 
     def rows(self) -> list[Json]:
-        """A table: a row for the toe room and for each change in the heel, for each size of each
-        section, and for each figure of each zone.
+        """A table: a row for the toe room, for the clearance of each measure and each change in the
+        heel, for each size of each section, and for each figure of each zone.
         """
         start = (self.foot.aligned.alignment.info.path, self.last.labels.name)
         values: list[tuple[object, ...]] = [
@@ -171,6 +184,8 @@ class Comparison(Document):
     def _whole(self) -> list[tuple[tuple[str, str, str, str], Json]]:
         """What rows say of the whole foot: where they stand, and what they say."""
         heads = [(("whole", "length", "toe_room", "mm"), self.toe_room)]
+        for name, clearance in self.measured_clearance:
+            heads.append((("whole", name, "clearance", "mm"), clearance))
         if self.heel is not None:
             drop = Measured(self.heel.drop_mm, reason="the heel of the last is not known")
             heads.append((("heel", "last", "drop", "mm"), drop))

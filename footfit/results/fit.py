@@ -10,6 +10,16 @@ from footfit.results.values import Json, Measured, Part, SideName, Verdict, exac
 
 if TYPE_CHECKING:
     from footfit.geometry.numeric.arrays import Floats, Ints
+ZONE_ENDS = {
+    **dict.fromkeys(("length", "ball_girth", "ball_width", "ball_width_orthogonal"), "_mm"),
+    **dict.fromkeys(("waist_girth", "instep_girth", "short_heel_girth"), "_mm"),
+    **dict.fromkeys(("long_heel_girth", "heel_width", "toe_height", "instep_height"), "_mm"),
+    "toes": "_mm",
+    "ball_line": "_percent",
+    "flare": "_deg",
+    "plan": "",
+}
+"""Every zone that a profile can name, and what the name of a column ends in by its unit."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -65,7 +75,9 @@ class ZoneFit(Part):
     ``clearance`` is in ``unit``, and ``target`` is what the profile asks. ``score`` is 0 at the
     target and 1 at the edge of good; - is tight and + is loose. ``verdict`` and ``score`` are None
     if the clearance is not measured. ``counts`` is False if the other foot of the pair governs this
-    zone, or if its weight is 0. ``place`` is where in the zone that is: "big toe, inner wall".
+    zone, or if its weight is 0; ``not_counted`` then says which. ``label`` names the zone in words.
+    ``digits`` are the decimals that the clearance is shown with: more where they decide a verdict.
+    ``place`` is where in the zone that is: "big toe, inner wall".
     """
 
     zone: str
@@ -76,8 +88,11 @@ class ZoneFit(Part):
     verdict: Verdict | None
     counts: bool
     place: str | None = None
+    label: str = ""
+    not_counted: str | None = None
+    digits: int = 1
 
-    not_written = ("zone",)
+    not_written = ("zone", "digits")
 
 
 @dataclass(frozen=True, slots=True)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+from footfit.number_words import plain
 from footfit.results.values import Json, Measured, Part, exact, fields, part
 
 FLARE = "flare_angle"
@@ -137,13 +138,13 @@ def heel_words(heel: HeelChange | None, measures: tuple[str, ...]) -> str:
     doubt = " (unproven model)" if heel.unproven else ""
     parts = [f"the foot counts as {', '.join(said)}{doubt}"] if said else []
     parts += ["only the length is judged"] if heel.length_only else []
-    return f"at a drop of {heel.drop_mm:.0f} mm {' and '.join(parts)}" if parts else ""
+    return f"at a drop of {plain(heel.drop_mm, 0)} mm {' and '.join(parts)}" if parts else ""
 
 
 def _change_words(measure: str, change: float) -> str:
     if measure == "length":
-        return f"{abs(change):.1f} mm {'shorter' if change < 0 else 'longer'}"
+        return f"{plain(abs(change))} mm {'shorter' if change < 0 else 'longer'}"
     if measure == FLARE:
-        return f"turned {abs(change):.1f} deg {'more' if change > 0 else 'less'} inward"
+        return f"turned {plain(abs(change))} deg {'more' if change > 0 else 'less'} inward"
     size = "larger" if change > 0 else "smaller"
-    return f"{measure.replace('_', ' ')} {abs(change):.1f} mm {size}"
+    return f"{measure.replace('_', ' ')} {plain(abs(change))} mm {size}"

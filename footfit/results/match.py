@@ -6,7 +6,8 @@ from dataclasses import dataclass
 from itertools import zip_longest
 from typing import TYPE_CHECKING
 
-from footfit.geometry.fit.sizes import SYSTEMS, foot_sizes
+from footfit.geometry.fit.sizes import SYSTEMS, foot_size, foot_sizes, system_named
+from footfit.results.fit import ZONE_ENDS
 from footfit.results.heel import AS_SCANNED, FLARE, HeelChange, HeelQuestion
 from footfit.results.profile import flare_part
 from footfit.results.values import (
@@ -41,6 +42,19 @@ HEEL_COLUMNS = (
     "heel_change_flare_deg",
 )
 
+FOOT_COLUMNS = ("status", "foot_length_mm", "foot_size", "customer_size", "error")
+DEFAULT_SYSTEM = "eu"
+
+
+def _zone_columns(name: str) -> tuple[str, ...]:
+    """The columns of one zone; clearances of FIT_NAMES have theirs already."""
+    end = ZONE_ENDS[name]
+    taken = () if name in FIT_NAMES else (f"clearance_{name}{end}", f"clearance_{name}_sd{end}")
+    return *taken, f"verdict_{name}", f"not_counted_{name}"
+
+
+ZONE_COLUMNS = tuple(column for name in ZONE_ENDS for column in _zone_columns(name))
+
 
 @dataclass(frozen=True, slots=True)
 class FlareDifference(Part):
@@ -56,7 +70,10 @@ class FlareDifference(Part):
 
 @dataclass(frozen=True, slots=True)
 class Candidate(Part):
-    """One last of the answer. ``surfaces`` has an entry for each foot, or none if nobody asked."""
+    """One last of the answer. ``surfaces`` has an entry for each foot, or none if nobody asked.
+
+    ``size_asked`` is its label in the size system that was asked for, None if it is in that system.
+    """
 
     rank: int
     last: str
@@ -77,6 +94,7 @@ class Candidate(Part):
     fits: tuple[FootFit, ...] = ()
     not_judged: tuple[str, ...] = ()
     surfaces: tuple[SurfaceClearance, ...] = ()
+    size_asked: str | None = None
 
     def _keys(self) -> Json:
         keys = fields(self, "record", "surfaces")
@@ -108,11 +126,18 @@ class Match(Document):
     heel: HeelQuestion = AS_SCANNED
     widths: tuple[FootWidth, ...] = ()
 
+    @property
+    def customer_length_mm(self) -> float | None:
+        """The length that the customer's one size is taken from: of two feet the longer's."""
+        lengths = [foot.length_mm for foot in self.feet]
+        known = [mm for mm in lengths if mm is not None]
+        return max(known) if len(known) == len(lengths) else None
+
     columns = (
         *("path", "foot_side", "by", *CANDIDATE_COLUMNS, "flare_distance", "flare_delta_deg"),
         *(f"clearance_{name}_{end}" for name in FIT_NAMES for end in ("mm", "sd_mm")),
         *("foot_verdict", "verdict", "why", "tied_with", "not_judged"),
-        *("profile", "profile_sha256", *HEEL_COLUMNS),
+        *("profile", "profile_sha256", *HEEL_COLUMNS, *FOOT_COLUMNS, *ZONE_COLUMNS),
     )
 
     schema = "match/2"
@@ -126,14 +151,39 @@ class Match(Document):
                 foot_part(foot) | {"width": width.to_dict() if width else None}
                 for foot, width in zip_longest(self.feet, self.widths)
             ],
+            "sizes": _sizes_part(self.customer_length_mm),
             "catalogue": {"lasts": self.catalogue_lasts, "reference": self.reference},
             "rejected": {"count": count, "by_reason": dict(self.rejected)},
         }
 
     def rows(self) -> list[Json]:
-        """A table: a row for each candidate and foot."""
-        values = [self._row(i, one) for i in range(len(self.feet)) for one in self.candidates]
-        return rows(self.columns, values)
+        """A table: a row for each candidate and foot; one for each foot if no last fits."""
+        feet = range(len(self.feet))
+        if not self.candidates:
+            return rows(self.columns, [self._empty_row(foot) for foot in feet])
+        return rows(self.columns, [self._row(foot, c) for foot in feet for c in self.candidates])
+
+    def _foot_cells(self, foot: int, status: str) -> tuple[object, ...]:
+        """What is said of a foot in each of its rows, as `FOOT_COLUMNS` name it."""
+        own, customer = self.feet[foot].length_mm, self.customer_length_mm
+        system = system_named(self.size_system) or SYSTEMS[DEFAULT_SYSTEM]
+        sizes = [None if mm is None else foot_size(mm, system).words for mm in (own, customer)]
+        return status, own, *sizes, None
+
+    def _empty_row(self, foot: int) -> tuple[object, ...]:
+        """The row of a foot that no last fits."""
+        alignment, left_out = self.feet[foot].aligned.alignment, dict(self.rejected)
+        counts = (f"{count} {reason}" for reason, count in left_out.items())
+        known = {
+            "path": alignment.info.path,
+            "foot_side": alignment.side.side,
+            "by": self.by,
+            "why": f"no last fits: left out are {', '.join(counts) or 'none'}",
+            "profile": self.profile,
+            "profile_sha256": None if self.fit_profile is None else self.fit_profile.sha256,
+            **dict(zip(FOOT_COLUMNS, self._foot_cells(foot, "no_last_fits"), strict=True)),
+        }
+        return tuple(known.get(column) for column in self.columns)
 
     def _row(self, foot: int, candidate: Candidate) -> tuple[object, ...]:
         alignment = self.feet[foot].aligned.alignment
@@ -158,7 +208,36 @@ class Match(Document):
             self.profile,
             None if self.fit_profile is None else self.fit_profile.sha256,
             *heel_cells(None if fit is None else fit.heel),
+            *self._foot_cells(foot, "ranked"),
+            *(cell for name in ZONE_ENDS for cell in zone_cells(fit, name)),
         )
+
+
+@dataclass(frozen=True, slots=True)
+class FailedMatch:
+    """The feet of a customer whose match failed, in the table of the matches."""
+
+    paths: tuple[str | None, ...]
+    code: str
+    message: str
+
+    columns = Match.columns
+
+    def rows(self) -> list[Json]:
+        """A row for each foot, with the code of the error and its sentence."""
+        known: Json = {"status": "failed", "error": self.code, "why": self.message}
+        cells = [known | {"path": path} for path in self.paths]
+        return rows(self.columns, [tuple(row.get(c) for c in self.columns) for row in cells])
+
+
+def zone_cells(fit: FootFit | None, name: str) -> tuple[object, ...]:
+    """What is said of one foot in one zone, as `ZONE_COLUMNS` name it."""
+    zone = None if fit is None else next((z for z in fit.zones if z.zone == name), None)
+    if zone is None:
+        return (None,) * len(_zone_columns(name))
+    known = zone.clearance.to_dict()  # with the decimals that JSON has
+    taken = () if name in FIT_NAMES else (known["value"], known["sd"])
+    return *taken, zone.verdict, zone.not_counted or zone.clearance.reason
 
 
 def heel_cells(heel: HeelChange | None) -> tuple[object, ...]:

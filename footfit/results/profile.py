@@ -3,14 +3,16 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from footfit.geometry.flare.definition import CHANNELS
+from footfit.geometry.measures.measure_table import MEASURES
 from footfit.results.values import Document, Json, exact, fields, measures_part, part, rows
 
 if TYPE_CHECKING:
+    from footfit.errors import FootfitError
     from footfit.geometry.flare.definition import FlareProfile
     from footfit.geometry.numeric.arrays import Floats, Ints
     from footfit.results.alignment import AlignedScan, Alignment
@@ -18,6 +20,7 @@ if TYPE_CHECKING:
     from footfit.results.values import Measure, Notice
 
 QUANTILES = (0.05, 0.5, 0.95)
+MEASURE_NAMES = tuple(entry.name for entry in MEASURES)
 
 
 def flare_part(flare: FlareProfile) -> Json:
@@ -126,6 +129,12 @@ class MeasuredScan(Document):
             "warnings": (*alignment.warnings, *self.unusual),
         }
 
+    def wide(self) -> WideMeasures:
+        """The measures as one row of a table that has a column for each measure."""
+        alignment = self.alignment
+        shape = (alignment.info.path, alignment.side.side, alignment.pose.kind)
+        return WideMeasures(*shape, measures=self.measures)
+
     def rows(self) -> list[Json]:
         """The measures as a table: a row for each; one without a value has a reason."""
         alignment = self.alignment
@@ -137,6 +146,35 @@ class MeasuredScan(Document):
             lengths, angles = (nothing, spreads) if row.unit == "deg" else (spreads, nothing)
             values.append((*start, row.name, *lengths, taken.reason, row.definition, *angles))
         return rows(self.columns, values)
+
+
+@dataclass(frozen=True, slots=True)
+class WideMeasures:
+    """The measures of one mesh in one row, with a column for each measure."""
+
+    path: str | None
+    side: str | None = None
+    kind: str | None = None
+    status: str = "measured"
+    error: str | None = None
+    why: str | None = None
+    measures: tuple[Measure, ...] = ()
+
+    columns = (
+        *("path", "side", "kind", "status", "error", "why"),
+        *(name if name.endswith("_deg") else f"{name}_mm" for name in MEASURE_NAMES),
+    )
+
+    @classmethod
+    def failed(cls, source: Any, error: FootfitError) -> WideMeasures:
+        """The row of a mesh that could not be measured."""
+        return cls(source.path, status="failed", error=error.code, why=error.message)
+
+    def rows(self) -> list[Json]:
+        """The one row; a measure that was not taken is empty."""
+        start = (self.path, self.side, self.kind, self.status, self.error, self.why)
+        taken = {row.name: row.measured.value for row in self.measures}
+        return rows(self.columns, [(*start, *(taken.get(name) for name in MEASURE_NAMES))])
 
 
 @dataclass(frozen=True, slots=True)

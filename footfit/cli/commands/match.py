@@ -11,6 +11,8 @@ import typer
 from footfit.cli import options
 
 if TYPE_CHECKING:
+    from footfit.errors import FootfitError
+    from footfit.pipeline.batch.sources import Source
     from footfit.results import Match
 
 
@@ -83,7 +85,7 @@ def match(
     from footfit.cli.answers import answer_outcomes, sources_of
     from footfit.cli.outputs import OutputFile, Outputs
     from footfit.errors import BadOption
-    from footfit.results import Match
+    from footfit.results import FailedMatch, Match
 
     if by == "shape" and fail_under is not None:
         raise BadOption("--fail-under goes with --by fit or flare: a search by shape judges no fit")
@@ -99,7 +101,12 @@ def match(
         OutputFile(html, HTML, lambda answer, _: page(answer, catalogue.path)),
         OutputFile(sheet, HTML, lambda answer, _: handed_over(answer)),
     )
-    outputs = Outputs(pages, Match, csv, force)
+
+    def failed(source: Source, error: FootfitError) -> FailedMatch:
+        paths = [each.path for each in sources] if pair else [source.path]
+        return FailedMatch(tuple(paths), error.code, error.message)
+
+    outputs = Outputs(pages, Match, csv, force, failed_table=failed)
     outputs.refuse(as_json=mode.json)
     sources = sources_of(feet, reading, lasts, split=batch.split, quiet=mode.quiet)
     customers = 1 if pair else len(sources)

@@ -10,6 +10,9 @@ from footfit.cli import options
 def measure(
     meshes: list[str] = options.MESHES,
     csv: Path | None = options.CSV,
+    wide: bool = options.switch(
+        "--wide", "With --csv: a row for each mesh and a column for each measure."
+    ),
     force: bool = options.FORCE,
     *,
     lasts: options.Lasts,
@@ -28,7 +31,12 @@ def measure(
     from footfit.api import scans
     from footfit.cli.answers import answer_scans
     from footfit.cli.outputs import Outputs
-    from footfit.results import MeasuredScan
+    from footfit.errors import BadOption
+    from footfit.results import MeasuredScan, WideMeasures
 
+    if wide and csv is None:
+        raise BadOption("--wide goes with --csv FILE: add it")
     outputs = Outputs(table=MeasuredScan, csv=csv, force=force)
+    if wide:
+        outputs = Outputs((), WideMeasures, csv, force, MeasuredScan.wide, WideMeasures.failed)
     answer_scans(scans.measure, meshes, reading, batch, mode, outputs, lasts, **standing.keywords())

@@ -13,7 +13,6 @@ import numpy as np
 from footfit.geometry.fit.stations import STATIONS, Station
 from footfit.geometry.measures.landmarks import AXES, Shape
 from footfit.geometry.measures.measure_value import MeasureValue
-from footfit.geometry.measures.tape import hull_girth
 from footfit.geometry.mesh.outlines import Outline
 from footfit.geometry.numeric.arrays import Floats
 
@@ -28,7 +27,7 @@ class SectionSettings:
 
 
 SECTIONS = SectionSettings()
-SIZES = ("width", "medial", "lateral", "height", "girth")
+SIZES = ("width", "medial", "lateral", "height")
 """What is measured of a section; "medial" and "lateral" are the edges' places across."""
 CUT = "at the {place} the section runs out of the {kind}'s top, or is open"
 
@@ -77,7 +76,9 @@ def station_plane(foot: Shape, station: Station) -> tuple[Floats, Floats]:
 def _sizes(
     shape: Shape, section: Outline, station: Station, band_mm: float
 ) -> dict[str, MeasureValue]:
-    """Widths from the band over the sole; height and girth only of a whole section."""
+    """Widths from the band over the sole; the height only of a whole section. A tape follows other
+    planes, so a section has no girth.
+    """
     points = section.points
     if not len(points):
         missing = MeasureValue(None, f"the {shape.kind} does not reach so far")
@@ -85,9 +86,7 @@ def _sizes(
     low = points[points[:, 1] <= points[:, 1].min() + band_mm, 0]
     medial, lateral = float(low.max()), float(low.min())
     height = MeasureValue(float(np.ptp(points[:, 1])))
-    girth = MeasureValue(hull_girth(points))
     if shape.topped(section):
-        cut = CUT.format(kind=shape.kind, place=station.name)
-        height = girth = MeasureValue(None, cut)
+        height = MeasureValue(None, CUT.format(kind=shape.kind, place=station.name))
     values = (MeasureValue(medial - lateral), MeasureValue(medial), MeasureValue(lateral))
-    return dict(zip(SIZES, (*values, height, girth), strict=True))
+    return dict(zip(SIZES, (*values, height), strict=True))

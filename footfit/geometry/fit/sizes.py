@@ -12,6 +12,8 @@ import re
 import unicodedata
 from dataclasses import dataclass
 
+from footfit.number_words import RATIO_KEPT, plain
+
 PARIS_POINT_MM = 20.0 / 3.0
 BARLEYCORN_MM = 25.4 / 3.0
 LABEL_TOLERANCE_SIZES = 1.0
@@ -221,6 +223,24 @@ def label_check(
     return LabelCheck(system.name, by_length[nearest], off)
 
 
+def label_in(label: str | None, system_name: str | None, asked: str | None) -> str | None:
+    """A last's label in another system: the size of the foot that the label is made for.
+
+    None if the label or one of the systems says no number, or if the label is in that system.
+
+    Examples
+    --------
+    >>> label_in("40", "eu", "uk"), label_in("40", "eu", "eu"), label_in("L", "eu", "uk")
+    ('UK 7', None, None)
+    """
+    own, other, labelled = system_named(system_name), system_named(asked), label_number(label)
+    if own is None or other is None or own == other or labelled is None:
+        return None
+    number, child = labelled
+    adult = number - (own.child_add or 0.0) if child else number
+    return foot_size(own.zero_mm + own.step_mm * adult, other).words
+
+
 def label_number(label: str | None) -> tuple[float, bool] | None:
     """The number of a label, and whether the label says that it is a child's (12C, 12K).
 
@@ -254,6 +274,6 @@ def label_words(check: LabelCheck) -> str:
     nearest = _nearest_sold(check.by_length, system)
     word = "larger" if check.off > 0 else "smaller"
     return (
-        f"labelled {abs(check.off):.1f} sizes {word} than its length: "
+        f"labelled {plain(abs(check.off), 1, RATIO_KEPT)} sizes {word} than its length: "
         f"it is {size_words(nearest, system)} by its length"
     )

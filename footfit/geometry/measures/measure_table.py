@@ -12,6 +12,7 @@ from dataclasses import dataclass
 from footfit.geometry.measures import girths, heights, lengths, widths
 from footfit.geometry.measures.landmarks import Shape
 from footfit.geometry.measures.measure_value import MeasureValue
+from footfit.number_words import plain
 
 BOTH, LAST = ("foot", "last"), ("last",)
 
@@ -96,7 +97,7 @@ def unusual(entry: MeasureDefinition, value: float, length_mm: float) -> str | N
     >>> unusual(MEASURES[5], 300.0, 250.0)
     'ball girth 300.0 mm is 1.20 of the length; feet have 0.77-1.10'
     """
-    words = f"{entry.name.replace('_', ' ')} {value:.1f} mm is"
+    words = f"{entry.name.replace('_', ' ')} {plain(value)} mm is"
     if entry.usual_mm is not None and not entry.usual_mm[0] <= value <= entry.usual_mm[1]:
         low, high = entry.usual_mm
         return f"{words} unusual; feet have {low:.0f}-{high:.0f} mm"

@@ -17,10 +17,11 @@ from footfit.geometry.measures.landmarks import Shape
 from footfit.geometry.measures.measure_table import measure_named
 from footfit.geometry.measures.measure_value import MeasureValue
 from footfit.geometry.numeric.arrays import Floats
+from footfit.number_words import plain
 from footfit.pipeline.batch.sources import ReadingOptions, Source
 from footfit.pipeline.fit.heel_model import heel_question
 from footfit.pipeline.fit.heels import Heels, heel_change, heels_of, share_sd, surface_change
-from footfit.pipeline.fit.zones import toe_room
+from footfit.pipeline.fit.zones import measured_clearances, toe_room
 from footfit.pipeline.scan.measure import last_record
 from footfit.pipeline.scan.preparation import stored_shape
 from footfit.pipeline.scan.reading import profiled_source
@@ -31,7 +32,6 @@ SD_FROM = {
     "medial": "heel_width",
     "lateral": "heel_width",
     "height": "instep_height",
-    "girth": "instep_girth",
 }
 """The measure that is taken like a section's size, and so has the same repeatability."""
 HEEL_SD_FROM = {
@@ -39,7 +39,6 @@ HEEL_SD_FROM = {
     "medial": "ball_width",
     "lateral": "ball_width",
     "height": "arch_height",
-    "girth": "instep_girth",
 }
 """The rule of the heel model whose standard deviation a section's size of the foot has."""
 FAR_MM = 40.0
@@ -144,6 +143,7 @@ def compared(
         sections=tuple(_section(pair, heels) for pair in pairs),
         warnings=_warnings(foot, last.record, room),
         toe_room=room,
+        measured_clearance=measured_clearances(foot, last.record, heels),
         heel=heel_change(heels, 0, foot),
     )
 
@@ -174,7 +174,7 @@ def _warnings(
         notices.append(results.Notice("no_sole", words))
     longer = last.extent_mm - foot.aligned.alignment.extent_mm if room.value is None else room.value
     if abs(longer) > FAR_MM:
-        words = f"the {second} is {abs(longer):.0f} mm {'longer' if longer > 0 else 'shorter'}"
+        words = f"the {second} is {plain(abs(longer))} mm {'longer' if longer > 0 else 'shorter'}"
         notices.append(results.Notice("far_size", f"{words} than the {first}: it fits in no zone"))
     return tuple(notices)
 

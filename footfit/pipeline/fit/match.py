@@ -3,14 +3,16 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 
 import numpy as np
 
 from footfit import results
 from footfit.errors import BadOption, HalfScan, NoCandidate
+from footfit.geometry.fit.sizes import label_in
 from footfit.geometry.numeric.arrays import Bools
+from footfit.number_words import signed
 from footfit.pipeline.fit import ranking, reasons
 from footfit.pipeline.fit.fit_profile import fit_profile
 from footfit.pipeline.fit.heel_model import heel_question
@@ -77,6 +79,7 @@ def matched(
     )
     ranked = ranking.ranking(judged, profile.tie_sds)
     shown = range(len(ranked.rows))[: question.top or None]
+    best = (_ranked(judged, ranked, place) for place in shown)
     near = [] if ranked.rows else ranking.nearest(judged, NEAREST_NAMED)
     missed = tuple(_missed(judged, rank, row) for rank, row in enumerate(near, start=1))
     rejected = ranking.refusals(judged) if question.by == "fit" else {}
@@ -86,11 +89,11 @@ def matched(
         profile=profile.name,
         catalogue_lasts=library.total,
         reference=library.reference,
-        candidates=tuple(_ranked(judged, ranked, place) for place in shown),
+        candidates=tuple(_with_size(candidate, question) for candidate in best),
         rejected=tuple(sorted((*library.rejected, *rejected.items()))),
         warnings=library.warnings + _notices(judged, missed, question.size_system),
         fit_profile=profile,
-        nearest=missed,
+        nearest=tuple(_with_size(candidate, question) for candidate in missed),
         size_system=question.size_system,
         best_verdict=_best_verdict(judged, ranked),
         heel=judged.heels.question,
@@ -189,6 +192,12 @@ def _candidate(
     )
 
 
+def _with_size(candidate: results.Candidate, question: Question) -> results.Candidate:
+    """The same last with its label in the size system that was asked for."""
+    asked = label_in(candidate.size, candidate.size_system, question.size_system)
+    return replace(candidate, size_asked=asked)
+
+
 def _flat(fits: Sequence[results.FootFit]) -> list[results.ZoneFit]:
     """The zones of all feet, in the columns' order."""
     return [zone for fit in fits for zone in fit.zones]
@@ -209,8 +218,8 @@ def _why(
     if judged.by == "shape":
         ours, theirs = judged.feet[judged.longer].length_mm, judged.lasts[row].length_mm
         if ours is None or theirs is None:
-            return f"flare differs by {delta_deg:+.1f} deg; one of the lengths is not known"
-        return f"length differs by {theirs - ours:+.1f} mm, flare by {delta_deg:+.1f} deg"
+            return f"flare differs by {signed(delta_deg)} deg; one of the lengths is not known"
+        return f"length differs by {signed(theirs - ours)} mm, flare by {signed(delta_deg)} deg"
     required = [column.rule.required for column in judged.columns]
     unknown = reasons.unknown_words(zones, required)
     if ranked.tier[place] == ranked.tier[0]:

@@ -23,6 +23,7 @@ from footfit.pipeline.fit.scoring import (
     fit_distance,
     rescan_spread,
     scores,
+    shown_digits,
     tiers,
     worst_levels,
 )
@@ -346,13 +347,26 @@ def foot_fits(judged: JudgedLasts, row: int) -> tuple[FootFit, ...]:
 def _zone_fit(judged: JudgedLasts, row: int, place: int) -> ZoneFit:
     column, level = judged.columns[place], judged.scores.level[row, place]
     toes = judged.toe_boxes[column.foot].get(row) if column.rule.zone == TOES else None
+    zone, clearance = ZONES[column.rule.zone], judged.clearances.measured(row, place)
+    known = clearance.value is not None
     return ZoneFit(
-        zone=column.rule.zone,
-        unit=ZONES[column.rule.zone].unit,
-        clearance=judged.clearances.measured(row, place),
+        zone=zone.name,
+        unit=zone.unit,
+        clearance=clearance,
         target=column.rule.target,
         score=float(judged.scores.score[row, place]) if level != NOT_JUDGED else None,
         verdict=VERDICTS[level] if level != NOT_JUDGED else None,
         counts=column.counts,
         place=None if toes is None else toes.tightest.place,
+        label=zone.label,
+        not_counted=None if column.counts else _not_counted(judged, column),
+        digits=shown_digits(clearance.value or 0.0, column.rule, zone.unit) if known else 1,
     )
+
+
+def _not_counted(judged: JudgedLasts, column: Column) -> str:
+    """Why a zone of a foot judges nothing."""
+    if column.rule.weight <= 0:
+        return "the fit profile only shows this zone"
+    side = judged.feet[judged.longer].aligned.alignment.side.side
+    return f"the {f'{side} foot' if side else 'longer foot'} decides this"

@@ -5,17 +5,20 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from footfit.geometry.fit.sizes import SYSTEMS, foot_size, system_named
+from footfit.number_words import plain, rounded, some_digits
 from footfit.pipeline.fit.scoring import VERDICTS
-from footfit.pipeline.fit.zones import ZONES
+from footfit.pipeline.fit.zones import ZONES, Zone
 from footfit.results import Notice, Profiled, ZoneFit, ZoneRule
 
 WORTH_SAYING = 0.5
 """The score from which on a zone is named: half-way to the edge of good."""
 DEFAULT_SYSTEM = "eu"
+GIRTH_WORDS = {"tighter": "smaller", "looser": "larger"}
+"""What a sentence says of a girth; the codes of rejects keep the other words."""
 UNIT_WORDS = {"mm": " mm", "deg": " deg", "percent": " %", "ratio": ""}
 
 
-def flare_words(delta_deg: float, sd_deg: float) -> str:
+def flare_words(delta_deg: float, sd_deg: float, digits: int = 1) -> str:
     """The flare difference (last minus foot) in words.
 
     Examples
@@ -28,35 +31,46 @@ def flare_words(delta_deg: float, sd_deg: float) -> str:
     if abs(delta_deg) <= sd_deg:
         return "turns inward as the foot does"
     more = "more" if delta_deg > 0 else "less"
-    return f"turns {abs(delta_deg):.1f} deg {more} inward than the foot"
+    return f"turns {plain(abs(delta_deg), digits)} deg {more} inward than the foot"
 
 
-def zone_words(zone: str, clearance: float, target: float, sd: float = 0.0) -> str:
-    """One zone's clearance against what is asked.
+def zone_words(zone: str, clearance: float, target: float, sd: float = 0.0, digits: int = 1) -> str:
+    """One zone's clearance, and what is wanted.
 
     Examples
     --------
     >>> zone_words("length", 12.6, 13.0), zone_words("length", -4.0, 13.0)
-    ('12.6 mm toe room (asked 13)', '4.0 mm shorter than the foot')
-    >>> zone_words("ball_girth", -3.0, 0.0), zone_words("ball_line", 2.4, 0.0)
-    ('ball girth 3.0 mm tighter than asked', 'ball line 2.4 % too far forward')
+    ('12.6 mm toe room (wanted: 13 mm)', '4.0 mm shorter than the foot')
+    >>> zone_words("short_heel_girth", 14.6, -4.0)
+    'heel to instep: 14.6 mm larger than the foot (wanted: 4 mm smaller)'
+    >>> zone_words("ball_girth", 0.0, 0.0), zone_words("ball_line", 2.4, 0.0)
+    ('ball girth: the same as the foot (wanted: the same)', 'ball line 2.4 % too far forward')
     """
     kind, off = ZONES[zone], clearance - target
-    word = kind.more if off > 0 else kind.less
     if zone == "length" and clearance < 0:
-        return f"{-clearance:.1f} mm shorter than the foot"
+        return f"{plain(-clearance, digits)} mm shorter than the foot"
     if zone == "length":
-        return f"{clearance:.1f} mm toe room (asked {target:g})"
+        return f"{plain(clearance, digits)} mm toe room (wanted: {target:g} mm)"
     if zone == "flare":
-        return flare_words(clearance, sd)
+        return flare_words(clearance, sd, digits)
     if kind.unit == "ratio":
-        return f"{kind.label} differs by {clearance:.2f}"
+        return f"{kind.label} differs by {plain(clearance, max(digits, 2))} (0 = the same)"
     if kind.unit == "percent":
-        return f"{kind.label} {abs(off):.1f} % {word}"
-    return f"{kind.label} {abs(off):.1f} mm {word} than asked"
+        return f"{kind.label} {plain(abs(off), digits)} % {kind.more if off > 0 else kind.less}"
+    size = plain(abs(clearance), digits)
+    there = _than(kind, clearance, size, " than the foot", " as the foot")
+    return f"{kind.label}: {there} (wanted: {_than(kind, target, f'{abs(target):g}')})"
 
 
-def place_words(place: str, clearance_mm: float) -> str:
+def _than(kind: Zone, clearance: float, size: str, than: str = "", same: str = "") -> str:
+    """How much larger or smaller a last is in one zone: "4 mm smaller"."""
+    if not float(size):
+        return f"the same{same}"
+    word = kind.more if clearance > 0 else kind.less
+    return f"{size} mm {GIRTH_WORDS.get(word, word)}{than}"
+
+
+def place_words(place: str, clearance_mm: float, digits: int = 1) -> str:
     """A toe and the wall beside it, in words.
 
     Examples
@@ -66,15 +80,16 @@ def place_words(place: str, clearance_mm: float) -> str:
     """
     toe, _, wall = place.partition(", ")
     way = "through" if clearance_mm < 0.0 else "from"
-    return f"{toe} {abs(clearance_mm):.1f} mm {way} the {wall}"
+    return f"{toe} {plain(abs(clearance_mm), digits)} mm {way} the {wall}"
 
 
 def judged_words(zone: ZoneFit) -> str:
     """One zone that has a clearance, in words."""
-    assert zone.clearance.value is not None
+    value = zone.clearance.value
+    assert value is not None
     if zone.place is not None:
-        return place_words(zone.place, zone.clearance.value)
-    return zone_words(zone.zone, zone.clearance.value, zone.target, zone.clearance.sd or 0.0)
+        return place_words(zone.place, value, zone.digits)
+    return zone_words(zone.zone, value, zone.target, zone.clearance.sd or 0.0, zone.digits)
 
 
 def best_sentence(zones: Sequence[ZoneFit]) -> str:
@@ -104,7 +119,7 @@ def missed_sentence(zones: Sequence[ZoneFit], rules: Sequence[ZoneRule]) -> str:
             continue
         miss = max(rule.poor[0] - value, value - rule.poor[1])
         unit = UNIT_WORDS[zone.unit]
-        words.append(f"{judged_words(zone)}, {miss:.1f}{unit} past the limit")
+        words.append(f"{judged_words(zone)}, {some_digits(miss)}{unit} past the limit")
     return "; ".join(words) or toe_room_words(zones)
 
 
@@ -143,6 +158,8 @@ def zone_list(names: Sequence[str]) -> str:
     return ", ".join(ZONES[name].label for name in names)
 
 
+EQUALLY_LONG_MM = 1.0
+"""Two feet whose lengths differ by less are equally long for any size."""
 ONE_CUSTOMER_MM = 20.0
 """Two feet whose lengths differ by more are probably not of one person."""
 
@@ -157,14 +174,18 @@ def pair_notice(feet: Sequence[Profiled], system_name: str | None) -> Notice | N
         return None
     system = system_named(system_name) or SYSTEMS[DEFAULT_SYSTEM]
     (long_mm, longer), (short_mm, shorter) = sorted(known, key=lambda pair: -pair[0])
+    apart_mm = long_mm - short_mm
+    if rounded(apart_mm) < EQUALLY_LONG_MM:
+        words = f"the feet are equally long: they differ by {plain(apart_mm)} mm"
+        return Notice("pair_difference", words)
     side, other = (f.aligned.alignment.side.side for f in (longer, shorter))
     which = f"{side} foot" if side and side != other else "longer foot"
-    difference = f"the {which} is {long_mm - short_mm:.1f} mm longer and governs the length"
-    if long_mm - short_mm > ONE_CUSTOMER_MM:
+    difference = f"the {which} is {plain(apart_mm)} mm longer and decides the size and the length"
+    if apart_mm > ONE_CUSTOMER_MM:
         return Notice("pair_differs_widely", f"{difference}: are these one customer's feet?")
-    sizes = (long_mm - short_mm) / (system.step_mm * system.numbers_per_size)
+    sizes = apart_mm / (system.step_mm * system.numbers_per_size)
     if sizes < 1.0:
         return Notice("pair_difference", difference)
-    words = [foot_size(mm, system).words for mm in (long_mm, short_mm)]
-    advice = f"that is {sizes:.1f} sizes: think of two sizes, {words[0]} and {words[1]}"
+    larger, smaller = (foot_size(mm, system).words for mm in (long_mm, short_mm))
+    advice = f"that is {plain(sizes)} sizes: think of two sizes, {larger} and {smaller}"
     return Notice("feet_differ_by_a_size", f"{difference}; {advice}, or fit the shorter with a pad")

@@ -12,6 +12,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from footfit.geometry.numeric.arrays import Floats, Ints
+from footfit.number_words import KEPT, rounded
 from footfit.results import Verdict, ZoneRule
 
 VERDICTS: tuple[Verdict, ...] = ("good", "acceptable", "poor", "reject")
@@ -84,7 +85,8 @@ def levels(clearance: Floats, rules: Sequence[ZoneRule], sd: Floats) -> Ints:
     """The verdict of each clearance as an index of VERDICTS; the ranges' ends are inside.
 
     A reject takes a last out of the answer, so it must be sure: past the limit by SURE_SDS
-    standard deviations, else it is poor. The length is the gate, and its limits are strict.
+    standard deviations, else it is poor. The length is the gate, and its limits are strict. What is
+    judged is the number that documents give, so equal numbers have equal verdicts.
 
     Examples
     --------
@@ -93,6 +95,7 @@ def levels(clearance: Floats, rules: Sequence[ZoneRule], sd: Floats) -> Ints:
     >>> levels(room, [rule], np.ones((5, 1))).ravel().tolist()
     [3, 1, 0, 1, -1]
     """
+    clearance = np.round(clearance, KEPT)
     doubt = np.array([0.0 if rule.zone == "length" else SURE_SDS for rule in rules]) * sd
     level = np.zeros(clearance.shape, dtype=np.int64)
     for name in ("good", "acceptable"):
@@ -109,6 +112,28 @@ def _ends(rules: Sequence[ZoneRule], name: str) -> tuple[Floats, Floats]:
     """The ends of a range of every rule, (z,) each; endless where a rule has none."""
     ends = np.array([getattr(rule, name) or (-np.inf, np.inf) for rule in rules]).reshape(-1, 2)
     return ends[:, 0], ends[:, 1]
+
+
+def shown_digits(value: float, rule: ZoneRule, unit: str) -> int:
+    """How many decimals a clearance is shown with: a number must not look better than it is.
+
+    It has more decimals if the shorter number lies on the other side of the end of a range.
+
+    Examples
+    --------
+    >>> rule = ZoneRule("length", 13, (10, 17), (8, 20), (8, 20), 1.0, True, 0.0)
+    >>> [shown_digits(room, rule, "mm") for room in (9.94, 9.96, 10.04, 17.0004)]
+    [1, 2, 1, 1]
+    """
+    ranges = [ends for ends in (rule.good, rule.acceptable, rule.poor) if ends is not None]
+    exact = round(value, KEPT)
+    for digits in range(2 if unit == "ratio" else 1, KEPT):
+        shown = float(rounded(value, digits))
+        if all((exact < low) == (shown < low) for low, _ in ranges) and all(
+            (exact > high) == (shown > high) for _, high in ranges
+        ):
+            return digits
+    return KEPT
 
 
 def worst_levels(level: Ints, columns: Sequence[Column]) -> Ints:

@@ -24,7 +24,7 @@ from footfit.geometry.measures.measure_table import measure_named
 from footfit.geometry.numeric.arrays import Floats
 from footfit.pipeline.fit.heels import Heels, full_change
 from footfit.pipeline.fit.scoring import Column
-from footfit.results import HeelModel, LastRecord, Measure, Measured, Profiled
+from footfit.results import HeelModel, LastRecord, Measure, Measured, Profiled, ZoneRule
 from footfit.results.heel import FLARE
 
 LENGTH_SD_MM = 0.5
@@ -56,6 +56,8 @@ class Zone:
     more: str
 
 
+NO_RULE = (0.0, (0.0, 0.0), (0.0, 0.0), None, 0.0, False, 0.0)
+"""A rule that asks for nothing: no fit is judged."""
 UNIT_KEYS = {"mm": "_mm", "deg": "_deg", "percent": "_percent", "ratio": ""}
 """What a profile's key ends in, by the zone's unit."""
 
@@ -69,14 +71,14 @@ ZONES: dict[str, Zone] = {
         Zone("ball_width_orthogonal", "ball width across", "mm", "narrower", "wider"),
         Zone("waist_girth", "waist girth", "mm", "tighter", "looser"),
         Zone("instep_girth", "instep girth", "mm", "tighter", "looser"),
-        Zone("short_heel_girth", "short heel girth", "mm", "tighter", "looser"),
+        Zone("short_heel_girth", "heel to instep", "mm", "tighter", "looser"),
         Zone("long_heel_girth", "long heel girth", "mm", "tighter", "looser"),
         Zone("heel_width", "heel width", "mm", "narrower", "wider"),
         Zone(TOE_HEIGHT, "toe height", "mm", "lower", "higher"),
         Zone(TOES, "toes", "mm", "tighter", "looser"),
         Zone("instep_height", "instep height", "mm", "lower", "higher"),
         Zone("flare", "flare", "deg", "less inward", "more inward"),
-        Zone("plan", "plan curve", "ratio", "nearer", "further"),
+        Zone("plan", "outline shape", "ratio", "nearer", "further"),
     )
 }
 
@@ -186,6 +188,19 @@ def toe_room(foot: Profiled, last: LastRecord, heels: Heels) -> Measured:
     change, sd = full_change(heels.question.model, foot, "length")
     spread = math.hypot(room.foot_sd, room.last_sd, share * sd)
     return Measured(room.value - share * change, spread)
+
+
+def measured_clearances(
+    foot: Profiled, last: LastRecord, heels: Heels
+) -> tuple[tuple[str, Measured], ...]:
+    """The clearance of one foot in every measure of a last, as a match gives it without a cavity;
+    the last's heel is the first of ``heels``.
+    """
+    named = [zone.name for zone in ZONES.values() if zone.unit == "mm" and zone.name != "length"]
+    names = [name for name in named if name not in TOE_BOX]
+    columns = [Column(0, ZoneRule(name, *NO_RULE), counts=False) for name in names]
+    room = clearances([foot], [last], columns, heels)
+    return tuple((name, room.measured(0, place)) for place, name in enumerate(names))
 
 
 def is_length(column: Column) -> bool:

@@ -7,6 +7,7 @@ from dataclasses import dataclass, replace
 from footfit.errors import ImplausibleSize, UnknownUnits
 from footfit.geometry.search.pose_search import Windows
 from footfit.meshes.units import UNIT_NAMES, UNIT_SCALES, UNIT_SETTINGS
+from footfit.number_words import plain
 from footfit.results import MeshInfo, Notice, Scan
 
 
@@ -106,11 +107,11 @@ def length_notices(length_mm: float) -> list[Notice]:
     low, high = LENGTHS.usual_mm
     if low <= length_mm <= high:
         return []
-    words = f"the length is {length_mm:.1f} mm, outside the usual {low:.0f}-{high:.0f} mm"
+    words = f"the length is {plain(length_mm)} mm, outside the usual {low:.0f}-{high:.0f} mm"
     return [Notice("length_unusual", words)]
 
 
 def _detected(info: MeshInfo, length_mm: float | None) -> Notice:
-    length = "" if length_mm is None else f", so the length is {length_mm:.0f} mm"
+    length = "" if length_mm is None else f", so the length is {plain(length_mm)} mm"
     words = f"the numbers are taken as {UNIT_NAMES[info.units]}{length} (--units changes this)"
     return Notice("units_detected", words)

@@ -11,9 +11,9 @@ from footfit.report.pictures.heat_figure import heat_figure
 from footfit.report.pictures.overlay_figure import SHOWN, Shapes, drawn_lasts, overlay_figure
 from footfit.report.pictures.section_figure import STRIP, section_figure
 from footfit.report.wording.comparison_words import comparison_names
+from footfit.report.wording.fit_words import OTHER_FOOT
 from footfit.report.wording.text import SHOWN_SYSTEMS, file_name, is_scanned_last, size_text
-from footfit.results import Candidate, Comparison, Match, Measured
-from footfit.results.values import NOT_YET
+from footfit.results import Candidate, Comparison, Match
 
 UNIT_SIGNS = {"mm": " mm", "deg": "°", "percent": " %", "ratio": ""}
 PAIR_NOTICES = {"pair_difference", "feet_differ_by_a_size"}
@@ -77,14 +77,16 @@ def match_page(
         is_scanned_last=is_scanned_last,
         labels=labels,
         shown_sizes=shown_sizes,
-        toe_room=toe_room,
     )
 
 
-def labels(candidate: Candidate) -> str:
-    """What the maker says of a last, in one line; and that it is mirrored."""
+def labels(candidate: Candidate, *, brief: bool = False) -> str:
+    """What the maker says of a last, in one line; its side, if it is of the other foot."""
     size = size_text(candidate)
-    side = f"{candidate.side} last, mirrored" if candidate.mirrored else ""
+    size += f" ({candidate.size_asked})" if candidate.size_asked else ""
+    side = (
+        f"{candidate.side} last{'' if brief else f', {OTHER_FOOT}'}" if candidate.mirrored else ""
+    )
     return ", ".join(part for part in (candidate.style, size, side) if part)
 
 
@@ -93,11 +95,6 @@ def shown_sizes(length_mm: float, asked: str | None) -> list[Size]:
     sizes = {size.system: size for size in foot_sizes(length_mm)}
     first = [asked] if asked else []
     return [sizes[name] for name in dict.fromkeys((*first, *SHOWN_SYSTEMS))]
-
-
-def toe_room(candidate: Candidate) -> Measured:
-    """The clearance in length."""
-    return dict(candidate.clearance_mm).get("length", NOT_YET)
 
 
 def _length_difference_mm(match: Match) -> float | None:

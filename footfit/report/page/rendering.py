@@ -8,7 +8,8 @@ from functools import cache
 from importlib import resources
 from typing import TYPE_CHECKING, Any
 
-from footfit.report.wording import comparison_words, sheet_words, text
+from footfit import number_words
+from footfit.report.wording import comparison_words, fit_words, sheet_words, text
 from footfit.version import __version__
 
 if TYPE_CHECKING:
@@ -21,14 +22,19 @@ FILTERS = (
     text.difference_text,
     text.file_name,
     text.measured_text,
-    text.plain,
+    number_words.plain,
     text.side_doubts,
     text.class_words,
-    text.signed,
+    number_words.signed,
+    fit_words.left_out_words,
+    fit_words.toe_room_text,
+    fit_words.zone_number,
+    fit_words.zone_label,
     text.tie_words,
     text.turn_words,
     comparison_words.change_words,
     comparison_words.lengths_words,
+    comparison_words.measures_words,
     comparison_words.surfaces_words,
     comparison_words.swing_words,
     sheet_words.fit_words,

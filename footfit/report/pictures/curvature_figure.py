@@ -8,6 +8,7 @@ import numpy as np
 
 from footfit.geometry.numeric.arrays import Floats, Ints
 from footfit.geometry.numeric.rotations import moved_points
+from footfit.number_words import plain
 from footfit.report.pictures.figures import (
     DIVERGING,
     draw_scale_bar,
@@ -16,7 +17,7 @@ from footfit.report.pictures.figures import (
     write_title,
 )
 from footfit.report.pictures.shading import VIEWS, frame_around, shaded_image
-from footfit.report.wording.text import file_name, plain
+from footfit.report.wording.text import file_name
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from footfit.geometry.numeric.arrays import Floats, Ints
+from footfit.number_words import plain
 from footfit.report.pictures import shading
 from footfit.report.pictures.figures import (
     INK,
@@ -20,7 +21,6 @@ from footfit.report.pictures.figures import (
     write_beside,
 )
 from footfit.report.pictures.sides import Mesh
-from footfit.report.wording.text import plain
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

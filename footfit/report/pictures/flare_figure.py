@@ -9,6 +9,7 @@ import numpy as np
 from footfit.geometry.flare.definition import CHANNELS
 from footfit.geometry.flare.profile_distance import DISTANCE
 from footfit.geometry.numeric.arrays import Floats
+from footfit.number_words import signed
 from footfit.report.pictures.drawn_outlines import SHADOW, Outline, ring, sole_outline
 from footfit.report.pictures.figures import (
     DASHES,
@@ -34,7 +35,7 @@ from footfit.report.pictures.flare_axes import (
     windows,
 )
 from footfit.report.pictures.sides import is_left
-from footfit.report.wording.text import angle_text, class_words, length_text, shape_words, signed
+from footfit.report.wording.text import angle_text, class_words, length_text, shape_words
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

@@ -8,6 +8,7 @@ import numpy as np
 
 from footfit.geometry.numeric.arrays import Floats, Ints
 from footfit.geometry.numeric.rotations import moved_points
+from footfit.number_words import plain
 from footfit.report.pictures.figures import (
     INK,
     SERIES,
@@ -20,7 +21,7 @@ from footfit.report.pictures.figures import (
     write_title,
 )
 from footfit.report.pictures.shading import VIEWS, axonometric_view, frame_around, shaded_image
-from footfit.report.wording.text import length_text, plain, shape_words
+from footfit.report.wording.text import length_text, shape_words
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

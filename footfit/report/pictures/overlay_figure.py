@@ -6,6 +6,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
+from footfit.number_words import signed
 from footfit.report.pictures.drawn_outlines import ring, side_outline, sole_outline
 from footfit.report.pictures.figures import (
     DASHES,
@@ -24,7 +25,7 @@ from footfit.report.pictures.flare_axes import (
     toe_up,
 )
 from footfit.report.pictures.sides import Mesh, is_left, on_side
-from footfit.report.wording.text import angle_text, file_name, signed, visible
+from footfit.report.wording.text import angle_text, file_name, visible
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from footfit.number_words import plain, signed
 from footfit.report.pictures.drawn_outlines import ring
 from footfit.report.pictures.figures import (
     FILL,
@@ -19,7 +20,6 @@ from footfit.report.pictures.figures import (
 )
 from footfit.report.pictures.sides import is_left
 from footfit.report.wording.comparison_words import comparison_names
-from footfit.report.wording.text import plain, signed
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

@@ -10,6 +10,7 @@ from rich.text import Text
 
 from footfit import results
 from footfit.geometry.fit.sizes import LabelCheck, label_words
+from footfit.number_words import plain, signed
 from footfit.report.terminal.scan_tables import (
     cell,
     eigenvalue_words,
@@ -22,8 +23,6 @@ from footfit.report.wording.text import (
     class_words,
     length_text,
     measured_text,
-    plain,
-    signed,
     size_text,
     turn_words,
     visible,

@@ -5,14 +5,17 @@ from __future__ import annotations
 from rich.console import Group, RenderableType
 from rich.text import Text
 
+from footfit.number_words import AREA_KEPT, plain, signed
 from footfit.report.terminal.scan_tables import lined_table
 from footfit.report.wording.comparison_words import (
     SIZE_HEADS,
     change_words,
     lengths_words,
+    measures_words,
     swing_words,
 )
-from footfit.report.wording.text import difference_text, file_name, plain, signed, visible
+from footfit.report.wording.fit_words import OTHER_FOOT
+from footfit.report.wording.text import difference_text, file_name, visible
 from footfit.results import Comparison
 
 
@@ -27,6 +30,8 @@ def compare_table(comparison: Comparison) -> RenderableType:
         Text(),
         Text(f"Room between {first} and {second}, by zone"),
         _zones_table(comparison),
+        Text(measures_words(comparison)),
+        Text(),
         Text(f"Sections, {second} minus {first} in mm (+ is room)"),
         _sections_table(comparison),
         Text(
@@ -45,7 +50,7 @@ def _headline(comparison: Comparison) -> Text:
     line.append(visible(comparison.last.labels.name), "bold")
     if is_last:
         line.append(f", {comparison.last.side.side or 'undecided'} last", "not bold")
-    return line.append(" (mirrored)" if comparison.mirrored else "", "not bold")
+    return line.append(f" ({OTHER_FOOT})" if comparison.mirrored else "", "not bold")
 
 
 def _zones_table(comparison: Comparison) -> RenderableType:
@@ -58,7 +63,9 @@ def _zones_table(comparison: Comparison) -> RenderableType:
         areas = (zone.tight_cm2, zone.loose_cm2, zone.area_cm2)
         spread = (zone.mean_mm, zone.p05_mm, zone.p95_mm)
         table.add_row(
-            zone.zone, *(signed(value) for value in spread), *(plain(area, 0) for area in areas)
+            zone.zone,
+            *(signed(value) for value in spread),
+            *(plain(area, 0, AREA_KEPT) for area in areas),
         )
     return table
 

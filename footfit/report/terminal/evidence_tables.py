@@ -6,8 +6,9 @@ from rich.console import Group, RenderableType
 from rich.text import Text
 
 from footfit import results
+from footfit.number_words import plain
 from footfit.report.terminal.scan_tables import cell, lined_table
-from footfit.report.wording.text import plain, visible
+from footfit.report.wording.text import visible
 
 
 def record_fit_line(outcome: results.RecordOutcome) -> RenderableType:

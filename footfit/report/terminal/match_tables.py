@@ -13,21 +13,27 @@ from rich.table import Table
 from rich.text import Text
 
 from footfit.geometry.fit.sizes import foot_size, foot_sizes, system_named
+from footfit.number_words import RATIO_KEPT, plain, signed
 from footfit.report.terminal.scan_tables import cell, flare_words, lined_table
 from footfit.report.wording.comparison_words import surfaces_words
+from footfit.report.wording.fit_words import (
+    OTHER_FOOT,
+    UNITS,
+    left_out_words,
+    toe_room_text,
+    zone_label,
+    zone_number,
+)
 from footfit.report.wording.text import (
     SHOWN_SYSTEMS,
     file_name,
     is_scanned_last,
-    plain,
     side_doubts,
-    signed,
     size_text,
     tie_words,
     visible,
 )
 from footfit.results import Candidate, Match, Profiled, ZoneFit
-from footfit.results.values import NOT_YET
 
 LIKENESS = {
     "fit": "order: the verdict, then the toe room, then the distance: how far the zones are "
@@ -37,7 +43,6 @@ LIKENESS = {
     "shape": "distance: how far measures and flare profile are from the mesh's (0 = the same)",
 }
 VERDICT_STYLES = {"good": "green", "acceptable": "yellow", "poor": "red", "reject": "bold red"}
-UNITS = {"mm": "mm", "deg": "deg", "percent": "%", "ratio": ""}
 COLUMNS = {"": 2, "last": 20, "style, size": 16, "verdict": 10}
 COLUMNS |= {"toe room\nmm": 8, "flare\ndeg": 6, "dist.\n": 5}
 """The columns of the lasts, with their largest widths; the last three hold numbers."""
@@ -47,10 +52,9 @@ VERDICT, NUMBERS, COLUMN_GAP = 3, 3, 2
 def match_table(match: Match) -> RenderableType:
     """The feet, the ranked lasts with reasons, and why others were left out."""
     parts: list[RenderableType] = [Text(words, "bold red") for words in side_doubts(match)]
-    for foot in match.feet:
-        parts.append(_foot_line(foot, match))
-        if foot.length_mm is not None and not is_scanned_last(foot, match):
-            parts.append(_size_line(foot.length_mm, match.size_system))
+    parts += [_foot_line(foot, match) for foot in match.feet]
+    if match.customer_length_mm is not None and not is_scanned_last(match.feet[0], match):
+        parts.append(_size_line(match.customer_length_mm, match.size_system))
     parts.append(Text())
     if match.candidates:
         parts += [*_candidates(match.candidates), Text(), *_zones(match)]
@@ -73,7 +77,7 @@ def _foot_line(foot: Profiled, match: Match) -> Text:
 
 
 def _size_line(length_mm: float, asked: str | None) -> RenderableType:
-    """The foot's sizes: in the system asked for with the next ones, or in the usual systems."""
+    """The customer's size: in the system asked for with the next ones, or in the usual systems."""
     system = system_named(asked)
     if system is not None:
         size = foot_size(length_mm, system)
@@ -90,8 +94,9 @@ def _candidates(candidates: Sequence[Candidate]) -> list[RenderableType]:
     shown = [place for place in range(len(COLUMNS)) if place != VERDICT or judged]
     table = [[Text(head, "bold") for head in COLUMNS], *(_cells(last) for last in candidates)]
     widths = list(COLUMNS.values())
-    for place in (1, 2):  # names and labels are short, most often
-        widths[place] = min(widths[place], max(row[place].cell_len for row in table))
+    longest = [max(row[place].cell_len for row in table) for place in (1, 2)]
+    widths[1] = min(widths[1], longest[0])  # names and labels are short, most often
+    widths[2] = min(COLUMNS["last"] + widths[2] - widths[1], longest[1])
     widths = [widths[place] for place in shown]
     head, *rows = (_row(widths, [row[place] for place in shown]) for row in table)
     line = Text("─" * (sum(widths) + COLUMN_GAP * (len(widths) - 1)), "dim")
@@ -114,20 +119,20 @@ def _row(widths: Sequence[int], cells: Sequence[Text]) -> Table:
 
 def _labels(candidate: Candidate) -> str:
     size = size_text(candidate)
+    size += f" ({candidate.size_asked})" if candidate.size_asked else ""
     return ", ".join(visible(part) for part in (candidate.style, size) if part)
 
 
 def _cells(candidate: Candidate) -> list[Text]:
-    clearance = dict(candidate.clearance_mm).get("length", NOT_YET).value
     verdict = cell(candidate.verdict, VERDICT_STYLES.get(candidate.verdict or "", ""))
     return [
         Text(str(candidate.rank)),
         cell(candidate.last, "bold"),
         cell(_labels(candidate)),
         verdict,
-        Text("-" if clearance is None else signed(clearance)),
+        Text(toe_room_text(candidate, spread=False)),
         Text(signed(candidate.flare.delta_deg)),
-        Text(plain(candidate.distance, 2)),
+        Text(plain(candidate.distance, 2, RATIO_KEPT)),
     ]
 
 
@@ -135,7 +140,7 @@ def _sentence(candidate: Candidate) -> RenderableType:
     """The reason, the ties, and where the last is tight or loose: the lines under the row."""
     words = cell(candidate.why)
     if candidate.mirrored:
-        words.append("; mirrored")
+        words.append(f"; {OTHER_FOOT}")
     if candidate.tied_with:
         words.append(f"; {tie_words(candidate.tied_with)}")
     rooms = [Text(line, "dim") for line in surfaces_words(candidate.surfaces)]
@@ -152,40 +157,43 @@ def _zones(match: Match) -> list[RenderableType]:
         return []
     title = Text("Zone by zone, the last minus the foot: ").append(visible(best.last), "bold")
     feet = [fit.side or "foot" for fit in best.fits] if len(best.fits) > 1 else ["clearance"]
-    table = lined_table("zone", *feet, "asked", "verdict", right=frozenset({*feet, "asked"}))
+    table = lined_table("zone", *feet, "wanted", "verdict", right=frozenset({*feet, "wanted"}))
     for zones in zip(*(fit.zones for fit in best.fits), strict=True):
         table.add_row(
-            zones[0].zone.replace("_", " "),
+            zone_label(zones[0]),
             *(_clearance(zone) for zone in zones),
-            f"{signed(zones[0].target)} {UNITS[zones[0].unit]}".rstrip(),
-            _zone_verdict(zones),
+            f"{signed(zones[0].target)}{UNITS[zones[0].unit]}",
+            _zone_verdict(zones, feet),
         )
     return [title, table]
 
 
 def _clearance(zone: ZoneFit) -> Text:
+    """A clearance; grey if it does not count."""
     if zone.clearance.value is None:
         return Text("-", "dim")
-    digits = 2 if zone.unit == "ratio" else 1
-    return Text(f"{signed(zone.clearance.value, digits)} {UNITS[zone.unit]}".rstrip())
+    return Text(f"{zone_number(zone)}{UNITS[zone.unit]}", "" if zone.counts else "dim")
 
 
-def _zone_verdict(zones: Sequence[ZoneFit]) -> Text:
-    """The worst verdict of the feet that the zone counts for, or why there is none."""
+def _zone_verdict(zones: Sequence[ZoneFit], feet: Sequence[str]) -> Text:
+    """The worst verdict of the feet that the zone counts for, and why the others do not count."""
     order = list(VERDICT_STYLES)
     known = [zone.verdict for zone in zones if zone.counts and zone.verdict is not None]
     if not known:
-        reason = next((z.clearance.reason for z in zones if z.clearance.reason), "counts nothing")
+        reasons = [zone.clearance.reason or zone.not_counted for zone in zones]
+        reason = next((text for text in reasons if text), "counts nothing")
         return Text("not judged: ", "dim").append(visible(reason))
     worst = max(known, key=order.index)
-    return Text(worst, VERDICT_STYLES[worst])
+    words = Text(worst, VERDICT_STYLES[worst])
+    for foot, zone in zip(feet, zones, strict=True):
+        if zone.not_counted and zone.clearance.value is not None:
+            words.append(f"; {foot} not judged: {visible(zone.not_counted)}", "dim")
+    return words
 
 
 def _closing(match: Match) -> str:
     noun = "last" if match.catalogue_lasts == 1 else "lasts"
     words = f"{len(match.candidates)} of {match.catalogue_lasts} {noun}, by {match.by}"
     words += f", profile {visible(match.profile)}" if match.by == "fit" else ""
-    left_out = "; ".join(
-        f"{count} {visible(reason).replace('_', ' ')}" for reason, count in match.rejected
-    )
+    left_out = visible(left_out_words(match.rejected))
     return f"{words}. Left out: {left_out}." if left_out else f"{words}."

@@ -16,13 +16,12 @@ from rich.table import Table
 from rich.text import Text
 
 from footfit import results
+from footfit.number_words import RATIO_KEPT, plain, signed
 from footfit.report.wording.text import (
     SPREADS,
     class_words,
     length_text,
     measured_text,
-    plain,
-    signed,
     turn_words,
     visible,
 )
@@ -99,6 +98,7 @@ def align_table(alignment: results.Alignment) -> RenderableType:
     """One mesh, aligned."""
     frame, pose, info = alignment.eigenframe, alignment.pose, alignment.info
     centroid = ", ".join(plain(float(value)) for value in frame.centroid_mm)
+    cost, margin = (plain(value, 2, RATIO_KEPT) for value in (pose.cost, pose.margin))
     sole = "rests on its sole" if pose.sole else "no sole: referred to its rim"
     rows: list[tuple[str, str | Text]] = [
         ("mesh", f"{info.faces:,} faces, {'closed' if info.watertight else 'open'}"),
@@ -108,7 +108,7 @@ def align_table(alignment: results.Alignment) -> RenderableType:
         ("length", length_text(alignment.length)),
         ("eigenvalues", eigenvalue_words(frame)),
         ("centroid", f"{centroid} mm (the file's axes)"),
-        ("pose", f"cost {plain(pose.cost, 2)}, margin {plain(pose.margin, 2)}, {sole}"),
+        ("pose", f"cost {cost}, margin {margin}, {sole}"),
     ]
     if alignment.reference is not None:
         rows.append(("reference", cell(alignment.reference.last)))

@@ -5,14 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 
 from footfit.geometry.fit.clearance import CLEARANCE
-from footfit.report.wording.text import (
-    difference_text,
-    file_name,
-    length_text,
-    plain,
-    signed,
-    visible,
-)
+from footfit.number_words import plain, signed
+from footfit.report.wording.text import difference_text, file_name, length_text, visible
 from footfit.results import Comparison, SurfaceClearance
 from footfit.results.heel import FLARE, heel_words
 
@@ -21,12 +15,19 @@ SIZE_HEADS = {
     "medial": "medial edge",
     "lateral": "lateral edge",
     "height": "height",
-    "girth": "girth",
 }
 """The sizes of a section by name, as the head of a column says them."""
 WORTH_SAYING = 0.10
 """The share of a zone that must be tight, or loose, to be worth a word."""
 MOST_ZONES = 2
+ZONE_PLACES = {
+    "bottom": "under the foot",
+    "medial": "on the inner side",
+    "lateral": "on the outer side",
+    "dorsal": "on top of the foot",
+    "toe": "at the toes",
+}
+"""Where each zone of the surface is."""
 
 
 def comparison_names(comparison: Comparison) -> tuple[str, str]:
@@ -50,19 +51,37 @@ def lengths_words(comparison: Comparison) -> str:
     )
 
 
+def measures_words(comparison: Comparison) -> str:
+    """The clearance of each measure that both have, as a match gives it."""
+    first, second = comparison.nouns
+    known = [
+        f"{name.replace('_', ' ')} {difference_text(clearance)}"
+        for name, clearance in comparison.measured_clearance
+        if clearance.value is not None
+    ]
+    return f"Measures, {second} minus {first} in mm: {', '.join(known) or 'none that both have'}"
+
+
 def change_words(comparison: Comparison) -> str:
     """What the heel of the last changes of the foot; empty if that is not worth a word."""
     return heel_words(comparison.heel, ("length", "ball_girth", FLARE))
 
 
 def swing_words(comparison: Comparison) -> str:
-    """How far the foot's tread was moved sideways to lie on the last's."""
-    swing, (first, second) = comparison.placement.swing_mm, comparison.nouns
-    side = "medial" if swing > 0 else "lateral"
-    return (
-        f"heel on heel, the {first}'s tread was moved {plain(abs(swing))} mm to {side} to lie on "
-        f"the {second}'s"
-    )
+    """How far apart the balls of foot and last lie, heel on heel; how the last turns, if the flare
+    says the same.
+
+    A shape that turns less inward has its ball further to the inner side of its axis.
+    """
+    swing, turn = comparison.placement.swing_mm, comparison.flare_delta_deg
+    first, second = comparison.nouns
+    size = f"{plain(abs(swing))} mm at the ball"
+    if swing * turn < 0.0:
+        return (
+            f"the {second} turns {'less' if swing > 0 else 'more'} inward than the {first}: {size}"
+        )
+    side = "inner" if swing > 0 else "outer"
+    return f"heel on heel, the {second} lies further to the {side} side than the {first}: {size}"
 
 
 def surfaces_words(rooms: Sequence[SurfaceClearance]) -> list[str]:
@@ -75,18 +94,19 @@ def surfaces_words(rooms: Sequence[SurfaceClearance]) -> list[str]:
 
 
 def surface_words(room: SurfaceClearance) -> str:
-    """Where a foot is tight in a last and where it is loose.
+    """Where a last presses on a foot and where it is loose.
 
-    The zone with the largest such area comes first, with the 5 or 95 % quantile of its clearance.
+    A zone is named if it is tight, or loose, on enough of its area. "Up to" is the 5 or the 95 %
+    quantile of its clearance; the zone where that is largest comes first.
 
     Examples
     --------
     >>> from footfit.geometry.fit.clearance import ZoneClearance
     >>> from footfit.results import SurfaceClearance
-    >>> tight = ZoneClearance("medial", 0.6, -6.15, 9.2, 91.0, 26.4, 5.2)
-    >>> loose = ZoneClearance("toe", 5.6, -1.1, 12.31, 47.0, 1.5, 17.6)
-    >>> surface_words(SurfaceClearance("right", 2.9, (tight, loose)))
-    'tight: medial -6.2 mm (26 cm2); loose: toe +12.3 mm (18 cm2)'
+    >>> inner = ZoneClearance("medial", 0.6, -20.94, 9.2, 91.0, 74.4, 5.2)
+    >>> top = ZoneClearance("dorsal", 0.6, -3.1, 5.2, 91.0, 26.4, 5.2)
+    >>> surface_words(SurfaceClearance("right", 2.9, (top, inner)))
+    'presses most on the inner side: up to 20.9 mm; and on top of the foot'
     >>> surface_words(SurfaceClearance("right", None, (), "the sole is open"))
     'no clearance between the surfaces: the sole is open'
     """
@@ -95,7 +115,8 @@ def surface_words(room: SurfaceClearance) -> str:
     zones = room.zones
     tight = _zones_words((z.zone, z.p05_mm, z.tight_cm2, z.area_cm2) for z in zones)
     loose = _zones_words((z.zone, z.p95_mm, z.loose_cm2, z.area_cm2) for z in zones)
-    parts = [f"{word}: {words}" for word, words in (("tight", tight), ("loose", loose)) if words]
+    named = (("presses most", tight), ("loosest", loose))
+    parts = [f"{word} {words}" for word, words in named if words]
     nowhere = (
         f"nowhere tight by {plain(-CLEARANCE.tight_mm, 0)} mm, "
         f"nowhere loose by {plain(CLEARANCE.loose_mm, 0)} mm"
@@ -104,11 +125,13 @@ def surface_words(room: SurfaceClearance) -> str:
 
 
 def _zones_words(zones: Iterable[tuple[str, float | None, float, float]]) -> str:
-    """The zones with the largest areas; each is (name, quantile mm, this area, whole area cm2)."""
-    known = [
-        (area, f"{name} {signed(mm)} mm ({plain(area, 0)} cm2)")
+    """The zones that are worth a word; each is (name, quantile mm, this area, whole area cm2)."""
+    known = sorted(
+        (-abs(mm), ZONE_PLACES[name])
         for name, mm, area, whole in zones
         if mm is not None and area > WORTH_SAYING * whole
-    ]
-    largest = sorted(known, key=lambda zone: -zone[0])[:MOST_ZONES]
-    return ", ".join(words for _, words in largest)
+    )
+    if not known:
+        return ""
+    (most, place), *others = known[:MOST_ZONES]
+    return "; and ".join([f"{place}: up to {plain(-most)} mm", *(words for _, words in others)])

@@ -6,7 +6,8 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from datetime import date
 
-from footfit.report.wording.text import plain, size_text
+from footfit.number_words import plain
+from footfit.report.wording.text import size_text
 from footfit.results import Candidate, FootFit, Measured, SideName, Verdict, ZoneFit
 
 EQUALLY_LONG_MM = 1.0

@@ -6,6 +6,8 @@ import re
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
+from footfit.number_words import plain, signed
+
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
@@ -57,28 +59,6 @@ def file_name(path: str | None) -> str:
     if path is None:
         return "standard input"
     return visible(re.split(r"[/\\]", path.rstrip("/\\"))[-1])
-
-
-def signed(value: float, digits: int = 1) -> str:
-    """A number with its sign, and never a negative zero.
-
-    Examples
-    --------
-    >>> signed(3.24), signed(-3.24), signed(-0.01)
-    ('+3.2', '-3.2', '+0.0')
-    """
-    return f"{round(value, digits) + 0.0:+.{digits}f}"
-
-
-def plain(value: float, digits: int = 1) -> str:
-    """A number without a plus sign, and never a negative zero.
-
-    Examples
-    --------
-    >>> plain(3.24), plain(-0.01)
-    ('3.2', '0.0')
-    """
-    return f"{round(value, digits) + 0.0:.{digits}f}"
 
 
 SPREADS = (
