@@ -88,20 +88,30 @@ def flare(shape: Shape, **reading: Unpack[ReadingKeywords]) -> Profiled:
     return profiled_shape(shape, reading)
 
 
-def measure(shape: Shape, **reading: Unpack[ReadingKeywords]) -> MeasuredScan:
+def measure(
+    shape: Shape,
+    *,
+    usual_length_mm: tuple[float, float] | None = None,
+    **reading: Unpack[ReadingKeywords],
+) -> MeasuredScan:
     """Lengths, widths, girths and heights of a foot or a last, each with its uncertainty.
+
+    ``usual_length_mm`` are the lengths of feet that are no surprise, as a fit profile has them;
+    None stands for adults.
 
     Raises
     ------
     InputError, GeometryRefused
         As `flare`.
     """
-    from footfit.pipeline.scan.measure import measured_scan, measured_shape
+    from footfit.pipeline.scan.measure import for_feet_of, measured_scan, measured_shape
 
     aligned = aligned_shape(shape, reading)
     if isinstance(aligned, Profiled):
-        return measured_shape(aligned.aligned.alignment, aligned.measures)
-    return measured_scan(aligned)
+        scan = measured_shape(aligned.aligned.alignment, aligned.measures)
+    else:
+        scan = measured_scan(aligned)
+    return scan if usual_length_mm is None else for_feet_of(scan, usual_length_mm)
 
 
 def curvature(

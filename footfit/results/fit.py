@@ -53,6 +53,7 @@ class FitProfile:
 
     ``sha256`` is of the values, not of the file, so a comment does not change it. Two distances
     that differ by at most ``tie_sds`` standard deviations of their difference are a tie.
+    ``usual_length_mm`` are the lengths of the feet that it is for; None stands for adults.
     """
 
     name: str
@@ -61,11 +62,12 @@ class FitProfile:
     tie_sds: float
     zones: tuple[ZoneRule, ...]
     sha256: str
+    usual_length_mm: tuple[float, float] | None = None
 
     def to_dict(self) -> Json:
         """The whole profile, its rules by zone."""
         rules = {rule.zone: rule.to_dict() for rule in self.zones}
-        return exact(fields(self, "zones")) | {"zones": rules}
+        return exact(fields(self, "zones", "usual_length_mm")) | {"zones": rules}
 
 
 @dataclass(frozen=True, slots=True)

@@ -9,6 +9,12 @@ from footfit.cli import options
 
 def measure(
     meshes: list[str] = options.MESHES,
+    profile: str | None = options.option(
+        "--profile",
+        "Say which lengths are no surprise: those of the feet that a fit profile is for, such as "
+        "child. Without it those of adults.",
+        "NAME|FILE.toml",
+    ),
     csv: Path | None = options.CSV,
     wide: bool = options.switch(
         "--wide", "With --csv: a row for each mesh and a column for each measure."
@@ -32,6 +38,7 @@ def measure(
     from footfit.cli.answers import answer_scans
     from footfit.cli.outputs import Outputs
     from footfit.errors import BadOption
+    from footfit.pipeline.fit.fit_profile import fit_profile
     from footfit.results import MeasuredScan, WideMeasures
 
     if wide and csv is None:
@@ -39,4 +46,6 @@ def measure(
     outputs = Outputs(table=MeasuredScan, csv=csv, force=force)
     if wide:
         outputs = Outputs((), WideMeasures, csv, force, MeasuredScan.wide, WideMeasures.failed)
-    answer_scans(scans.measure, meshes, reading, batch, mode, outputs, lasts, **standing.keywords())
+    usual_mm = None if profile is None else fit_profile(profile).usual_length_mm
+    chosen = {"usual_length_mm": usual_mm, **standing.keywords()}
+    answer_scans(scans.measure, meshes, reading, batch, mode, outputs, lasts, **chosen)

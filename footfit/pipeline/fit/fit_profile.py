@@ -24,7 +24,7 @@ from footfit.results import FitProfile, ZoneRule
 SCHEMA = "footfit.fit-profile/1"
 FOLDER = Path(__file__).parent / "profiles"
 TIE_SDS = 1.0
-TOP_KEYS = {"schema", "name", "version", "summary", "tie_sds", "zones"}
+TOP_KEYS = {"schema", "name", "version", "summary", "tie_sds", "usual_length_mm", "zones"}
 RANGES = ("good", "acceptable", "poor")
 
 
@@ -77,6 +77,7 @@ def _profile(table: Mapping[str, Any]) -> FitProfile:
     if "length" not in zones:
         raise BadProfile("has no [zones.length]: the length is always judged")
     rules = {name: _rule(name, asked) for name, asked in zones.items()}
+    usual = table.get("usual_length_mm")
     profile = FitProfile(
         name=words(table.get("name"), "name"),
         version=whole_number(table.get("version", 1), "version"),
@@ -84,8 +85,10 @@ def _profile(table: Mapping[str, Any]) -> FitProfile:
         tie_sds=number(table.get("tie_sds", TIE_SDS), "tie_sds", 0.0, 10.0),
         zones=tuple(rules[name] for name in ZONES if name in rules),
         sha256="",
+        usual_length_mm=None if usual is None else _range(usual, "usual_length_mm"),
     )
-    return replace(profile, sha256=values_sha256(asdict(profile)))
+    rules_only = {key: value for key, value in asdict(profile).items() if key != "usual_length_mm"}
+    return replace(profile, sha256=values_sha256(rules_only))
 
 
 def _rule(name: str, asked: object) -> ZoneRule:

@@ -19,7 +19,7 @@ from footfit.pipeline.fit.heel_model import heel_question
 from footfit.pipeline.fit.scoring import UNKNOWN_SCORE, VERDICTS
 from footfit.pipeline.fit.toe_box import NOT_STORED
 from footfit.pipeline.fit.zones import NOT_READ, TOE_BOX
-from footfit.pipeline.scan.measure import unusual_measures
+from footfit.pipeline.scan.measure import unusual_measures, usual_alignment
 from footfit.pipeline.width.foot_width import foot_widths
 from footfit.results.heel import FLARE, heel_words
 from footfit.results.values import notices_about
@@ -74,6 +74,8 @@ def matched(
     if question.by == "fit":
         _refuse_unknown_length(feet)
     profile = question.profile or fit_profile()
+    usual_mm = profile.usual_length_mm
+    feet = feet if usual_mm is None else [_usual_foot(foot, usual_mm) for foot in feet]
     judged = ranking.judged_lasts(
         feet, library.lasts, profile, question.by, question.heel, library.file
     )
@@ -91,7 +93,7 @@ def matched(
         reference=library.reference,
         candidates=tuple(_with_size(candidate, question) for candidate in best),
         rejected=tuple(sorted((*library.rejected, *rejected.items()))),
-        warnings=library.warnings + _notices(judged, missed, question.size_system),
+        warnings=library.warnings + _notices(judged, missed, question.size_system, usual_mm),
         fit_profile=profile,
         nearest=tuple(_with_size(candidate, question) for candidate in missed),
         size_system=question.size_system,
@@ -99,6 +101,13 @@ def matched(
         heel=judged.heels.question,
         widths=foot_widths(feet, profile.name),
     )
+
+
+def _usual_foot(foot: results.Profiled, usual_mm: tuple[float, float]) -> results.Profiled:
+    """A foot without a warning of its length, if that is usual for the profile."""
+    aligned = foot.aligned
+    usual = replace(aligned, alignment=usual_alignment(aligned.alignment, usual_mm))
+    return replace(foot, aligned=usual)
 
 
 def _refuse_stored_lasts(feet: Sequence[results.Profiled]) -> None:
@@ -252,14 +261,17 @@ def _costs(judged: ranking.JudgedLasts, row: int, first: int) -> list[float]:
 
 
 def _notices(
-    judged: ranking.JudgedLasts, missed: Sequence[results.Candidate], size_system: str | None
+    judged: ranking.JudgedLasts,
+    missed: Sequence[results.Candidate],
+    size_system: str | None,
+    usual_mm: tuple[float, float] | None,
 ) -> tuple[results.Notice, ...]:
-    """What the reader must know beside the table."""
+    """What the reader must know beside the table; ``usual_mm`` are the profile's lengths."""
     feet = judged.feet
     kinds = [foot.aligned.alignment.pose.kind for foot in feet]
     notices: list[results.Notice] = []
     for foot, kind in zip(feet, kinds, strict=True):
-        of_foot = [*foot.unusual, *unusual_measures(foot.measures, kind)]
+        of_foot = [*foot.unusual, *unusual_measures(foot.measures, kind, usual_mm)]
         if judged.by != "shape" and kind == "last":
             words = "its shape is like a last's; use --by shape for a last"
             of_foot.append(results.Notice("looks_like_a_last", words))

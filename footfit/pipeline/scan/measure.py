@@ -27,6 +27,8 @@ from footfit.results import (
 
 _ALONG_X = ("length", "functional_length", "tape_length", "ball_length")
 _ALONG_THE_GROUND = ("stick_length", "bottom_length", "tread_from", "tread_to")
+CHILD_MM = 200.0
+"""No adult of the survey has a foot as short as this."""
 END_MEASURES = frozenset((*_ALONG_X, *_ALONG_THE_GROUND))
 """What is counted from the pternion or to the toes."""
 
@@ -113,22 +115,53 @@ def shape_measures(
     )
 
 
-def unusual_measures(measures: Iterable[Measure], kind: str) -> tuple[Notice, ...]:
+def for_feet_of(scan: MeasuredScan, usual_length_mm: tuple[float, float]) -> MeasuredScan:
+    """A measured scan with the warnings for feet of these lengths, such as children's."""
+    kind = scan.alignment.pose.kind if scan.alignment.pose.sole else "foot"
+    return replace(
+        scan,
+        alignment=usual_alignment(scan.alignment, usual_length_mm),
+        unusual=unusual_measures(scan.measures, kind, usual_length_mm),
+    )
+
+
+def usual_alignment(alignment: Alignment, usual_length_mm: tuple[float, float]) -> Alignment:
+    """An alignment without the warning of a length that is usual for feet of these lengths."""
+    low, high = usual_length_mm
+    if alignment.length_mm is None or not low <= alignment.length_mm <= high:
+        return alignment
+    kept = (notice for notice in alignment.warnings if notice.code != "length_unusual")
+    return replace(alignment, warnings=tuple(kept))
+
+
+def unusual_measures(
+    measures: Iterable[Measure], kind: str, usual_length_mm: tuple[float, float] | None = None
+) -> tuple[Notice, ...]:
     """A warning for each value of a foot that is outside the range of a survey's people.
 
-    The value stays, because a foot may be unusual. Of a last there is no such range.
+    The value stays, because a foot may be unusual. Of a last there is no such range. The survey's
+    people are adults: for feet of other lengths only the length is compared.
     """
     values = {row.name: row.measured.value for row in measures}
     length_mm = values.get("length")
     if length_mm is None or kind != "foot":
         return ()
+    if usual_length_mm is not None:
+        low, high = usual_length_mm
+        if low <= length_mm <= high:
+            return ()
+        message = f"length {length_mm:.1f} mm is unusual; feet of this profile have"
+        return (Notice("suspect_measure", f"{message} {low:.0f}-{high:.0f} mm"),)
     known = ((entry, values.get(entry.name)) for entry in measure_table.MEASURES)
     words = (
         measure_table.unusual(entry, value, length_mm)
         for entry, value in known
         if value is not None
     )
-    return tuple(Notice("suspect_measure", message) for message in words if message is not None)
+    said = [message for message in words if message is not None]
+    if length_mm < CHILD_MM:
+        said.append("is this a child's foot? add --profile child")
+    return tuple(Notice("suspect_measure", message) for message in said)
 
 
 def last_record(shape: Profiled, labels: LastLabels) -> LastRecord:
