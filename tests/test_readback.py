@@ -17,7 +17,8 @@ import pytest
 
 from footfit.geometry.fit.clearance import ZoneClearance
 from footfit.pipeline.batch.sources import ReadingOptions, Source
-from footfit.pipeline.customers.matches import customers
+from footfit.pipeline.customers.customer import alone, one_pair
+from footfit.pipeline.customers.matches import matches
 from footfit.pipeline.drawables import best_comparisons
 from footfit.pipeline.fit.candidates import choice
 from footfit.pipeline.fit.match import Question
@@ -328,9 +329,9 @@ def test_the_command_writes_what_the_search_answered(
     feet = [str(path) for path in sorted((SAMPLES / "feet").iterdir())[: 1 + pair]]
     question = Question(surfaces_in=catalogue)
     sources = [Source(path) for path in feet]
-    (outcome,) = customers(
-        sources, ReadingOptions(), choice(catalogue, None, None), question, pair=pair
-    )
+    customers = one_pair(sources) if pair else alone(sources)
+    library = choice(catalogue, None, None)
+    (outcome,) = matches(customers, ReadingOptions(), library, question)
     match = outcome.value
     assert match is not None
     assert "damaged_last" in [notice.code for notice in match.warnings]

@@ -25,7 +25,7 @@ from footfit.catalogue import store
 from footfit.catalogue.file.opening import FIRST_STEPS
 from footfit.errors import BadOption, NoReference
 from footfit.pipeline.batch.runs import HERE, Outcome
-from footfit.pipeline.batch.sources import Source
+from footfit.pipeline.customers.customer import Customer, alone, one_pair
 from footfit.pipeline.library import backup, check, lasts
 
 if TYPE_CHECKING:
@@ -103,24 +103,29 @@ class Catalogue:
 
     def match_each(
         self,
-        feet: Meshes,
+        feet: Meshes | list[Customer],
         *,
         pair: bool = False,
         jobs: int = HERE,
         **question: Unpack[MatchKeywords],
-    ) -> Iterator[Outcome[Source, results.Match]]:
+    ) -> Iterator[Outcome[Customer, results.Match]]:
         """An outcome for each of many feet, as `outcomes` gives it; a ``pair`` of feet has one.
+
+        What `customers` gives has an outcome for each customer.
 
         Raises
         ------
         BadOption
             A pair does not have two feet; there is no such profile or size system.
         """
-        from footfit.pipeline.customers.matches import customers
+        from footfit.pipeline.customers.matches import matches
 
         asked, reading = self._question(question), reading_options(question)
         library = self._choice(question)
-        return customers(sources(feet), reading, library, asked, pair=pair, jobs=jobs)
+        given: list[Any] = feet if isinstance(feet, list) else [feet]
+        if not given or not all(isinstance(each, Customer) for each in given):
+            given = (one_pair if pair else alone)(sources(given))
+        return matches(given, reading, library, asked, jobs=jobs)
 
     def compare(
         self, foot: Shape, last: str, **reading: Unpack[CompareKeywords]

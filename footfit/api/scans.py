@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 from collections.abc import Callable, Iterator, Mapping
 from functools import partial
+from pathlib import Path
 from typing import Any, TypeVar, Unpack
 
 from footfit.api.inputs import (
@@ -18,8 +19,10 @@ from footfit.api.inputs import (
     reading_options,
     source_of,
 )
+from footfit.errors import BadOption
 from footfit.pipeline.batch import runs
 from footfit.pipeline.batch.sources import NONE_NAMED, ReadingOptions, Source, mesh_sources
+from footfit.pipeline.customers.customer import Customer, pairs_by_name, pairs_in_csv
 from footfit.results import (
     AlignedScan,
     Comparison,
@@ -172,6 +175,30 @@ def sources(
     from footfit.pipeline.scan.reading import split_sources
 
     return split_sources(single, reading_options(reading))
+
+
+def customers(
+    meshes: Meshes | None = None, *, pairs: str | os.PathLike[str] = "auto", split: bool = False
+) -> list[Customer]:
+    """The customers of whom meshes are the feet, for `Catalogue.match_each`.
+
+    ``pairs`` "auto" pairs the files whose names say left and right; else it is a CSV file with the
+    columns customer, left and right, which names the meshes.
+
+    Raises
+    ------
+    BadOption
+        The names do not say clearly whose feet the files are, or there is no mesh.
+    BadManifest
+        The CSV file is not understood.
+    """
+    if os.fspath(pairs) != "auto":
+        if meshes is not None:
+            raise BadOption("the CSV file of --pairs names the meshes: leave them out")
+        return pairs_in_csv(Path(pairs))
+    if meshes is None:
+        raise BadOption("no mesh was given; name files or a folder, or --pairs FILE.csv")
+    return pairs_by_name(sources(meshes, split=split))
 
 
 def outcomes(

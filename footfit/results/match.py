@@ -108,7 +108,8 @@ class Match(Document):
 
     ``nearest`` are the lasts that come nearest if none fits. ``size_system`` is the one that was
     asked for. ``best_verdict`` is the verdict of the first last; None if that was not judged in
-    every required zone, if there is none, or by shape.
+    every required zone, if there is none, or by shape. ``customer`` is the customer's name, if
+    somebody gives it.
     """
 
     feet: tuple[Profiled, ...]
@@ -125,6 +126,7 @@ class Match(Document):
     best_verdict: Verdict | None = None
     heel: HeelQuestion = AS_SCANNED
     widths: tuple[FootWidth, ...] = ()
+    customer: str | None = None
 
     @property
     def customer_length_mm(self) -> float | None:

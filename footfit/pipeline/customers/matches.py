@@ -3,68 +3,72 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from dataclasses import replace
 from functools import partial
+from itertools import islice
 
 from footfit import results
 from footfit.errors import BadOption, GeometryRefused, SameSide
 from footfit.pipeline.batch.phases import begin
 from footfit.pipeline.batch.runs import HERE, Outcome, outcomes
-from footfit.pipeline.batch.sources import ReadingOptions, Source
-from footfit.pipeline.customers.pair_sides import Foot, pair_of_feet
+from footfit.pipeline.batch.sources import ReadingOptions
+from footfit.pipeline.customers.customer import Customer, CustomerFoot
+from footfit.pipeline.customers.pair_sides import Foot, pair_of_feet, with_named_side
 from footfit.pipeline.fit.match import Question, matched
 from footfit.pipeline.scan.flare import profiled_scan
-from footfit.pipeline.scan.reading import aligned_source, profiled_source
+from footfit.pipeline.scan.reading import aligned_source
 
 
-def customers(
-    sources: Sequence[Source],
+def matches(
+    customers: Sequence[Customer],
     reading: ReadingOptions,
     library: results.Library,
     question: Question,
     *,
-    pair: bool = False,
     jobs: int = 1,
-) -> Iterator[Outcome[Source, results.Match]]:
-    """Each customer's answer, in order: one per scan, or one for a ``pair`` of scans.
+) -> Iterator[Outcome[Customer, results.Match]]:
+    """Each customer's answer, in order.
 
     Raises
     ------
     BadOption
-        A pair of other than two scans, or one side for both.
+        One side is given for both feet of a pair.
     """
-    if pair and len(sources) != 2:
-        raise BadOption(f"--pair takes two different scans of one customer, not {len(sources)}")
-    if pair and reading.side != "auto":
+    if reading.side != "auto" and any(len(customer.feet) > 1 for customer in customers):
         raise BadOption("--side gives both feet of a pair one side: leave it out")
-    read = foot_of_a_pair if pair else profiled_source
-    jobs = HERE if pair and jobs == 1 else jobs  # another process only costs its start
-    feet: Iterator[Outcome[Source, Foot]] = outcomes(partial(read, reading=reading), sources, jobs)
-    for group in [list(feet)] if pair else ([foot] for foot in feet):
-        yield _answered(group, library, question)
+    jobs = HERE if len(customers) == 1 and jobs == 1 else jobs  # a process costs its start
+    scans = [foot for customer in customers for foot in customer.feet]
+    feet = outcomes(partial(read_foot, reading=reading), scans, jobs)
+    for customer in customers:
+        yield _answered(customer, list(islice(feet, len(customer.feet))), library, question)
 
 
-def foot_of_a_pair(source: Source, reading: ReadingOptions) -> Foot:
-    """A foot, profiled if its side is known: the other foot may decide it."""
-    aligned = aligned_source(source, reading)
+def read_foot(foot: CustomerFoot, reading: ReadingOptions) -> Foot:
+    """A foot, profiled if its side is known: the other foot of the customer may decide it."""
+    aligned = aligned_source(foot.source, replace(reading, side=foot.given or reading.side))
+    if foot.named is not None:
+        aligned = with_named_side(aligned, foot.named)
     return aligned if aligned.alignment.side.side is None else profiled_scan(aligned)
 
 
 def _answered(
-    feet: Sequence[Outcome[Source, Foot]], library: results.Library, question: Question
-) -> Outcome[Source, results.Match]:
+    customer: Customer,
+    feet: Sequence[Outcome[CustomerFoot, Foot]],
+    library: results.Library,
+    question: Question,
+) -> Outcome[Customer, results.Match]:
     """One customer's outcome; the first foot that failed is the customer's failure."""
-    source = feet[0].item
     errors = [foot.error for foot in feet if foot.error is not None]
     if errors:
-        return Outcome(source, None, errors[0])
+        return Outcome(customer, None, errors[0])
     try:
         shapes = pair_of_feet([foot.value for foot in feet if foot.value is not None])
         begin("match")
-        answer = matched(shapes, library, question)
+        answer = replace(matched(shapes, library, question), customer=customer.name)
     except (BadOption, GeometryRefused, SameSide) as error:
-        return Outcome(source, None, error.at(source.path))
+        return Outcome(customer, None, error.at(customer.path))
     if question.surfaces_in is not None:
         from footfit.pipeline.fit.compare import with_surface_clearance
 
         answer = with_surface_clearance(answer, question.surfaces_in)
-    return Outcome(source, answer, None)
+    return Outcome(customer, answer, None)

@@ -48,8 +48,13 @@ def _on_two_sides(first: Foot, second: Foot) -> tuple[Foot, Foot]:
             paths[0],
         )
     if weaker is sides[0]:
-        return _taken_as(first, OTHER[stronger.side], Path(paths[1]).name), second
-    return first, _taken_as(second, OTHER[stronger.side], Path(paths[0]).name)
+        return _given_way(first, stronger.side, paths[1]), second
+    return first, _given_way(second, stronger.side, paths[0])
+
+
+def _given_way(foot: Foot, other: SideName, path: str) -> AlignedScan:
+    reason = f"{Path(path).name} is the {other} foot of the pair"
+    return _taken_as(foot, OTHER[other], "pair", reason)
 
 
 def _firmness(verdict: SideVerdict) -> tuple[bool, float]:
@@ -58,14 +63,21 @@ def _firmness(verdict: SideVerdict) -> tuple[bool, float]:
     return firm, abs(verdict.score) if verdict.side else 0.0
 
 
-def _taken_as(foot: Foot, side: SideName, other: str) -> AlignedScan:
+def with_named_side(foot: AlignedScan, named: SideName) -> AlignedScan:
+    """A foot whose name says its side: a doubtful detection gives way to the name."""
+    side = foot.alignment.side
+    if side.source != "detected" or side.confidence == "sure" or side.side == named:
+        return foot
+    return _taken_as(foot, named, "name", "its name says so")
+
+
+def _taken_as(foot: Foot, side: SideName, source: str, reason: str) -> AlignedScan:
+    """A foot whose detection is doubtful on the side that ``source`` gives it."""
     prepared = _aligned(foot).prepared
-    verdict = SideVerdict(side, "low", prepared.side.score, "pair")
-    words = (
-        f"the side is not sure (score {verdict.score:+.1f}): it is taken as {side}, because {other}"
-        f" is the {OTHER[side]} foot of the pair"
-    )
-    return aligned_scan(on_side(prepared, verdict, Notice("side_from_pair", words)))
+    verdict = SideVerdict(side, "low", prepared.side.score, source)
+    doubt = f"the side is not sure (score {verdict.score:+.1f})"
+    notice = Notice(f"side_from_{source}", f"{doubt}: it is taken as {side}, because {reason}")
+    return aligned_scan(on_side(prepared, verdict, notice))
 
 
 def _side(foot: Foot) -> SideVerdict:

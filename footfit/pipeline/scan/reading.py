@@ -14,6 +14,7 @@ from footfit.meshes.read import file_mesh
 from footfit.meshes.read_limits import LIMITS
 from footfit.meshes.units import check_unit_options
 from footfit.pipeline.batch.phases import begin
+from footfit.pipeline.batch.side_words import side_of_file
 from footfit.pipeline.batch.sources import ReadingOptions, Source
 from footfit.pipeline.scan.align import aligned_scan
 from footfit.pipeline.scan.cleaning import scan_of
@@ -86,7 +87,18 @@ def prepared_source(source: Source, reading: ReadingOptions) -> results.Prepared
         begin("pose")
         prepared = prepared_scan(scan, side, known_length_mm, labels, force_side=reading.force_side)
         begin("measures")
+        return _with_name_checked(prepared)
+
+
+def _with_name_checked(prepared: results.PreparedScan) -> results.PreparedScan:
+    """A foot with a warning if its file's name says another side than the shape surely shows."""
+    side, named = prepared.side, side_of_file(prepared.info.path)
+    sure = side.source == "detected" and side.confidence == "sure" and prepared.pose.kind == "foot"
+    if named is None or not sure or named == side.side:
         return prepared
+    words = f"the name says {named}, but the shape is surely a {side.side} one: check the file"
+    notice = results.Notice("side_name_differs", f"{words} (score {side.score:+.1f})")
+    return replace(prepared, warnings=(*prepared.warnings, notice))
 
 
 def aligned_source(
