@@ -3,8 +3,11 @@
 from __future__ import annotations
 
 import errno
+import hashlib
 import os
+import re
 import tempfile
+import unicodedata
 from collections.abc import Iterator
 from contextlib import contextmanager, suppress
 from pathlib import Path
@@ -15,6 +18,11 @@ KEPT_OF_NAME = 40
 """So many characters of a file's name come back in that of its partial file: a name of 255 bytes
 leaves no room for more.
 """
+_NOT_IN_NAMES = frozenset('<>:"/\\|?*#%')
+"""What Windows takes in no name; # and % end or change the address of a page."""
+_RESERVED = re.compile(r"con|prn|aux|nul|(com|lpt)[0-9]")
+_NAME_BYTES = 180
+"""A name has at most 255 bytes; a page is kept, sent and put into other folders."""
 
 
 def require_free(path: Path, *, replace: bool) -> None:
@@ -47,6 +55,27 @@ def require_folder(path: Path) -> None:
     if not path.parent.is_dir():
         words = f"the folder {path.parent} does not exist: check the path, or make the folder first"
         raise BadOption(words, str(path))
+
+
+def safe_file_name(name: str, ending: str) -> str:
+    """A name that every system takes for a file, from any text; two texts may give one name.
+
+    Examples
+    --------
+    >>> safe_file_name("Ann/Bob: 42?", ".html"), safe_file_name("con", ".html")
+    ('Ann_Bob_ 42_.html', '_con.html')
+    >>> safe_file_name("..", ".html"), len(safe_file_name("long" * 99, ".html"))
+    ('_.html', 184)
+    """
+    plain = unicodedata.normalize("NFC", name)
+    kept = "".join("_" if c in _NOT_IN_NAMES or not c.isprintable() else c for c in plain)
+    kept = kept.strip(" .").removeprefix("-") or "_"
+    if _RESERVED.fullmatch(kept.partition(".")[0].casefold()):
+        kept = f"_{kept}"
+    if len(kept.encode()) > _NAME_BYTES:  # a digest tells long names apart
+        digest = hashlib.sha256(plain.encode("utf-8", "replace")).hexdigest()[:8]
+        kept = f"{kept.encode()[: _NAME_BYTES - 10].decode('utf-8', 'ignore')}~{digest}"
+    return kept + ending
 
 
 @contextmanager

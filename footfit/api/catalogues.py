@@ -25,6 +25,7 @@ from footfit.catalogue import store
 from footfit.catalogue.file.opening import FIRST_STEPS
 from footfit.errors import BadOption, NoReference
 from footfit.pipeline.batch.runs import HERE, Outcome
+from footfit.pipeline.batch.sources import Source
 from footfit.pipeline.customers.customer import Customer, alone, one_pair
 from footfit.pipeline.library import backup, check, lasts
 

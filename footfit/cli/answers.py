@@ -48,11 +48,11 @@ def answer_scans(
         Before any work, if an output cannot be written or there is no mesh.
     """
     from footfit.api import scans
+    from footfit.pipeline.customers.customer import file_stem
 
     outputs.refuse(as_json=mode.json)
     sources = sources_of(meshes, reading, lasts, split=batch.split, quiet=mode.quiet)
-    outputs.require_one(sources)
-    outputs.keep(sources)
+    outputs = outputs.placed([file_stem(source.path) for source in sources], sources)
     outcomes = scans.outcomes(verb, sources, jobs=batch.jobs, **reading.keywords(), **options)
     raise typer.Exit(answer_outcomes(outcomes, replace(mode, total=len(sources)), outputs))
 
@@ -61,12 +61,13 @@ def answer_outcomes(
     outcomes: Iterable[Outcome[Any, T]],
     mode: OutputMode,
     outputs: Outputs,
-    then: Callable[[T], object] | None = None,
+    then: Callable[[Outcome[Any, T]], object] | None = None,
     scans: int = 1,
+    noun: str = "meshes",
 ) -> int:
     """Answer each outcome as it comes, write its files, and call ``then``; return the exit code.
 
-    ``scans`` is how many scans a single customer has.
+    ``scans`` is how many scans a single customer has, ``noun`` what the outcomes are of.
 
     One bad mesh does not stop the others: it has a line of its own, and it sets the exit code.
     """
@@ -78,7 +79,9 @@ def answer_outcomes(
     notices = Notices(mode)
     lost: Exception | None = None
     with failures_last(mode) as say_failure, progress(mode, scans) as bar:
-        for outcome in bar.items(outcomes):
+        for number, outcome in enumerate(bar.items(outcomes)):
+            if then is not None:
+                then(outcome)
             result = outcome.value
             if result is None:
                 assert outcome.error is not None
@@ -96,14 +99,12 @@ def answer_outcomes(
                 if not outputs.paths:
                     raise
                 lost, mode = error, replace(mode, answers=False)  # the files are still wanted
-            write_files(outputs, result, mode, bar)
+            write_files(outputs, result, mode, bar, number)
             if outputs.csv is not None:
                 tables.append(outputs.as_table(result))
-            if then is not None:
-                then(result)
         notices.close()
         if errors and mode.total > 1:
-            say(f"{len(errors)} of {mode.total} meshes failed", quiet=mode.quiet or mode.json)
+            say(f"{len(errors)} of {mode.total} {noun} failed", quiet=mode.quiet or mode.json)
         say_written(outputs.write_csv(tables), quiet=mode.quiet)
     if lost is not None:
         raise lost
@@ -131,12 +132,14 @@ def answer_result(result: Any, mode: OutputMode, outputs: Outputs) -> None:
         raise lost
 
 
-def write_files(outputs: Outputs, result: Any, mode: OutputMode, bar: Progress) -> None:
+def write_files(
+    outputs: Outputs, result: Any, mode: OutputMode, bar: Progress, number: int = 0
+) -> None:
     """Write the files of a result; the bar of a single customer names this phase."""
     if mode.total == 1 and outputs.writes_files:
         bar.show()
         bar.begin("page")
-    written = outputs.write(result)
+    written = outputs.write(result, number)
     bar.hide()
     say_written(written, quiet=mode.quiet)
 

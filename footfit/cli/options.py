@@ -59,10 +59,17 @@ def switch(flag: str, help: str, *, panel: str | None = None) -> Any:
     return option(flag, help, **SWITCH, panel=panel)
 
 
-def output_file(flag: str, help: str, *short: str, default: Any = None) -> Any:
+def output_file(
+    flag: str, help: str, *short: str, metavar: str = "FILE", default: Any = None
+) -> Any:
     """An option that names a file to write; its content differs from command to command."""
     first, *more = *short, flag
-    return option(first, help, "FILE", *more, default=default, panel=OUTPUT)
+    return option(first, help, metavar, *more, default=default, panel=OUTPUT)
+
+
+def output_files(flag: str, help: str, *short: str) -> Any:
+    """An option that names a file to write, or a folder for the files of many meshes."""
+    return output_file(flag, help, *short, metavar="FILE|FOLDER/")
 
 
 def head_text(flag: str, help: str, metavar: str) -> Any:

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Sized
-from dataclasses import dataclass
+from collections.abc import Callable, Iterable, Sequence, Sized
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -11,7 +11,14 @@ from footfit.cli.console import answer, say
 from footfit.cli.options import STDOUT
 from footfit.errors import BadOption, CatalogueUnusable, FootfitError
 from footfit.pipeline.export import file_kind
-from footfit.whole_files import give_name, partial_beside, require_free, sync
+from footfit.whole_files import (
+    give_name,
+    partial_beside,
+    require_folder,
+    require_free,
+    safe_file_name,
+    sync,
+)
 
 if TYPE_CHECKING:
     from footfit.pipeline.batch.sources import Source
@@ -23,11 +30,29 @@ class OutputFile:
 
     ``content`` makes it from the result and the suffix of the path, which is one of ``kinds``.
     Without ``kinds`` the file has one form, and any name.
+
+    A path that is a folder, or that has no suffix and does not exist, is a folder for the files of
+    many results: each has the name of what it is of, with a ``tag``, and the first of ``kinds``.
     """
 
     path: Path | None
     kinds: tuple[str, ...]
     content: Callable[[Any, str], bytes | str]
+    tag: str = ""
+
+    @property
+    def is_folder(self) -> bool:
+        """Whether the path is a folder for files."""
+        if self.path is None or not self.kinds:
+            return False
+        return self.path.is_dir() or not (self.path.suffix or self.path.exists())
+
+    def target(self, stem: str) -> Path:
+        """The file of a result that is named so."""
+        assert self.path is not None
+        if not self.is_folder:
+            return self.path
+        return self.path / safe_file_name(stem, f"{self.tag}.{self.kinds[0]}")
 
 
 @dataclass(frozen=True, slots=True)
@@ -43,6 +68,7 @@ class Outputs:
     force: bool = False
     as_table: Callable[[Any], Any] = lambda result: result
     failed_table: Callable[[Any, FootfitError], Any] | None = None
+    stems: tuple[str, ...] = ()
 
     def refuse(self, *, as_json: bool) -> None:
         """Stop before any work if a file could not be written at the end.
@@ -54,7 +80,10 @@ class Outputs:
             outputs have one name.
         """
         for file in self.files:
-            refuse_existing(file.path, force=self.force, kinds=file.kinds)
+            if file.path is not None and file.is_folder:
+                require_folder(file.path)
+            else:
+                refuse_existing(file.path, force=self.force, kinds=file.kinds)
         if self.csv == STDOUT and as_json:
             raise BadOption("--csv - and --json both write to stdout; give --csv a file")
         if self.csv != STDOUT:
@@ -66,9 +95,37 @@ class Outputs:
 
     @property
     def paths(self) -> list[Path]:
-        """Every file that is written."""
-        paths = [file.path for file in self.files] + [self.csv]
-        return [path for path in paths if path is not None and path != STDOUT]
+        """Every file that is written, as far as its name is known."""
+        paths = [] if self.csv is None or self.csv == STDOUT else [self.csv]
+        for file in self.files:
+            if file.path is not None:
+                stems = self.stems if file.is_folder else ("",)
+                paths += [file.target(stem) for stem in stems]
+        return paths
+
+    def placed(self, stems: Sequence[str], sources: Iterable[Source], unless: str = "") -> Outputs:
+        """The outputs of results that are named so, in this order, made from the sources.
+
+        Raises
+        ------
+        OutputExists, BadOption
+            A file would replace another one: one that is there, the scan, or that of another
+            result.
+        """
+        self.require_one(stems, unless)
+        named = replace(self, stems=tuple(stems))
+        named.keep(sources)
+        taken: dict[str, str] = {}
+        for file in self.files if len(stems) else ():
+            for stem in stems if file.is_folder else ():
+                target = file.target(stem)
+                other = taken.setdefault(str(target.absolute()).casefold(), stem)
+                if other is not stem:
+                    words = f"would be the file of both {other!r} and {stem!r}: rename one of them"
+                    raise BadOption(words, str(target))
+                if target.parent.is_dir():
+                    refuse_existing(target, force=self.force)
+        return named
 
     def keep(self, sources: Iterable[Source]) -> None:
         """Refuse an output that would replace one of the meshes that are read.
@@ -94,24 +151,31 @@ class Outputs:
         BadOption
             The meshes would be written over one another.
         """
-        named = [str(file.path) for file in self.files if file.path is not None]
-        if named and len(meshes) != 1:
-            words = f"is one file and there are {len(meshes)} meshes; give one mesh"
-            raise BadOption(f"{words}, or {unless}" if unless else words, named[0])
+        single = [file.path for file in self.files if file.path and not file.is_folder]
+        if single and len(meshes) != 1:
+            words = f"is one file and there are {len(meshes)} meshes; name a folder"
+            words += f" ({single[0].parent / single[0].stem}/)"
+            raise BadOption(f"{words}, or {unless}" if unless else words, str(single[0]))
 
     @property
     def writes_files(self) -> bool:
         """Whether a result has a file of its own."""
         return any(file.path is not None for file in self.files)
 
-    def write(self, result: Any) -> list[Path]:
-        """Write the files of a result, once the content of all is there; return their paths."""
+    def write(self, result: Any, number: int = 0) -> list[Path]:
+        """Write the files of a result, once the content of all is there; return their paths.
+
+        ``number`` is the result's place among all.
+        """
         contents = []
         for file in self.files:
             if file.path is not None:
-                kind = file_kind(file.path, file.kinds) if file.kinds else ""
-                contents.append((file.path, file.content(result, kind)))
+                target = file.target(self.stems[number] if self.stems else "")
+                kind = file_kind(target, file.kinds) if file.kinds else ""
+                contents.append((target, file.content(result, kind)))
         for path, content in contents:
+            if not path.parent.exists():
+                make_folder(path.parent)
             write_output(path, content, force=self.force)
         return [path for path, _ in contents]
 
@@ -133,6 +197,20 @@ def say_written(paths: Iterable[Path], *, quiet: bool) -> None:
     """Write a line for each file that was written."""
     for path in paths:
         say(f"wrote {path}", quiet=quiet)
+
+
+def make_folder(folder: Path) -> None:
+    """Make a folder for outputs, if it is not there.
+
+    Raises
+    ------
+    BadOption
+        The system refuses.
+    """
+    try:
+        folder.mkdir(exist_ok=True)
+    except OSError as error:
+        raise BadOption(f"the folder cannot be made: {error.strerror}", str(folder)) from error
 
 
 def refuse_existing(path: Path | None, *, force: bool, kinds: tuple[str, ...] = ()) -> None:

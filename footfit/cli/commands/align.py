@@ -13,10 +13,10 @@ MethodName = Literal["footfit", "paper", "paper-literal"]
 
 def align(
     meshes: list[str] = options.MESHES,
-    output: Path | None = options.output_file(
+    output: Path | None = options.output_files(
         "--output", "Write the aligned mesh in mm (.stl, .ply, .obj, .off).", "-o"
     ),
-    plot: Path | None = options.output_file(
+    plot: Path | None = options.output_files(
         "--plot", "Draw the mesh and its eigenvectors before and after (.svg, .png)."
     ),
     method: MethodName = options.option(

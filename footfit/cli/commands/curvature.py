@@ -13,12 +13,12 @@ if TYPE_CHECKING:
 
 def curvature(
     meshes: list[str] = options.MESHES,
-    output: Path | None = options.output_file(
+    output: Path | None = options.output_files(
         "--output",
         "Write k1, k2, mean and gaussian of each vertex (.ply coloured by the mean, .npz).",
         "-o",
     ),
-    plot: Path | None = options.output_file(
+    plot: Path | None = options.output_files(
         "--plot", "Draw the mean curvature on the mesh (.svg, .png)."
     ),
     radius: float | None = options.option(
@@ -54,6 +54,13 @@ def curvature_with_output(mesh: Any, output: str | None, **options: Any) -> Surf
     """The curvature of a mesh; its document names the file that holds all values."""
     from dataclasses import replace
 
-    from footfit.api import scans
+    from footfit.api import files, scans
+    from footfit.cli.outputs import OutputFile
+    from footfit.pipeline.customers.customer import file_stem
+    from footfit.pipeline.export import CURVATURE_KINDS
 
-    return replace(scans.curvature(mesh, **options), output=output)
+    surface = scans.curvature(mesh, **options)
+    if output is None:
+        return replace(surface, output=None)
+    written = OutputFile(Path(output), CURVATURE_KINDS, files.mesh_file)
+    return replace(surface, output=str(written.target(file_stem(surface.info.path))))

@@ -9,7 +9,7 @@ from footfit.cli import options
 
 def flare(
     meshes: list[str] = options.MESHES,
-    plot: Path | None = options.output_file(
+    plot: Path | None = options.output_files(
         "--plot", "Draw the plan outline, the centre line and its curvature (.svg, .png)."
     ),
     csv: Path | None = options.CSV,

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import TYPE_CHECKING, Literal
 
@@ -12,7 +13,9 @@ from footfit.cli import options
 
 if TYPE_CHECKING:
     from footfit.errors import FootfitError
-    from footfit.pipeline.batch.sources import Source
+    from footfit.pipeline.batch.runs import Outcome
+    from footfit.pipeline.customers.customer import Customer
+    from footfit.report.terminal.summary_tables import CustomerLine
     from footfit.results import Match
 
 
@@ -24,7 +27,11 @@ HTML = ("html", "htm")
 
 
 def match(
-    feet: list[str] = options.MESHES,
+    feet: list[str] | None = options.argument(
+        "MESH",
+        "Give mesh files, folders or globs, or - to read one mesh from stdin; or --pairs FILE.csv.",
+        default=None,
+    ),
     by: ByName = options.option(
         "--by",
         "Rank by fit, by flare (the paper's search), or by shape (find a scanned last).",
@@ -37,6 +44,12 @@ def match(
         default="walking",
     ),
     pair: bool = options.switch("--pair", "Take the two scans as the feet of one customer."),
+    pairs: str | None = options.option(
+        "--pairs",
+        "Match many customers with two feet each. auto takes left and right from the file names; "
+        "a CSV has the columns customer, left and right.",
+        "auto|FILE.csv",
+    ),
     top: int = options.option("--top", "Show this many lasts.", "N", default=5, min=1),
     style: str | None = options.option("--style", "Rank only lasts of this style.", "S"),
     size_system: str | None = options.option(
@@ -52,8 +65,12 @@ def match(
     fail_under: Least | None = options.option(
         "--fail-under", "Exit with 7 if the first last of a customer is not at least this."
     ),
-    html: Path | None = options.output_file("--html", "Write a page that opens in any browser."),
-    sheet: Path | None = options.output_file(
+    html: Path | None = options.output_files(
+        "--html",
+        "Write a page that opens in any browser; into a folder, a page for each customer.",
+        "-o",
+    ),
+    sheet: Path | None = options.output_files(
         "--sheet", "Write the customer's sheet: one page to hand over, which prints on one A4."
     ),
     title: str = options.head_text(
@@ -77,14 +94,18 @@ def match(
     The toe room comes first: the last's functional length less the foot's.
 
     Example: footfit match left.stl right.stl --pair --html report.html --sheet sheet.html
+
+    Many customers: footfit match scans/ --pairs auto -o pages/
     """
     from dataclasses import replace
     from functools import partial
 
     from footfit.api import files
-    from footfit.cli.answers import answer_outcomes, sources_of
+    from footfit.cli.answers import answer_outcomes
+    from footfit.cli.console import show
     from footfit.cli.outputs import OutputFile, Outputs
     from footfit.errors import BadOption
+    from footfit.report.terminal.summary_tables import customers_table
     from footfit.results import FailedMatch, Match
 
     if by == "shape" and fail_under is not None:
@@ -95,26 +116,29 @@ def match(
     if (title or customer) and html is None and sheet is None:
         raise BadOption("--title and --customer go with --html or --sheet, which show them")
     files.require_short(title=title, customer=customer)
-    page = partial(files.page, title=title, customer=customer)
-    handed_over = partial(files.sheet, title=title, customer=customer)
+
+    def head(match: Match) -> str:
+        return customer or (match.customer or "")[: files.MOST_LETTERS]
+
+    page, handed_over = partial(files.page, title=title), partial(files.sheet, title=title)
     pages = (
-        OutputFile(html, HTML, lambda answer, _: page(answer, catalogue.path)),
-        OutputFile(sheet, HTML, lambda answer, _: handed_over(answer)),
+        OutputFile(html, HTML, lambda one, _: page(one, catalogue.path, customer=head(one))),
+        OutputFile(sheet, HTML, lambda one, _: handed_over(one, customer=head(one)), "-sheet"),
     )
 
-    def failed(source: Source, error: FootfitError) -> FailedMatch:
-        paths = [each.path for each in sources] if pair else [source.path]
-        return FailedMatch(tuple(paths), error.code, error.message)
+    def failed(one: Customer, error: FootfitError) -> FailedMatch:
+        return FailedMatch(one.paths, error.code, error.message)
 
     outputs = Outputs(pages, Match, csv, force, failed_table=failed)
     outputs.refuse(as_json=mode.json)
-    sources = sources_of(feet, reading, lasts, split=batch.split, quiet=mode.quiet)
-    customers = 1 if pair else len(sources)
-    outputs.keep(sources)
-    outputs.require_one(range(customers), unless="--pair for one customer's two feet")
+    customers = customers_of(feet or [], pairs, pair, reading, lasts, batch, mode)
+    if customer and len(customers) > 1:
+        raise BadOption("--customer names one customer; the names of many come from --pairs")
+    scans = [foot.source for customer in customers for foot in customer.feet]
+    titles = [customer.title for customer in customers]
+    outputs = outputs.placed(titles, scans, unless="--pair for one customer's two feet")
     answers = catalogue.match_each(
-        sources,
-        pair=pair,
+        customers,
         jobs=batch.jobs,
         by=by,
         profile=profile,
@@ -124,36 +148,91 @@ def match(
         clearance=clearance,
         **reading.keywords(),
     )
-    matches: list[Match] = []
-    code = answer_outcomes(
-        answers, replace(mode, total=customers), outputs, matches.append, len(sources)
-    )
-    if fail_under is not None:
-        code = checked_code(matches, fail_under, code, as_json=mode.json)
-    raise typer.Exit(code)
+    mode = replace(mode, total=len(customers))
+    summary = Summary(fail_under)
+    code = answer_outcomes(answers, mode, outputs, summary.add, len(scans), "customers")
+    if len(customers) > 1 and not mode.json and csv != options.STDOUT:
+        show(customers_table(summary.lines))
+    raise typer.Exit(summary.checked_code(code, as_json=mode.json))
 
 
-def checked_code(matches: Sequence[Match], least: Least, code: int, *, as_json: bool) -> int:
-    """The exit code after each answer is compared with the verdict that is asked for.
+def customers_of(
+    feet: Sequence[str],
+    pairs: str | None,
+    pair: bool,
+    reading: options.FootReading,
+    lasts: options.Lasts,
+    batch: options.Batch,
+    mode: options.OutputMode,
+) -> list[Customer]:
+    """The customers whose feet are given.
 
     Raises
     ------
-    CheckFailed
-        The first last of a customer is not at least ``least``, and nothing else failed.
+    BadOption, BadManifest, UnreadableFile
+        It is not clear whose feet the scans are, or there is none.
     """
-    from footfit.cli.console import error_line, say
-    from footfit.errors import CheckFailed
-    from footfit.pipeline.batch.runs import common_code
-    from footfit.pipeline.fit.match import meets
+    from footfit.api import scans
+    from footfit.cli.answers import sources_of
+    from footfit.cli.console import say_notices
+    from footfit.errors import BadOption
+    from footfit.pipeline.customers.customer import alone, alone_notices, one_pair
 
-    under = [match for match in matches if not meets(match, least)]
-    if not under:
-        return code
-    first = under[0].feet[0].aligned.alignment.info.path
-    who = f"{len(under)} of {len(matches)} customers" if len(matches) > 1 else "this customer"
-    better = "" if least == "good" else " or better"
-    error = CheckFailed(f"no last that is {least}{better} comes first for {who}", first)
-    if not code:
-        raise error
-    say(error_line(error, as_json=as_json))
-    return common_code([code, int(error.exit)])
+    if pairs is None and not feet:
+        raise BadOption("no mesh was given; name files or a folder, or --pairs FILE.csv")
+    if pairs is not None and pair:
+        raise BadOption("--pair is for one customer and --pairs for many: give one of them")
+    if pairs is not None and reading.side != "auto":
+        raise BadOption("--side goes with no --pairs: the names or the CSV say the sides")
+    sources = sources_of(feet, reading, lasts, split=batch.split, quiet=mode.quiet) if feet else []
+    if pairs is None:
+        return one_pair(sources) if pair else alone(sources)
+    customers = scans.customers(sources or None, pairs=pairs)
+    if feet:
+        say_notices(alone_notices(customers), None, quiet=mode.quiet)
+    return customers
+
+
+@dataclass(slots=True)
+class Summary:
+    """What came out for each customer, and who has no last that is at least ``least``."""
+
+    least: Least | None
+    lines: list[CustomerLine] = field(default_factory=list)
+    under: list[str | None] = field(default_factory=list)
+    answered: int = 0
+
+    def add(self, outcome: Outcome[Customer, Match]) -> None:
+        """Take the outcome of a customer."""
+        from footfit.pipeline.fit.match import meets
+        from footfit.report.terminal.summary_tables import customer_line
+
+        customer, match = outcome.item, outcome.value
+        self.lines.append(customer_line(customer.title, match or outcome.error))
+        self.answered += match is not None
+        if match is not None and self.least is not None and not meets(match, self.least):
+            self.under.append(customer.path)
+
+    def checked_code(self, code: int, *, as_json: bool) -> int:
+        """The exit code after each answer is compared with the verdict that is asked for.
+
+        Raises
+        ------
+        CheckFailed
+            The first last of a customer is not at least ``least``, and nothing else failed.
+        """
+        from footfit.cli.console import error_line, say
+        from footfit.errors import CheckFailed
+        from footfit.pipeline.batch.runs import common_code
+
+        if not self.under:
+            return code
+        several = f"{len(self.under)} of {self.answered} customers"
+        who = several if self.answered > 1 else "this customer"
+        better = "" if self.least == "good" else " or better"
+        words = f"no last that is {self.least}{better} comes first for {who}"
+        error = CheckFailed(words, self.under[0])
+        if not code:
+            raise error
+        say(error_line(error, as_json=as_json))
+        return common_code([code, int(error.exit)])

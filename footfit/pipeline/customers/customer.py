@@ -48,6 +48,11 @@ class Customer:
         return self.feet[0].path
 
     @property
+    def title(self) -> str:
+        """The name, or that of the first file."""
+        return self.name or file_stem(self.path)
+
+    @property
     def paths(self) -> tuple[str | None, ...]:
         """The path of each foot."""
         return tuple(foot.path for foot in self.feet)
