@@ -34,7 +34,9 @@ def matched(footfit: Footfit, *arguments: object) -> Run:
 
 def test_each_customer_has_a_line_and_a_page(footfit: Footfit, shop: Path) -> None:
     (shop / "scans" / "dan_L.stl").write_text("no mesh", encoding="utf-8")
-    run = matched(footfit, "scans", "--pairs", "auto", "-o", "pages/", "--json")
+    run = matched(
+        footfit, "scans", "--pairs", "auto", "-o", "pages/", "--sheet", "pages/", "--json"
+    )
     assert run.code == 3
     assert [line.get("customer", line.get("code")) for line in run.lines] == [
         "Zoé",
@@ -43,14 +45,17 @@ def test_each_customer_has_a_line_and_a_page(footfit: Footfit, shop: Path) -> No
     ]
     assert [foot["side"] for foot in run.lines[0]["feet"]] == ["left", "right"]
     assert run.lines[2]["path"] == "scans/dan_L.stl"
-    assert sorted(path.name for path in (shop / "pages").iterdir()) == ["Zoé.html", "bob.html"]
-    page = (shop / "pages" / "Zoé.html").read_text(encoding="utf-8")
-    assert "Zoé gauche.stl" in page
-    assert "bob" not in page
+    pages = {path.name: path.read_text(encoding="utf-8") for path in (shop / "pages").iterdir()}
+    assert sorted(pages) == ["Zoé-sheet.html", "Zoé.html", "bob-sheet.html", "bob.html"]
+    assert "Zoé gauche.stl" in pages["Zoé.html"]
+    for name, page in pages.items():
+        customer, other = ("Zoé", "bob") if name.startswith("Zoé") else ("bob", "Zoé")
+        assert f">{customer}<" in page
+        assert other not in page
     assert "2 feet have no other foot by name" in run.err
     assert [line for line in run.err.splitlines() if line.startswith("wrote")] == [
-        "wrote pages/Zoé.html",
-        "wrote pages/bob.html",
+        *("wrote pages/Zoé.html", "wrote pages/Zoé-sheet.html"),
+        *("wrote pages/bob.html", "wrote pages/bob-sheet.html"),
     ]
     assert json.loads(run.last_error)["path"] == "scans/dan_L.stl"
 
@@ -65,6 +70,7 @@ def test_a_summary_ends_the_tables(footfit: Footfit, shop: Path) -> None:
     (shop / "scans" / "dan_L.stl").write_text("no mesh", encoding="utf-8")
     run = matched(footfit, "scans", "--pairs", "auto", "--csv", "rows.csv")
     summary = run.out[run.out.index("3 customers") :]
+    assert run.out.startswith("Zoé\nZoé gauche.stl")
     for line, words in (("Zoé", "loafer-40"), ("bob", "EU 43"), ("dan", "content")):
         (row,) = [row for row in summary.splitlines() if line in row]
         assert words in row
@@ -102,6 +108,7 @@ def test_the_columns_of_a_csv_give_the_sides(footfit: Footfit, shop: Path) -> No
         (("scans", "--pairs", "auto", "--pair"), "--pairs for many"),
         (("scans", "--pairs", "auto", "--side", "left"), "--side goes with no --pairs"),
         (("scans", "--pairs", "pairs.csv"), "leave them out"),
+        (("scans", "--customer", "Ann", "-o", "pages/"), "--customer names one customer"),
         (("--pairs", "auto"), "no mesh was given"),
         ((), "no mesh was given"),
     ],

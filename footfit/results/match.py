@@ -42,7 +42,7 @@ HEEL_COLUMNS = (
     "heel_change_flare_deg",
 )
 
-FOOT_COLUMNS = ("status", "foot_length_mm", "foot_size", "customer_size", "error")
+FOOT_COLUMNS = ("status", "foot_length_mm", "foot_size", "customer_size", "error", "customer")
 DEFAULT_SYSTEM = "eu"
 
 
@@ -135,6 +135,15 @@ class Match(Document):
         known = [mm for mm in lengths if mm is not None]
         return max(known) if len(known) == len(lengths) else None
 
+    @property
+    def customer_size(self) -> str | None:
+        """The customer's one size in words, in the system that was asked for."""
+        return self._size_of(self.customer_length_mm)
+
+    def _size_of(self, length_mm: float | None) -> str | None:
+        system = system_named(self.size_system) or SYSTEMS[DEFAULT_SYSTEM]
+        return None if length_mm is None else foot_size(length_mm, system).words
+
     columns = (
         *("path", "foot_side", "by", *CANDIDATE_COLUMNS, "flare_distance", "flare_delta_deg"),
         *(f"clearance_{name}_{end}" for name in FIT_NAMES for end in ("mm", "sd_mm")),
@@ -167,10 +176,8 @@ class Match(Document):
 
     def _foot_cells(self, foot: int, status: str) -> tuple[object, ...]:
         """What is said of a foot in each of its rows, as `FOOT_COLUMNS` name it."""
-        own, customer = self.feet[foot].length_mm, self.customer_length_mm
-        system = system_named(self.size_system) or SYSTEMS[DEFAULT_SYSTEM]
-        sizes = [None if mm is None else foot_size(mm, system).words for mm in (own, customer)]
-        return status, own, *sizes, None
+        own = self.feet[foot].length_mm
+        return status, own, self._size_of(own), self.customer_size, None, self.customer
 
     def _empty_row(self, foot: int) -> tuple[object, ...]:
         """The row of a foot that no last fits."""
@@ -222,12 +229,14 @@ class FailedMatch:
     paths: tuple[str | None, ...]
     code: str
     message: str
+    customer: str | None = None
 
     columns = Match.columns
 
     def rows(self) -> list[Json]:
         """A row for each foot, with the code of the error and its sentence."""
         known: Json = {"status": "failed", "error": self.code, "why": self.message}
+        known["customer"] = self.customer
         cells = [known | {"path": path} for path in self.paths]
         return rows(self.columns, [tuple(row.get(c) for c in self.columns) for row in cells])
 

@@ -127,7 +127,7 @@ def match(
     )
 
     def failed(one: Customer, error: FootfitError) -> FailedMatch:
-        return FailedMatch(one.paths, error.code, error.message)
+        return FailedMatch(one.paths, error.code, error.message, one.name)
 
     outputs = Outputs(pages, Match, csv, force, failed_table=failed)
     outputs.refuse(as_json=mode.json)

@@ -52,6 +52,7 @@ VERDICT, NUMBERS, COLUMN_GAP = 3, 3, 2
 def match_table(match: Match) -> RenderableType:
     """The feet, the ranked lasts with reasons, and why others were left out."""
     parts: list[RenderableType] = [Text(words, "bold red") for words in side_doubts(match)]
+    parts += [cell(match.customer, "bold underline")] if match.customer else []
     parts += [_foot_line(foot, match) for foot in match.feet]
     if match.customer_length_mm is not None and not is_scanned_last(match.feet[0], match):
         parts.append(_size_line(match.customer_length_mm, match.size_system))
