@@ -94,8 +94,6 @@ def match(
     The toe room comes first: the last's functional length less the foot's.
 
     Example: footfit match left.stl right.stl --pair --html report.html --sheet sheet.html
-
-    Many customers: footfit match scans/ --pairs auto -o pages/
     """
     from dataclasses import replace
     from functools import partial
