@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, Self, Unpack
 
 from footfit import results
+from footfit.api.catalogue_file import CatalogueFile
 from footfit.api.inputs import (
     CompareKeywords,
     Feet,
@@ -27,7 +28,7 @@ from footfit.errors import BadOption, NoReference
 from footfit.pipeline.batch.runs import HERE, Outcome
 from footfit.pipeline.batch.sources import Source
 from footfit.pipeline.customers.customer import Customer, alone, one_pair
-from footfit.pipeline.library import backup, check, lasts
+from footfit.pipeline.library import lasts
 
 if TYPE_CHECKING:
     from footfit.pipeline.evidence.recording import Said
@@ -55,16 +56,12 @@ def match(feet: Feet, catalogue: FilePath, **question: Unpack[MatchKeywords]) ->
         return lasts.match(feet, **question)
 
 
-class Catalogue:
+class Catalogue(CatalogueFile):
     """A catalogue of lasts. Its methods raise NoCatalogue if there is no file, and
     CatalogueUnusable if the file cannot be used.
 
     The lasts for a match are read once, and again after this object has changed a last.
     """
-
-    def __init__(self, path: Path) -> None:
-        self.path = path
-        self._chosen: dict[tuple[str | None, str | None], results.Library] = {}
 
     def __enter__(self) -> Self:
         return self
@@ -387,30 +384,3 @@ class Catalogue:
             words = f"the paper's methods need a reference last; {FIRST_STEPS}"
             raise NoReference(words, str(self.path))
         return reference
-
-    # ------------------------------------------------------------ the file
-
-    def info(self) -> results.CatalogueFacts:
-        """Where the file is, and what it holds."""
-        with store.open_catalogue(self.path) as catalogue:
-            return catalogue.summary()
-
-    def check(self) -> results.CheckOutcome:
-        """Everything that is not as it was stored. Nothing is changed."""
-        return check.check(self.path)
-
-    def backup(self, file: FilePath, *, replace: bool = False) -> results.BackupOutcome:
-        """Copy the catalogue and check the copy; raises OutputExists, CheckFailed or BadOption."""
-        return backup.back_up(self.path, Path(file), replace=replace)
-
-    def restore(self, file: FilePath) -> results.RestoreOutcome:
-        """Make the catalogue what a backup is; raises UnreadableFile, CheckFailed or BadOption."""
-        self._chosen.clear()
-        return backup.restore(self.path, Path(file))
-
-    def upgrade(self, jobs: int = HERE) -> results.UpgradeOutcome:
-        """Bring an older catalogue to this version, and keep a copy of the old file."""
-        from footfit.pipeline.library import upgrade
-
-        self._chosen.clear()
-        return upgrade.upgrade(self.path, jobs)

@@ -1,0 +1,44 @@
+"""The file of a catalogue: what it holds, whether it is sound, copies of it."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from footfit import results
+from footfit.api.inputs import FilePath
+from footfit.catalogue import store
+from footfit.pipeline.batch.runs import HERE
+from footfit.pipeline.library import backup, check
+
+
+class CatalogueFile:
+    """A catalogue's file. ``_chosen`` keeps the lasts that were read, until one is changed."""
+
+    def __init__(self, path: Path) -> None:
+        self.path = path
+        self._chosen: dict[tuple[str | None, str | None], results.Library] = {}
+
+    def info(self) -> results.CatalogueFacts:
+        """Where the file is, and what it holds."""
+        with store.open_catalogue(self.path) as catalogue:
+            return catalogue.summary()
+
+    def check(self) -> results.CheckOutcome:
+        """Everything that is not as it was stored. Nothing is changed."""
+        return check.check(self.path)
+
+    def backup(self, file: FilePath, *, replace: bool = False) -> results.BackupOutcome:
+        """Copy the catalogue and check the copy; raises OutputExists, CheckFailed or BadOption."""
+        return backup.back_up(self.path, Path(file), replace=replace)
+
+    def restore(self, file: FilePath) -> results.RestoreOutcome:
+        """Make the catalogue what a backup is; raises UnreadableFile, CheckFailed or BadOption."""
+        self._chosen.clear()
+        return backup.restore(self.path, Path(file))
+
+    def upgrade(self, jobs: int = HERE) -> results.UpgradeOutcome:
+        """Bring an older catalogue to this version, and keep a copy of the old file."""
+        from footfit.pipeline.library import upgrade
+
+        self._chosen.clear()
+        return upgrade.upgrade(self.path, jobs)
