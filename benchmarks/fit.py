@@ -21,6 +21,7 @@ import numpy as np
 from benchmarks.alignment import scan_of
 from benchmarks.tables import markdown, put
 from footfit.geometry.flare.profile_distance import profile_distances
+from footfit.geometry.measures.landmarks import Shape
 from footfit.pipeline.fit.fit_profile import fit_profile
 from footfit.pipeline.fit.match import Question, matched
 from footfit.pipeline.fit.scoring import scales
@@ -99,7 +100,7 @@ def grid_specs() -> dict[str, LastSpec]:
 
 def girth_mm(mesh: Mesh, kind: str) -> float:
     """The ball girth of a canonical right mesh."""
-    rows = {row.name: row.measured.value for row in shape_measures(*mesh, kind)}
+    rows = {row.name: row.measured.value for row in shape_measures(Shape(*mesh, kind))}
     return float(rows["ball_girth"] or np.nan)
 
 

@@ -23,11 +23,12 @@ import numpy as np
 from benchmarks.alignment import random_specs, scan_of
 from benchmarks.tables import markdown, put
 from footfit.errors import FootfitError
+from footfit.geometry.measures.landmarks import Shape
 from footfit.geometry.measures.measure_table import MEASURES
 from footfit.pipeline.scan.measure import shape_measures
 from tests import distortions
 from tests.reading import read_scan
-from tests.scans import aligned, right_shape
+from tests.scans import aligned
 from tools.lasts import last_mesh
 
 SCANS = Path(__file__).resolve().parents[2] / "shared" / "scans"
@@ -89,7 +90,7 @@ def changed(case, change, rng):
 def values(vertices, faces, side):
     """The measures of one mesh by name, through the whole way from a scan."""
     scan = aligned(scan_of(vertices, faces), side=side)
-    rows = shape_measures(*right_shape(scan), scan.alignment.pose.kind)
+    rows = shape_measures(scan.prepared.shape)
     return {row.name: row.measured.value for row in rows}
 
 
@@ -164,7 +165,7 @@ def seconds(kind: str, faces: int = 30_000) -> float:
     best = np.inf
     for _ in range(5):
         start = time.process_time()
-        shape_measures(vertices, triangles, kind)
+        shape_measures(Shape(vertices, triangles, kind))
         best = min(best, time.process_time() - start)
     return float(best)
 

@@ -5,8 +5,8 @@ from __future__ import annotations
 from dataclasses import replace
 from typing import Literal
 
+from footfit.geometry.measures.landmarks import Shape
 from footfit.geometry.numeric.arrays import Floats, Ints
-from footfit.geometry.stance.stance import stance_of
 from footfit.meshes.clean.triangles import welded_mesh
 from footfit.meshes.read import FileMesh
 from footfit.pipeline.scan.align import aligned_scan
@@ -47,9 +47,7 @@ def aligned_of(alignment: Alignment, vertices_mm: Floats, faces: Ints) -> Aligne
         stance=alignment.stance,
         standing_transform=alignment.standing_transform,
         file_vertices_mm=vertices_mm,
-        vertices_mm=right_mm,
-        faces=right_faces,
-        standing=stance_of(right_mm, right_faces, "foot"),
+        shape=Shape(right_mm, right_faces, alignment.pose.kind),
         warnings=alignment.warnings,
     )
     return AlignedScan(alignment, prepared)

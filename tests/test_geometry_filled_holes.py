@@ -112,7 +112,7 @@ def with_filling(hole, filling, name="mh008_R"):
 
 def reasons(vertices, faces, kind="foot"):
     """Measures by name: their value, or their reason."""
-    rows = shape_measures(vertices, faces, kind)
+    rows = shape_measures(Shape(vertices, faces, kind))
     return {
         row.name: row.measured.reason if row.measured.value is None else row.measured.value
         for row in rows

@@ -13,8 +13,6 @@ import pytest
 from footfit.geometry.fit import toe_walls
 from footfit.geometry.fit.named_sections import toes_outline_mm
 from footfit.geometry.fit.toe_walls import TOE_BOX, TOES, WALLS, ToesInLasts, ToesPlan
-from footfit.geometry.flare.definition import FlareDefinition
-from footfit.geometry.flare.flattened import flattened
 from footfit.geometry.measures.landmarks import Shape
 from footfit.geometry.numeric.arrays import Floats, Ints
 from footfit.meshes.write import encoded_mesh
@@ -171,9 +169,7 @@ def second_family() -> list[Solid]:
 
 def last_plan(profiled: Profiled) -> ToesPlan:
     """The toes of a scanned last."""
-    prepared = profiled.aligned.prepared
-    shape = Shape(prepared.vertices_mm, prepared.faces, "last", prepared.standing)
-    outline_mm = toes_outline_mm(shape)
+    outline_mm = toes_outline_mm(profiled.aligned.prepared.shape)
     assert outline_mm is not None
     middle = profiled.flare.centre_line * profiled.aligned.alignment.extent_mm
     return toe_walls.last_plan(outline_mm, middle)
@@ -181,13 +177,12 @@ def last_plan(profiled: Profiled) -> ToesPlan:
 
 def own_foot(profiled: Profiled, wider: float = 1.0) -> ToesPlan:
     """The toes of a foot that fills a last, or is wider than it: its bottom, laid flat."""
-    prepared = profiled.aligned.prepared
-    definition = FlareDefinition()
-    flat = flattened(prepared.vertices_mm, prepared.faces, prepared.standing, definition).shape
+    flat = profiled.aligned.prepared.shape.flat_bottom.shape
     vertices_mm = flat.vertices * flat.length_mm * [1.0, wider, 1.0]
-    outline_mm = toes_outline_mm(Shape(vertices_mm, flat.faces))
+    foot = Shape(vertices_mm, flat.faces)
+    outline_mm = toes_outline_mm(foot)
     assert outline_mm is not None
-    middle = shape_flare(vertices_mm, flat.faces, "foot", None).centre_line
+    middle = shape_flare(foot).centre_line
     return toe_walls.foot_plan(outline_mm, middle * float(np.ptp(vertices_mm[:, 0])))
 
 

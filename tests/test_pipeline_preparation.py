@@ -8,6 +8,7 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
+from footfit.geometry.measures.landmarks import Shape
 from footfit.geometry.mesh.holes import closed_mesh
 from footfit.geometry.mesh.topology import boundary_loops, is_closed
 from footfit.meshes.write import encoded_mesh
@@ -129,8 +130,8 @@ def test_mirroring_before_or_after_filling_gives_the_same_numbers(foot_with_hole
     vertices, faces = mirrored(found.vertices_mm, found.faces)
     assert not is_closed(faces)
     first = closed_mesh(vertices, faces, found.alignment.extent_mm)
-    before = shape_measures(first.vertices, first.faces, "foot")
-    after = shape_measures(*right_shape(found), "foot")
+    before = shape_measures(Shape(first.vertices, first.faces))
+    after = shape_measures(Shape(*right_shape(found)))
     for one, other in zip(before, after, strict=True):
         assert (one.measured.value is None) == (other.measured.value is None)
         if one.measured.value is not None:

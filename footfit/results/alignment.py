@@ -10,8 +10,8 @@ import numpy as np
 from footfit.results.values import Document, Json, Part, fields, part
 
 if TYPE_CHECKING:
+    from footfit.geometry.measures.landmarks import Shape
     from footfit.geometry.numeric.arrays import Floats, Ints
-    from footfit.geometry.stance.stance import Stance
     from footfit.results.last_stance import LastStance
     from footfit.results.meshes import MeshInfo
     from footfit.results.values import Confidence, Measured, Method, Notice, SideName
@@ -148,17 +148,23 @@ class PreparedScan(SettledShape):
     ----------
     file_vertices_mm : (k, 3) float64
         The scanned vertices in the file's own axes.
-    vertices_mm, faces : (n, 3) float64, (m, 3) int64
+    shape : Shape
         The right-side copy in the canonical frame: a left shape is mirrored. What was scanned
-        comes first, the caps that close its holes come last.
-    standing : Stance or None
-        How it stands, as measures and flare take it.
+        comes first, the caps that close its holes come last. All methods read this one shape.
     """
 
     file_vertices_mm: Floats
-    vertices_mm: Floats
-    faces: Ints
-    standing: Stance | None
+    shape: Shape
+
+    @property
+    def vertices_mm(self) -> Floats:
+        """The vertices (n, 3) of the shape."""
+        return self.shape.vertices_mm
+
+    @property
+    def faces(self) -> Ints:
+        """The faces (m, 3) of the shape."""
+        return self.shape.faces
 
     @property
     def scanned(self) -> tuple[Floats, Ints]:

@@ -9,8 +9,6 @@ import numpy as np
 from footfit.errors import HalfScan
 from footfit.geometry.fit.paired_sections import station_plane
 from footfit.geometry.fit.stations import STATIONS, NamedSection
-from footfit.geometry.flare.definition import FlareDefinition
-from footfit.geometry.flare.flattened import flattened
 from footfit.geometry.measures.landmarks import Shape
 from footfit.geometry.mesh.sections import extremes_below, sections_across
 from footfit.geometry.numeric.arrays import Floats, Ints
@@ -63,11 +61,7 @@ def named_sections(
     return kept
 
 
-def toes_outline_mm(
-    shape: Shape,
-    definition: FlareDefinition | None = None,
-    settings: NamedSectionSettings = NAMED_SECTIONS,
-) -> Floats | None:
+def toes_outline_mm(shape: Shape, settings: NamedSectionSettings = NAMED_SECTIONS) -> Floats | None:
     """The outline of the toes at toe height; of a last on its bottom laid flat as for the flare.
 
     Returns
@@ -77,7 +71,7 @@ def toes_outline_mm(
         in mm. None if the bottom is not shown.
     """
     try:
-        vertices, faces, length_mm = _flat(shape, definition or FlareDefinition())
+        vertices, faces, length_mm = _flat(shape)
     except HalfScan:
         return None
     x = np.linspace(settings.toes_from, settings.toes_to, settings.toe_stations)
@@ -92,14 +86,14 @@ def toes_outline_mm(
     return np.asarray(np.column_stack([x, lateral, medial])[known] * length_mm)
 
 
-def _flat(shape: Shape, definition: FlareDefinition) -> tuple[Floats, Ints, float]:
+def _flat(shape: Shape) -> tuple[Floats, Ints, float]:
     """Vertices over the length, with the bottom flat, the faces that matter, and the length in mm.
 
     A foot lies flat in its canonical frame, so its low faces are taken as they are: to level it as
     for the flare moves an edge by 0.2 mm and takes five times as long.
     """
     if shape.kind == "last":
-        bottom = flattened(shape.vertices_mm, shape.faces, shape.stance, definition).shape
+        bottom = shape.flat_bottom.shape
         return bottom.vertices, bottom.faces, bottom.length_mm
     length_mm = shape.length_mm
     vertices = (shape.vertices_mm - np.array([shape.x_mm(0.0), 0.0, 0.0])) / length_mm

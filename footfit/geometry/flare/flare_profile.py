@@ -53,6 +53,21 @@ def flare_profile(
     """
     definition = FlareDefinition() if definition is None else definition
     bottom = flattened(vertices_mm, faces, stance, definition)
+    return bottom_profile(bottom, vertices_mm, kind, definition)
+
+
+def bottom_profile(
+    bottom: Flattened, vertices_mm: Floats, kind: str, definition: FlareDefinition
+) -> FlareProfile:
+    """The flare profile of a bottom that is laid flat already.
+
+    ``vertices_mm`` (n, 3) is the shape that it belongs to, and ``definition`` how it was laid flat.
+
+    Raises
+    ------
+    HalfScan
+        The scan does not show enough of the bottom's length.
+    """
     line = centre_line(bottom.shape, bottom.reading)
     angle_deg, gradient_deg = _flare_angle(line, definition)
     stations = extended_stations(definition)[1:-1]

@@ -11,6 +11,8 @@ from typing import NamedTuple
 
 import numpy as np
 
+from footfit.geometry.flare.definition import FlareDefinition
+from footfit.geometry.flare.flattened import Flattened, flattened
 from footfit.geometry.flare.leaning_shank import heel_end
 from footfit.geometry.flare.levelled_bottom import low_length
 from footfit.geometry.measures.bottom_arc import BottomArc, bottom_arc
@@ -20,6 +22,7 @@ from footfit.geometry.mesh.filled_holes import filled_faces
 from footfit.geometry.mesh.outermost_point import Tip, tip
 from footfit.geometry.mesh.outlines import Outline, outline
 from footfit.geometry.numeric.arrays import Bools, Floats, Ints
+from footfit.geometry.stance.cues import NO_LABELS, StanceLabels
 from footfit.geometry.stance.stance import Stance, stance_of
 
 AXES = np.eye(3)
@@ -65,14 +68,19 @@ class Crown(NamedTuple):
 class Shape:
     """A canonical right shape; each landmark is found when it is first read, and kept.
 
-    ``vertices_mm`` (n, 3), ``faces`` (m, 3) wound outward, ``kind`` "foot" or "last",
-    ``known_stance`` how it stands, if that is known already.
+    ``vertices_mm`` (n, 3), ``faces`` (m, 3) wound outward, ``kind`` "foot" or "last", ``labels``
+    what people say of how a last stands. A scan has one shape, which all methods read. Between
+    processes only these four travel.
     """
 
     vertices_mm: Floats
     faces: Ints
     kind: str = "foot"
-    known_stance: Stance | None = None
+    labels: StanceLabels = NO_LABELS
+
+    def __reduce__(self) -> tuple[type[Shape], tuple[Floats, Ints, str, StanceLabels]]:
+        """What a copy is made from: without what was found on this one."""
+        return Shape, (self.vertices_mm, self.faces, self.kind, self.labels)
 
     # ------------------------------------------------------------ the ends
 
@@ -125,7 +133,24 @@ class Shape:
     @cached_property
     def stance(self) -> Stance | None:
         """How it stands; None if a last's bottom is open or has no tread."""
-        return self.known_stance or stance_of(self.vertices_mm, self.faces, self.kind)
+        return stance_of(self.vertices_mm, self.faces, self.kind, self.labels)
+
+    @property
+    def standing_transform(self) -> Floats | None:
+        """From the resting frame to the standing one, (4, 4); None if its stance is not known."""
+        return None if self.stance is None else self.stance.standing_transform
+
+    @cached_property
+    def flat_bottom(self) -> Flattened:
+        """Its bottom as the flare and the toes' outline are read: a last's is laid flat.
+
+        Raises
+        ------
+        HalfScan
+            It has no length.
+        """
+        stance = self.stance if self.kind == "last" else None
+        return flattened(self.vertices_mm, self.faces, stance, FlareDefinition())
 
     # ------------------------------------------------------------ the ball
 

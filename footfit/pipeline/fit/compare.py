@@ -77,8 +77,7 @@ def scanned_last(source: Source, reading: ReadingOptions) -> LastShape:
     """
     shape = profiled_source(source, reading)
     record = last_record(shape, results.LastLabels(Path(source.path or "last").stem))
-    prepared = shape.aligned.prepared
-    return LastShape(record, Shape(prepared.vertices_mm, prepared.faces, "last"))
+    return LastShape(record, replace(shape.aligned.prepared.shape, kind="last"))
 
 
 @dataclass(frozen=True, slots=True)

@@ -18,7 +18,6 @@ from footfit.geometry.fit import toe_walls
 from footfit.geometry.fit.named_sections import toes_outline_mm
 from footfit.geometry.fit.stations import STATIONS
 from footfit.geometry.measures.heights import HEIGHTS
-from footfit.geometry.measures.landmarks import Shape
 from footfit.geometry.measures.measure_value import OPEN
 from footfit.geometry.numeric.arrays import Floats
 from footfit.pipeline.fit.heels import Heels, full_change, surface_change
@@ -168,8 +167,7 @@ def _foot_plan(foot: Profiled) -> toe_walls.ToesPlan | str:
     if height is None or height.measured.value is None:
         reason = None if height is None else height.measured.reason
         return f"the foot: {reason or 'not measured'}"
-    prepared = foot.aligned.prepared
-    shape = Shape(prepared.vertices_mm, prepared.faces)
+    shape = foot.aligned.prepared.shape
     outline_mm = toes_outline_mm(shape)
     if outline_mm is None:
         return f"the foot: {OPEN.format(place='toes')}"

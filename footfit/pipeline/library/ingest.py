@@ -134,10 +134,7 @@ def new_last(
     faces = shape.aligned.faces
     target = len(faces) if keep_mesh == "full" else COPY_FACES
     copy = compact_copy(shape.aligned.vertices_mm, faces, target)
-    prepared = shape.aligned.prepared
-    sections = kept_sections(
-        prepared.vertices_mm, prepared.faces, prepared.pose.kind, prepared.standing
-    )
+    sections = kept_sections(shape.aligned.prepared.shape)
     return NewLast(sha256, last_record(shape, entry.labels), copy, sections)
 
 

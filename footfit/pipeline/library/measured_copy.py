@@ -7,7 +7,6 @@ from dataclasses import dataclass, replace
 from footfit.geometry.flare.definition import FlareProfile
 from footfit.geometry.measures.landmarks import Shape
 from footfit.geometry.numeric.arrays import Floats
-from footfit.geometry.stance.stance import stance_of
 from footfit.pipeline.scan.flare import shape_flare
 from footfit.pipeline.scan.kept_sections import kept_sections
 from footfit.pipeline.scan.measure import END_MEASURES, shape_measures
@@ -39,11 +38,10 @@ def measured_copy(record: LastRecord, copy: MeshCopy, *, reprofile: bool = True)
     CatalogueDamaged, HalfScan
         The copy is not sound, or does not show enough of the bottom.
     """
-    kind, labels = record.pose.kind, stance_labels(record.labels)
     right = stored_shape(copy.data, record.side.side)
-    stance = stance_of(*right, kind, labels)
+    shape = Shape(*right, record.pose.kind, stance_labels(record.labels))
     info = replace(record.info, step=copy.error_mm / record.info.unit_scale)
-    measures = shape_measures(*right, kind, stance, info)
+    measures = shape_measures(shape, info)
     if record.length_mm is None:  # an end was not scanned
         measures = tuple(
             replace(row, measured=record.length) if row.name in END_MEASURES else row
@@ -51,11 +49,11 @@ def measured_copy(record: LastRecord, copy: MeshCopy, *, reprofile: bool = True)
         )
     return MeasuredCopy(
         measures=measures,
-        flare=shape_flare(*right, kind, stance) if reprofile else None,
-        sections=kept_sections(*right, kind, stance),
-        stance=last_stance(Shape(*right, kind, stance)),
-        standing_transform=None if stance is None or kind == "foot" else stance.standing_transform,
-        notices=stance_notices(stance, labels, kind),
+        flare=shape_flare(shape) if reprofile else None,
+        sections=kept_sections(shape),
+        stance=last_stance(shape),
+        standing_transform=None if shape.kind == "foot" else shape.standing_transform,
+        notices=stance_notices(shape),
     )
 
 

@@ -14,7 +14,6 @@ from footfit.catalogue.rows.last_names import meant_name, nearest_name
 from footfit.catalogue.store import open_catalogue
 from footfit.errors import CatalogueUnusable, FootfitError, NoCatalogue, UnreadableFile
 from footfit.geometry.measures.landmarks import Shape
-from footfit.geometry.stance.stance import stance_of
 from footfit.meshes.copies.compact_copy import expanded_mesh
 from footfit.pipeline.batch.sources import GLOB_CHARACTERS, MESH_SUFFIXES, Source, stored_path
 from footfit.pipeline.library.lasts import has_other_measures
@@ -138,8 +137,8 @@ def profiled_last(catalogue: Path, name: str) -> Profiled:
 
 def _prepared(record: LastRecord, copy: MeshCopy) -> PreparedScan:
     vertices_mm, faces = expanded_mesh(copy.data)
-    right, kind = stored_shape(copy.data, record.side.side), record.pose.kind
-    stance = stance_of(*right, kind, stance_labels(record.labels))
+    right = stored_shape(copy.data, record.side.side)
+    shape = Shape(*right, record.pose.kind, stance_labels(record.labels))
     return PreparedScan(
         info=replace(
             record.info,
@@ -156,12 +155,10 @@ def _prepared(record: LastRecord, copy: MeshCopy) -> PreparedScan:
         canonical_transform=np.eye(4),
         length=record.length,
         extent_mm=record.extent_mm,
-        stance=last_stance(Shape(*right, kind, stance)),
+        stance=last_stance(shape),
         standing_transform=record.standing_transform,
         file_vertices_mm=vertices_mm,
-        vertices_mm=right[0],
-        faces=right[1],
-        standing=stance,
+        shape=shape,
         warnings=(*record.warnings, *_notices(record, copy)),
     )
 

@@ -6,10 +6,9 @@ from dataclasses import replace
 
 import numpy as np
 
-from footfit.geometry.flare.definition import FlareProfile
-from footfit.geometry.flare.flare_profile import flare_profile
-from footfit.geometry.numeric.arrays import Floats, Ints
-from footfit.geometry.stance.stance import Stance
+from footfit.geometry.flare.definition import FlareDefinition, FlareProfile
+from footfit.geometry.flare.flare_profile import bottom_profile
+from footfit.geometry.measures.landmarks import Shape
 from footfit.pipeline.scan.measure import check_side, scan_measures
 from footfit.results import AlignedScan, Notice, Profiled
 
@@ -35,13 +34,13 @@ def profiled_scan(aligned: AlignedScan) -> Profiled:
     check_side(aligned.alignment)
     prepared = aligned.prepared
     kind = prepared.pose.kind
-    flare = shape_flare(prepared.vertices_mm, prepared.faces, kind, prepared.standing)
+    flare = shape_flare(prepared.shape)
     sd_deg = angle_sd_deg(flare.angle_sd_deg, kind, sole=prepared.pose.sole)
     flare = replace(flare, angle_sd_deg=sd_deg)
     return Profiled(aligned, flare, scan_measures(prepared), unusual_flare(flare.angle_deg, kind))
 
 
-def shape_flare(vertices_mm: Floats, faces: Ints, kind: str, stance: Stance | None) -> FlareProfile:
+def shape_flare(shape: Shape) -> FlareProfile:
     """The flare profile of a canonical right shape; a last is read as it stands on its heel.
 
     A last whose stance cannot be read is profiled as it rests.
@@ -51,8 +50,7 @@ def shape_flare(vertices_mm: Floats, faces: Ints, kind: str, stance: Stance | No
     HalfScan
         The shape does not show enough of the bottom's length.
     """
-    unrolled = stance if kind == "last" else None
-    return flare_profile(vertices_mm, faces, stance=unrolled, kind=kind)
+    return bottom_profile(shape.flat_bottom, shape.vertices_mm, shape.kind, FlareDefinition())
 
 
 def angle_sd_deg(scatter_sd_deg: float, kind: str, *, sole: bool) -> float:

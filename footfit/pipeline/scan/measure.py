@@ -9,8 +9,6 @@ from footfit.errors import SideUndecided
 from footfit.geometry.flare.definition import flare_class
 from footfit.geometry.measures import measure_table
 from footfit.geometry.measures.landmarks import Shape
-from footfit.geometry.numeric.arrays import Floats, Ints
-from footfit.geometry.stance.stance import Stance
 from footfit.pipeline.scan.trueness import measured
 from footfit.results import (
     AlignedScan,
@@ -70,13 +68,7 @@ def scan_measures(prepared: PreparedScan) -> tuple[Measure, ...]:
     If an end was not scanned, the measures that end there have the reason instead of a value that
     would be too short.
     """
-    rows = shape_measures(
-        prepared.vertices_mm,
-        prepared.faces,
-        prepared.pose.kind,
-        prepared.standing,
-        prepared.info,
-    )
+    rows = shape_measures(prepared.shape, prepared.info)
     if prepared.length.value is not None:
         return rows
     return tuple(
@@ -84,22 +76,12 @@ def scan_measures(prepared: PreparedScan) -> tuple[Measure, ...]:
     )
 
 
-def shape_measures(
-    vertices_mm: Floats,
-    faces: Ints,
-    kind: str = "foot",
-    stance: Stance | None = None,
-    info: MeshInfo | None = None,
-) -> tuple[Measure, ...]:
+def shape_measures(shape: Shape, info: MeshInfo | None = None) -> tuple[Measure, ...]:
     """Every measure of the table that a kind of shape has, on a canonical right shape.
 
     Parameters
     ----------
-    vertices_mm : (n, 3)
-    faces : (m, 3)
-    kind : {"foot", "last"}
-    stance : Stance, optional
-        How it stands; else its shape decides.
+    shape : Shape
     info : MeshInfo, optional
         What is known of its scan: it adds to the total standard deviations.
 
@@ -108,7 +90,7 @@ def shape_measures(
     tuple of Measure
         In the table's order; one that cannot be taken has a reason instead of a value.
     """
-    shape = Shape(vertices_mm, faces, kind, stance)
+    kind = shape.kind
     return tuple(
         Measure(entry.name, measured(entry, entry.value_of(shape), kind, info), entry.definition_id)
         for entry in measure_table.of_kind(kind)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from functools import lru_cache
 from typing import Literal
@@ -21,7 +22,6 @@ from footfit.geometry.pose.frame import FRAME, canonical_frame, length_of, turne
 from footfit.geometry.pose.missing_parts import doubtful_end, missing_part
 from footfit.geometry.pose.side import confidence, side_score
 from footfit.geometry.stance.cues import NO_LABELS, StanceLabels
-from footfit.geometry.stance.stance import stance_of
 from footfit.meshes.copies.compact_copy import expanded_mesh
 from footfit.meshes.resolution import check_resolution, resolution_notices
 from footfit.pipeline.scan import settled_unit
@@ -31,6 +31,7 @@ from footfit.pipeline.scan.trueness import measured
 from footfit.results import (
     Confidence,
     Measured,
+    MeshInfo,
     Notice,
     PoseQuality,
     PreparedScan,
@@ -60,6 +61,9 @@ _MISSING = {
     "side": "one side is cut off along the foot: scan the whole foot",
     "upper part": "the scan shows only the sole: scan at least 50 mm from the floor up",
 }
+
+
+_OPEN_END = "the surface is open at the {end}, so its length is not known"
 
 
 def prepared_scan(
@@ -98,50 +102,28 @@ def prepared_scan(
         If its file keeps coordinates in steps that are too coarse.
     """
     check_resolution(scan.info.resolution_mm)
-    shape = shape_in(scan, settled_unit.length_windows(scan.info, known_length_mm))
-    closed = closed_mesh(shape.vertices, shape.faces, shape.pose.length)
-    frame = _Frame.of(shape, closed)
-    rims = [frame.points[rim] for rim in closed.rims]
-    missing = missing_part(frame.surface, rims, frame.extent, frame.back_height)
-    if missing is not None:  # length and flare would be another's
-        raise HalfScan(_MISSING[missing])
+    posed = shape_in(scan, settled_unit.length_windows(scan.info, known_length_mm))
+    frame = _Frame.of(posed)
     info = settled_unit.info_with_unit(scan.info, frame.extent, frame.length, known_length_mm)
-    info = replace(info, vertices=len(shape.vertices), faces=len(shape.faces))
+    info = replace(info, vertices=len(posed.vertices), faces=len(posed.faces))
     factor = info.unit_scale / scan.info.unit_scale
     verdict = _verdict(frame, side, forced=force_side)
-    vertices_mm, faces = right_copy(factor * frame.points, closed.faces, verdict.side)
-    kind = frame.quality.kind
-    standing = stance_of(vertices_mm, faces, kind, labels)
-    length = measured(measure_named("length"), MeasureValue(factor * frame.length), kind, info)
-    open_end = _open_end(frame, rims)
-    if open_end:  # what was not scanned is not known
-        length = Measured(None, reason=open_end[0].message)
-    notices = (
-        *settled_unit.read_notices(scan, info, length.value),
-        *resolution_notices(info.resolution_mm),
-        *shape.notices,
-        *_hole_notices(closed, factor),
-        *open_end,
-        *_frame_notices(frame, factor),
-        *_side_notices(verdict),
-        *stance_notices(standing, labels, kind),
-        *settled_unit.length_notices(factor * frame.length),
-    )
-    return PreparedScan(
+    right = right_copy(factor * frame.points, frame.closed.faces, verdict.side)
+    shape = Shape(*right, frame.quality.kind, labels)
+    prepared = PreparedScan(
         info=info,
         side=verdict,
         pose=frame.quality,
         canonical_transform=transform(frame.rotation, factor * frame.shift, info.unit_scale),
-        length=length,
+        length=_length(frame, factor, info),
         extent_mm=factor * frame.extent,
-        stance=last_stance(Shape(vertices_mm, faces, kind, standing)),
-        standing_transform=None if standing is None else standing.standing_transform,
-        file_vertices_mm=factor * shape.vertices,
-        vertices_mm=vertices_mm,
-        faces=faces,
-        standing=standing,
-        warnings=tuple(dict.fromkeys(notices)),
+        stance=last_stance(shape),
+        standing_transform=shape.standing_transform,
+        file_vertices_mm=factor * posed.vertices,
+        shape=shape,
+        warnings=(),
     )
+    return replace(prepared, warnings=_notices(scan, posed, frame, prepared))
 
 
 def on_side(prepared: PreparedScan, side: SideVerdict, notice: Notice) -> PreparedScan:
@@ -149,19 +131,15 @@ def on_side(prepared: PreparedScan, side: SideVerdict, notice: Notice) -> Prepar
     why.
     """
     mirrored = (side.side == "left") != (prepared.side.side == "left")
-    shape = prepared.vertices_mm, prepared.faces
-    vertices_mm, faces = right_copy(*shape, "left") if mirrored else shape
-    kind = prepared.pose.kind
-    standing = stance_of(vertices_mm, faces, kind, NO_LABELS)
+    mesh = prepared.vertices_mm, prepared.faces
+    shape = Shape(*(right_copy(*mesh, "left") if mirrored else mesh), prepared.pose.kind)
     kept = (each for each in prepared.warnings if each.code != "low_side_confidence")
     return replace(
         prepared,
         side=side,
-        vertices_mm=vertices_mm,
-        faces=faces,
-        standing=standing,
-        stance=last_stance(Shape(vertices_mm, faces, kind, standing)),
-        standing_transform=None if standing is None else standing.standing_transform,
+        shape=shape,
+        stance=last_stance(shape),
+        standing_transform=shape.standing_transform,
         warnings=(*kept, notice),
     )
 
@@ -208,25 +186,37 @@ def closed_shape(vertices_mm: Floats, faces: Ints) -> tuple[Floats, Ints]:
 class _Frame:
     """The canonical frame in provisional mm: points = rotation @ vertices + shift, caps included.
 
-    ``surface`` is the whole surface as points with areas, ``extent`` how far the mesh reaches along
-    X below the leg, its heel below ``back_height`` over the extent, ``length`` the measured length,
-    whether or not its ends were scanned, ``top`` the height of the highest scanned point.
+    ``closed`` is the shape with its holes closed, ``rims`` where it was open, ``surface`` the whole
+    surface as points with areas, ``extent`` how far the mesh reaches along X below the leg, its
+    heel below ``back_height`` over the extent, ``length`` the measured length, whether or not its
+    ends were scanned, ``open_end`` the end that was not, ``top`` the height of the highest scanned
+    point.
     """
 
+    closed: ClosedMesh
     points: Floats
+    rims: list[Floats]
     surface: SurfaceSample
     rotation: Floats
     shift: Floats
     extent: float
     length: float
+    open_end: str | None
     top: float
     back_height: float
     quality: PoseQuality
 
     @classmethod
-    def of(cls, shape: PosedShape, closed: ClosedMesh) -> _Frame:
-        """Refine the rough pose of a shape, by its surface with its holes closed."""
+    def of(cls, shape: PosedShape) -> _Frame:
+        """Refine the rough pose of a shape, by its surface with its holes closed.
+
+        Raises
+        ------
+        HalfScan
+            A part of it is missing: its length and flare would be another's.
+        """
         rough = shape.pose
+        closed = closed_mesh(shape.vertices, shape.faces, rough.length)
         about = moved_points(transform(rough.rotation, rough.shift), closed.vertices)
         # The edge in steps of a tenth: two poses of one shape get the same points.
         step = np.round(np.log(rough.length) / np.log(1.1))
@@ -242,13 +232,21 @@ class _Frame:
         shift = rotation @ rough.shift + shift
         rotation = nearest_rotation(rotation @ rough.rotation)
         points = moved_points(transform(rotation, shift), closed.vertices)
+        rims = [points[rim] for rim in closed.rims]
+        extent = length_of(points, 0.0, fine.length, fine.back_height)
+        missing = missing_part(surface, rims, extent, fine.back_height)
+        if missing is not None:
+            raise HalfScan(_MISSING[missing])
         return cls(
+            closed=closed,
             points=points,
+            rims=rims,
             surface=surface,
             rotation=rotation,
             shift=shift,
-            extent=length_of(points, 0.0, fine.length, fine.back_height),
+            extent=extent,
             length=Shape(points, closed.faces, rough.kind).length_mm,
+            open_end=doubtful_end(surface, points, rims, extent, fine.back_height),
             top=float(points[: len(shape.vertices), 2].max()),
             back_height=fine.back_height,
             quality=PoseQuality(rough.cost, rough.margin, fine.support, fine.sole, rough.kind),
@@ -281,30 +279,44 @@ def _verdict(frame: _Frame, side: str, *, forced: bool) -> SideVerdict:
 # ---------------------------------------------------------------- notices
 
 
-def _open_end(frame: _Frame, rims: list[Floats]) -> tuple[Notice, ...]:
-    """The end, if any, that may be longer than it was scanned."""
-    end = doubtful_end(frame.surface, frame.points, rims, frame.extent, frame.back_height)
-    if end is None:
-        return ()
-    return (Notice("open_end", f"the surface is open at the {end}, so its length is not known"),)
+def _length(frame: _Frame, factor: float, info: MeshInfo) -> Measured:
+    """The measured length; what was not scanned is not known."""
+    if frame.open_end is not None:
+        return Measured(None, reason=_OPEN_END.format(end=frame.open_end))
+    value = MeasureValue(factor * frame.length)
+    return measured(measure_named("length"), value, frame.quality.kind, info)
 
 
-def _hole_notices(closed: ClosedMesh, factor: float) -> tuple[Notice, ...]:
-    """What was closed, if anything."""
-    if not closed.extents:
-        return ()
-    count, widest_mm = len(closed.extents), factor * closed.extents[0]
-    holes = "a hole of" if count == 1 else f"{count} holes of up to"
-    words = f"{holes} {widest_mm:.0f} mm {'was' if count == 1 else 'were'} bridged"
-    return (Notice("holes_filled", words),)
+def _notices(
+    scan: Scan, posed: PosedShape, frame: _Frame, prepared: PreparedScan
+) -> tuple[Notice, ...]:
+    """All that should be known of a scan, each once."""
+    info, factor = prepared.info, prepared.info.unit_scale / scan.info.unit_scale
+    notices = (
+        *settled_unit.read_notices(scan, info, prepared.length.value),
+        *resolution_notices(info.resolution_mm),
+        *posed.notices,
+        *_frame_notices(frame, factor),
+        *_side_notices(prepared.side),
+        *stance_notices(prepared.shape),
+        *settled_unit.length_notices(factor * frame.length),
+    )
+    return tuple(dict.fromkeys(notices))
 
 
-def _frame_notices(frame: _Frame, factor: float) -> tuple[Notice, ...]:
-    """What the frame may suffer from: no sole, a leg that is cut low."""
-    no_sole = Notice("no_sole", "there is no sole: the frame rests on the lowest rim")
-    low_leg = Notice("leg_cut_low", f"the leg is cut {factor * frame.top:.0f} mm above the floor")
-    is_low = frame.top < FRAMING.low_leg * frame.extent
-    return (*([] if frame.quality.sole else [no_sole]), *([low_leg] if is_low else []))
+def _frame_notices(frame: _Frame, factor: float) -> Iterator[Notice]:
+    """What was closed, and what the frame may suffer from: an open end, no sole, a low leg."""
+    extents = frame.closed.extents
+    if extents:
+        holes = "a hole of" if len(extents) == 1 else f"{len(extents)} holes of up to"
+        were = "was" if len(extents) == 1 else "were"
+        yield Notice("holes_filled", f"{holes} {factor * extents[0]:.0f} mm {were} bridged")
+    if frame.open_end is not None:
+        yield Notice("open_end", _OPEN_END.format(end=frame.open_end))
+    if not frame.quality.sole:
+        yield Notice("no_sole", "there is no sole: the frame rests on the lowest rim")
+    if frame.top < FRAMING.low_leg * frame.extent:
+        yield Notice("leg_cut_low", f"the leg is cut {factor * frame.top:.0f} mm above the floor")
 
 
 def _side_notices(verdict: SideVerdict) -> tuple[Notice, ...]:

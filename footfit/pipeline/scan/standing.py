@@ -10,7 +10,6 @@ from footfit.errors import BadOption
 from footfit.geometry.measures.heights import HEIGHTS, heel_height, toe_spring
 from footfit.geometry.measures.landmarks import Shape
 from footfit.geometry.stance.cues import StanceLabels
-from footfit.geometry.stance.stance import Stance
 from footfit.results import GroundCue, LastLabels, LastStance, Notice
 
 LABELLED_MM = {"heel_height_mm": (0, 200), "toe_spring_mm": (0, 80), "platform_mm": (0, 100)}
@@ -67,25 +66,26 @@ def last_stance(shape: Shape) -> LastStance | None:
     )
 
 
-def stance_notices(stance: Stance | None, labels: StanceLabels, kind: str) -> tuple[Notice, ...]:
+def stance_notices(shape: Shape) -> tuple[Notice, ...]:
     """A label that is of no use, or that the shape contradicts."""
+    labels, stance = shape.labels, shape.stance
     if labels.heel_height_mm is None and labels.toe_spring_mm is None:
         return ()
-    if kind == "foot":
+    if shape.kind == "foot":
         words = "heel height and toe spring are labels of lasts; this is a foot, which stands flat"
         return (Notice("stance_label_unused", words),)
     if stance is None:
         words = "the bottom is open, so the labels of heel height and toe spring are of no use"
         return (Notice("stance_label_unused", words),)
     grounds = {cue.name: cue for cue in stance.cues}
-    shape, label = grounds["shape"], grounds.get("label")
+    own, label = grounds["shape"], grounds.get("label")
     if label is None:
         return ()
-    apart, sd = abs(label.ground - shape.ground), float(np.hypot(label.sd, shape.sd))
+    apart, sd = abs(label.ground - own.ground), float(np.hypot(label.sd, own.sd))
     if apart <= CONTRADICTED_SDS * sd:
         return ()
     arm_mm = stance.touching_x_mm
-    more = "lower" if shape.ground < label.ground else "higher"
+    more = "lower" if own.ground < label.ground else "higher"
     words = (
         f"the shape alone would stand its heel {arm_mm * apart:.0f} mm {more} than the label says"
         f" (± {arm_mm * sd:.0f} mm): check the label, or give the forepart's height with --platform"
