@@ -127,10 +127,11 @@ def say_notices(notices: Iterable[Notice], path: str | None, *, quiet: bool) -> 
 def error_line(error: FootfitError, *, as_json: bool, verbose: bool = False) -> str:
     """An error as one line: words, or the ``footfit.error/1`` document.
 
-    ``verbose`` adds the numbers behind it.
+    ``verbose`` adds the numbers behind it; else the line says how to see them.
     """
-    if verbose and error.details:
-        error = type(error)(f"{error.message}: {error.details}", error.path)
+    if error.details:
+        more = error.details if verbose else "the numbers with --verbose"
+        error = type(error)(f"{error.message} ({more})", error.path)
     if as_json:
         return json_line(error.to_dict())
     where = f"{error.path}: " if error.path else ""

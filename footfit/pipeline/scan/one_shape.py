@@ -122,7 +122,7 @@ def _no_foot(shape: PosedShape) -> NotAFoot:
         words = "part of the foot is missing; scan again"
     else:
         words = "the shape is neither a foot nor a last: check that the file holds one of them"
-    return NotAFoot(f"{words} (the numbers with --verbose)", details=numbers)
+    return NotAFoot(words, details=numbers)
 
 
 @dataclass(frozen=True, slots=True)
