@@ -45,8 +45,8 @@ LINE_MM = 5.0
 """How far under the sole the line of the length is drawn."""
 SHANK = 0.42
 """How high over the sole a foot is drawn, over its length: the rest is leg."""
-COLUMNS = 250
-"""Pixels across a foot seen from above: 160 to an inch of paper."""
+COLUMNS = 200
+"""Pixels across a foot seen from above: 125 to an inch of paper."""
 WIDE_MM, MARGIN_MM = 118.0, 14.0
 
 
