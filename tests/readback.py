@@ -213,6 +213,8 @@ def foot_facts(match: Match, foot: Profiled, name: str) -> Iterator[Fact]:
     yield fact(f"{name} scan", [f"{alignment.info.faces:,}", alignment.info.units], PAGE)
     line = [_file(foot), word, "last" if is_last else "foot", plain(foot.length_mm), *turn]
     yield fact(f"{SAID} of {name}", [*line, flare.flare_class], TERMINAL)
+    if match.widths and not is_last:
+        yield from width_facts(match, foot, name)
     taken = {row.name: row.measured for row in foot.measures}
     for measure in {"length": Measured(foot.length_mm)} | taken:
         measured = taken.get(measure, Measured(foot.length_mm))
@@ -242,6 +244,24 @@ def size_facts(match: Match) -> Iterator[Fact]:
         if foot.length_mm == longest:
             yield fact(f"foot {number} sizes", [*asked, *shown], PAGE)
     yield fact(f"{SAID} size", asked or shown, TERMINAL)
+
+
+def width_facts(match: Match, foot: Profiled, name: str) -> Iterator[Fact]:
+    """The width at the customer's size in each system that has one, and the shares of people."""
+    width = match.widths[match.feet.index(foot)]
+    longest = max(each.length_mm for each in match.feet)
+    sizes = {size.system: size.words for size in foot_sizes(longest)}
+    at_size = [text for known in width.fittings for text in (sizes[known.system], known.width)]
+    yield fact(f"{name} width", at_size, PAGE)
+    shares = []
+    for share in width.shares:
+        if share.percent is None:
+            shares.append(share.reason)
+            continue
+        percent = min(max(10 * round(share.percent / 10), 5), 95)
+        shares += [percent if percent >= 50 else 100 - percent, share.people]
+    yield fact(f"{name} among people", shares, PAGE)
+    yield fact(f"{SAID} width of {name}", [*at_size, *shares], TERMINAL)
 
 
 def best_facts(match: Match) -> Iterator[Fact]:

@@ -22,6 +22,7 @@ from footfit.pipeline.customers.matches import matches
 from footfit.pipeline.drawables import best_comparisons
 from footfit.pipeline.fit.candidates import choice
 from footfit.pipeline.fit.match import Question
+from footfit.pipeline.width.foot_width import foot_widths
 from footfit.report.csv import csv_text
 from footfit.report.page.compare_page import compare_page
 from footfit.report.page.match_page import match_page
@@ -186,7 +187,8 @@ def planted(feet: int = 1, lasts: int = 5, *, judged: bool = True, **more: objec
         "rejected": (("too_long", 3), ("too_short", 4)),
         "warnings": (Notice("damaged_last", "pump-39 was left out: it is damaged"),),
     }
-    return answers.match(shapes, **(values | more))
+    match = answers.match(shapes, **(values | more))
+    return replace(match, widths=foot_widths(match.feet, match.profile))
 
 
 def as_nearest(match: Match) -> Match:

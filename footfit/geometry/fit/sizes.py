@@ -16,6 +16,8 @@ from footfit.number_words import RATIO_KEPT, plain
 
 PARIS_POINT_MM = 20.0 / 3.0
 BARLEYCORN_MM = 25.4 / 3.0
+EQUALLY_LONG_MM = 1.0
+"""Two feet whose lengths differ by less are equally long for any size."""
 LABEL_TOLERANCE_SIZES = 1.0
 """A label that is further off its last's length than this is reported."""
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from footfit.geometry.fit.sizes import SYSTEMS, foot_size, system_named
+from footfit.geometry.fit.sizes import EQUALLY_LONG_MM, SYSTEMS, foot_size, system_named
 from footfit.number_words import plain, rounded, some_digits
 from footfit.pipeline.fit.scoring import VERDICTS
 from footfit.pipeline.fit.zones import ZONES, Zone
@@ -158,8 +158,6 @@ def zone_list(names: Sequence[str]) -> str:
     return ", ".join(ZONES[name].label for name in names)
 
 
-EQUALLY_LONG_MM = 1.0
-"""Two feet whose lengths differ by less are equally long for any size."""
 ONE_CUSTOMER_MM = 20.0
 """Two feet whose lengths differ by more are probably not of one person."""
 

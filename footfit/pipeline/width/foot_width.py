@@ -69,11 +69,12 @@ def foot_widths(feet: Sequence[Profiled], profile: str) -> tuple[FootWidth, ...]
 
     ``profile`` is the name of the fit profile: a child is not compared with adults.
     """
-    size_mm = max((foot.length_mm or 0.0 for foot in feet), default=0.0)
+    known = [foot.length_mm for foot in feet if foot.length_mm is not None]
+    size_mm = max(known) if len(known) == len(feet) else None
     return tuple(_foot_width(foot, size_mm, child=profile == CHILD_PROFILE) for foot in feet)
 
 
-def _foot_width(foot: Profiled, size_mm: float, *, child: bool) -> FootWidth:
+def _foot_width(foot: Profiled, size_mm: float | None, *, child: bool) -> FootWidth:
     known = {row.name: row.measured for row in foot.measures}
     girth = known.get("ball_girth", Measured(None))
     width = known.get("ball_width", Measured(None))

@@ -9,7 +9,7 @@ from importlib import resources
 from typing import TYPE_CHECKING, Any
 
 from footfit import number_words
-from footfit.report.wording import comparison_words, fit_words, sheet_words, text
+from footfit.report.wording import comparison_words, fit_words, sheet_words, text, width_words
 from footfit.version import __version__
 
 if TYPE_CHECKING:
@@ -39,6 +39,8 @@ FILTERS = (
     comparison_words.swing_words,
     sheet_words.fit_words,
     sheet_words.shoe_labels,
+    width_words.fittings_words,
+    width_words.shares_words,
 )
 """The words and numbers that a template asks for by the function's name."""
 

@@ -5,7 +5,8 @@ from __future__ import annotations
 from collections.abc import Sequence
 from datetime import date
 
-from footfit.geometry.fit.sizes import SYSTEMS, foot_sizes, system_named
+from footfit.geometry.fit.sizes import EQUALLY_LONG_MM, SYSTEMS, foot_sizes, system_named
+from footfit.number_words import rounded
 from footfit.report.page.rendering import html_page, picture_data
 from footfit.report.pictures.feet_figure import DrawnFoot, feet_figure
 from footfit.report.pictures.sides import Mesh
@@ -43,8 +44,8 @@ def sheet_page(
     """
     shown = match.candidates or match.nearest
     drawn = drawn_feet(match, meshes)
-    size_mm = max(foot.length_mm or 0.0 for foot in match.feet)
-    sizes = {size.system: size for size in foot_sizes(size_mm)}
+    assert match.customer_length_mm is not None
+    sizes = {size.system: size for size in foot_sizes(match.customer_length_mm)}
     asked = system_named(match.size_system) or SYSTEMS[USUAL_SYSTEM]
     widest = match.widths[wider_foot(match)]
     return html_page(
@@ -83,7 +84,7 @@ def wider_side(match: Match) -> str | None:
     girths = [measure_of(match, place, "ball_girth").value for place in range(2)]
     if girths[0] is None or girths[1] is None:
         return None
-    if abs(girths[0] - girths[1]) < sheet_words.EQUALLY_WIDE_MM:
+    if rounded(abs(girths[0] - girths[1])) < sheet_words.EQUALLY_WIDE_MM:
         return None
     return match.feet[wider_foot(match)].aligned.alignment.side.side
 
@@ -110,7 +111,7 @@ def differences(match: Match) -> list[str]:
         return []
     words = []
     for name, equal_mm, word in (
-        ("length", sheet_words.EQUALLY_LONG_MM, "long"),
+        ("length", EQUALLY_LONG_MM, "long"),
         ("ball_girth", sheet_words.EQUALLY_WIDE_MM, "wide"),
     ):
         values = {side: measure_of(match, i, name).value for i, side in enumerate(sides)}

@@ -6,6 +6,7 @@ It fits 80 columns. A last has a row of numbers, and under it a sentence over th
 from __future__ import annotations
 
 from collections.abc import Sequence
+from itertools import zip_longest
 
 from rich.console import Group, RenderableType
 from rich.padding import Padding
@@ -33,7 +34,8 @@ from footfit.report.wording.text import (
     tie_words,
     visible,
 )
-from footfit.results import Candidate, Match, Profiled, ZoneFit
+from footfit.report.wording.width_words import fittings_words, shares_words
+from footfit.results import Candidate, FootWidth, Match, Profiled, ZoneFit
 
 LIKENESS = {
     "fit": "order: the verdict, then the toe room, then the distance: how far the zones are "
@@ -53,8 +55,12 @@ def match_table(match: Match) -> RenderableType:
     """The feet, the ranked lasts with reasons, and why others were left out."""
     parts: list[RenderableType] = [Text(words, "bold red") for words in side_doubts(match)]
     parts += [cell(match.customer, "bold underline")] if match.customer else []
-    parts += [_foot_line(foot, match) for foot in match.feet]
-    if match.customer_length_mm is not None and not is_scanned_last(match.feet[0], match):
+    of_last = is_scanned_last(match.feet[0], match)
+    for foot, width in zip_longest(match.feet, match.widths):
+        parts.append(_foot_line(foot, match))
+        if width is not None and not of_last:
+            parts.append(_width_line(width, match.customer_length_mm))
+    if match.customer_length_mm is not None and not of_last:
         parts.append(_size_line(match.customer_length_mm, match.size_system))
     parts.append(Text())
     if match.candidates:
@@ -75,6 +81,12 @@ def _foot_line(foot: Profiled, match: Match) -> Text:
     length = "length not measured" if mm is None else f"{plain(mm)} mm long"
     kind = "last" if is_scanned_last(foot, match) else "foot"
     return line.append(f"  {side} {kind}, {length}, flare {flare_words(foot)}", "not bold")
+
+
+def _width_line(width: FootWidth, size_mm: float | None) -> RenderableType:
+    """The width fitting at the customer's size, and how wide the foot is among people."""
+    parts = (fittings_words(width, size_mm), shares_words(width))
+    return Padding(Text("width: " + "; ".join(part for part in parts if part)), (0, 0, 0, 2))
 
 
 def _size_line(length_mm: float, asked: str | None) -> RenderableType:

@@ -6,12 +6,11 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from datetime import date
 
-from footfit.number_words import plain
+from footfit.number_words import plain, rounded
+from footfit.report.wording.fit_words import toe_room_text
 from footfit.report.wording.text import size_text
 from footfit.results import Candidate, FootFit, Measured, SideName, Verdict, ZoneFit
 
-EQUALLY_LONG_MM = 1.0
-"""Feet whose lengths differ by less are equally long: scans repeat to about 0.4 mm."""
 EQUALLY_WIDE_MM = 2.0
 """Feet whose ball girths differ by less are equally wide: scans repeat to about 0.8 mm."""
 ORDER: tuple[Verdict, ...] = ("good", "acceptable", "poor", "reject")
@@ -87,10 +86,10 @@ def fit_words(candidate: Candidate) -> str:
     faults = _faults(candidate.fits)
     room = dict(candidate.clearance_mm).get("length", Measured(None)).value
     parts = []
-    if room is not None and room >= 0.0:
-        parts.append(f"about {plain(room)} mm of room in front of the toes")
-    elif room is not None:
-        parts.append(f"about {plain(-room)} mm shorter than the foot")
+    if room is not None:
+        size = toe_room_text(candidate, spread=False).lstrip("+-")
+        where = "of room in front of the toes" if room >= 0.0 else "shorter than the foot"
+        parts.append(f"about {size} mm {where}")
     parts += faults or ["good everywhere else"]
     words = "; ".join(parts)
     lacking = _lacking(candidate)
@@ -161,7 +160,7 @@ def difference_words(values_mm: Sequence[float], equal_mm: float, word: str) -> 
     'The left foot is 1.9 mm longer.'
     """
     left, right = values_mm
-    if abs(left - right) < equal_mm:
+    if rounded(abs(left - right)) < equal_mm:
         return f"Both feet are equally {word}."
     side = "left" if left > right else "right"
     more = {"long": "longer", "wide": "larger around the ball"}[word]

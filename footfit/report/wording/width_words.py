@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from footfit.geometry.fit.sizes import SYSTEMS, Size, foot_size
+from footfit.number_words import rounded
 from footfit.results import FootWidth, WidthShare
 
 SHARE_STEP = 10.0
@@ -27,8 +28,10 @@ def sized(size: Size, width: FootWidth) -> str:
     return size.words + (fitting.after_size if fitting else "")
 
 
-def fittings_words(width: FootWidth, size_mm: float) -> str:
+def fittings_words(width: FootWidth, size_mm: float | None) -> str:
     """The widths of a foot in every system that has one, each with the customer's size.
+
+    ``size_mm`` is the length that decides the size; nothing is said if it is not known.
 
     Examples
     --------
@@ -36,6 +39,8 @@ def fittings_words(width: FootWidth, size_mm: float) -> str:
     >>> fittings_words(FootWidth(fittings(251.0, 231.0, 97.6), ()), 251.0)
     'EU 40 (width about D), UK 6.5 (width about E), Mondopoint 250/98'
     """
+    if size_mm is None:
+        return ""
     systems = [SYSTEMS[fitting.system] for fitting in width.fittings]
     return ", ".join(sized(foot_size(size_mm, system), width) for system in systems)
 
@@ -45,7 +50,8 @@ def shares_words(width: FootWidth) -> str:
 
     Examples
     --------
-    >>> shares_words(FootWidth((), (WidthShare("women", 83.2, 4.0), WidthShare("men", 24.0, 4.0))))
+    >>> known = WidthShare("women", 83.2, 4.0), WidthShare("men", 24.0, 4.0)
+    >>> shares_words(FootWidth((), known))
     'wider than about 80 % of women and narrower than about 80 % of men with feet this long'
     """
     known = [share for share in width.shares if share.percent is not None]
@@ -87,7 +93,8 @@ def about_percent(percent: float) -> float:
     >>> [about_percent(value) for value in (0.0, 8.0, 54.9, 97.0)]
     [5.0, 10.0, 50.0, 95.0]
     """
-    return min(max(SHARE_STEP * round(percent / SHARE_STEP), LEAST_SHARE), LARGEST_SHARE)
+    steps = float(rounded(percent / SHARE_STEP, 0))
+    return min(max(SHARE_STEP * steps, LEAST_SHARE), LARGEST_SHARE)
 
 
 def width_class(percent: float) -> str:
