@@ -344,6 +344,7 @@ def match_csv_facts(
         clearances = {row.zone: row.clearance for row in fit.zones if row.unit == "mm"}
     cells: dict[str, object] = {
         "path": foot.aligned.alignment.info.path,
+        "customer": match.customer,
         "foot_side": foot.aligned.alignment.side.side,
         "by": match.by,
         "rank": candidate.rank,
@@ -402,6 +403,7 @@ def empty_csv_facts(match: Match, number: int, foot: Profiled) -> Iterator[Fact]
     """The row of a foot that no last fits."""
     cells: dict[str, object] = {
         "path": foot.aligned.alignment.info.path,
+        "customer": match.customer,
         "foot_side": foot.aligned.alignment.side.side,
         "by": match.by,
         "profile": match.profile,
