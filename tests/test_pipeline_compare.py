@@ -202,6 +202,19 @@ def test_a_last_can_be_a_file(footfit, foot, stocked):
         assert by_file["zones"][zone]["mean_mm"] == pytest.approx(figures["mean_mm"], abs=0.004)
 
 
+def test_labels_say_how_a_last_of_a_file_stands_and_a_stored_one_has_its_own(footfit, foot):
+    from tests.conftest import SAMPLES
+
+    path = SAMPLES / "lasts" / f"{LAST}.stl"
+    labels = ("--heel-height", "40", "--platform", "5")
+    found = footfit("compare", foot, path, "--json", *labels).document
+    assert found["heel"]["drop_mm"] == 35.0
+    assert not [each for each in found["warnings"] if each["code"] == "stance_label_unused"]
+    stored = footfit("compare", foot, LAST, *labels)
+    assert stored.code == 2
+    assert f"footfit edit-last {LAST} --heel-height MM" in stored.err
+
+
 def test_an_unknown_last_and_a_wrong_suffix_are_refused(footfit, foot, stocked, tmp_path):
     unknown = footfit("compare", foot, "no-such-last", "--catalogue", stocked)
     assert unknown.code == 4

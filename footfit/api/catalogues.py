@@ -20,6 +20,7 @@ from footfit.api.inputs import (
     Shape,
     heel_options,
     reading_options,
+    stance_keywords,
 )
 from footfit.api.scans import aligned_shape, profiled_shape, sources
 from footfit.catalogue import store
@@ -134,11 +135,16 @@ class Catalogue(CatalogueFile):
         ------
         UnknownLast
             There is no last of that name.
+        BadOption
+            It is said how the last stands: a stored last has its own labels.
         InputError, GeometryRefused
             As `flare`; or the foot cannot be placed in the last.
         """
         from footfit.pipeline.fit.compare import compared, stored_last
 
+        if stance_keywords(reading):
+            words = "a stored last stands as it was stored; to change its labels, type"
+            raise BadOption(f"{words}: footfit edit-last {last} --heel-height MM")
         around = stored_last(self.path, last)
         return compared(profiled_shape(foot, reading), around, heel_options(reading))
 

@@ -65,7 +65,10 @@ class HeelKeywords(TypedDict, total=False):
 
 
 class CompareKeywords(ReadingKeywords, HeelKeywords, total=False):
-    """How a foot is to be understood, and how it is compared with a last that has a heel."""
+    """How a foot is to be understood, and how it is compared with a last that has a heel.
+
+    ``heel_height_mm``, ``toe_spring_mm`` and ``platform_mm`` are those of the last.
+    """
 
 
 class MatchKeywords(CompareKeywords, total=False):
@@ -156,6 +159,13 @@ def heel_options(options: Mapping[str, Any]) -> HeelQuestion:
 
     names = ("as_scanned", "scanned_at_drop_mm")
     return heel_question(**{name: options[name] for name in names if name in options})
+
+
+def stance_keywords(options: Mapping[str, Any]) -> dict[str, Any]:
+    """What is said of how a last stands: the keywords that have a value, without any others."""
+    from footfit.pipeline.scan.standing import LABELLED_MM
+
+    return {name: options[name] for name in LABELLED_MM if options.get(name) is not None}
 
 
 def reading_options(options: Mapping[str, Any]) -> ReadingOptions:

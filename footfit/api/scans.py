@@ -18,6 +18,7 @@ from footfit.api.inputs import (
     heel_options,
     reading_options,
     source_of,
+    stance_keywords,
 )
 from footfit.errors import BadOption
 from footfit.pipeline.batch import runs
@@ -144,8 +145,10 @@ def compare(foot: Shape, last: Mesh, **reading: Unpack[CompareKeywords]) -> Comp
     """
     from footfit.pipeline.fit.compare import compared, scanned_last
 
-    heel, around = heel_options(reading), scanned_last(source_of(last, {}), ReadingOptions())
-    return compared(profiled_shape(foot, reading), around, heel)
+    stands = stance_keywords(reading)
+    around = scanned_last(source_of(last, {}), ReadingOptions(**stands))
+    of_foot = {name: value for name, value in reading.items() if name not in stands}
+    return compared(profiled_shape(foot, of_foot), around, heel_options(reading))
 
 
 def sources(

@@ -30,9 +30,13 @@ def compare(
     lasts: options.Lasts,
     force: bool = options.FORCE,
     reading: options.FootReading,
+    standing: options.Standing,
     mode: options.OutputMode,
 ) -> None:
     """Put a foot into a last and measure the clearance in mm, zone by zone and section by section.
+
+    --heel-height, --toe-spring and --platform are for a LAST that is a file. A stored last has
+    labels of its own.
 
     Example: footfit compare foot.stl derby-42 --html report.html
     """
@@ -60,10 +64,11 @@ def compare(
     is_file = Path(last).is_file()
     if is_file:
         say_hidden_lasts([last], lasts, quiet=mode.quiet)
+    asked = {**reading.keywords(), **standing.keywords()}
     with progress(mode) as bar:
         bar.show()
         if is_file:
-            comparison = scans.compare(sources[0], last, **reading.keywords())
+            comparison = scans.compare(sources[0], last, **asked)
         else:
-            comparison = lasts.open().compare(sources[0], last, **reading.keywords())
+            comparison = lasts.open().compare(sources[0], last, **asked)
     answer_result(comparison, mode, outputs)

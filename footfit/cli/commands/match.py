@@ -91,7 +91,7 @@ def match(
 ) -> None:
     """Rank the lasts of the catalogue for a foot, with reasons.
 
-    The toe room comes first: the last's functional length less the foot's.
+    The toe room comes first: the last's length along its bottom less the foot's length.
 
     Example: footfit match left.stl right.stl --pair --html report.html --sheet sheet.html
     """

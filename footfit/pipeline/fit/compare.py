@@ -25,6 +25,7 @@ from footfit.pipeline.fit.zones import measured_clearances, toe_room
 from footfit.pipeline.scan.measure import last_record
 from footfit.pipeline.scan.preparation import stored_shape
 from footfit.pipeline.scan.reading import profiled_source
+from footfit.pipeline.scan.standing import LABELLED_MM
 from footfit.results.compare import comparison_nouns
 
 SD_FROM = {
@@ -68,7 +69,7 @@ def stored_last(path: Path, name: str) -> LastShape:
 
 
 def scanned_last(source: Source, reading: ReadingOptions) -> LastShape:
-    """A last that stands in a file of its own; its name is the file's.
+    """A last in a file of its own; its name is the file's, ``reading`` says how it stands.
 
     Raises
     ------
@@ -76,7 +77,8 @@ def scanned_last(source: Source, reading: ReadingOptions) -> LastShape:
         As in reading, aligning and profiling any last.
     """
     shape = profiled_source(source, reading)
-    record = last_record(shape, results.LastLabels(Path(source.path or "last").stem))
+    said = {name: getattr(reading, name) for name in LABELLED_MM}
+    record = last_record(shape, results.LastLabels(Path(source.path or "last").stem, **said))
     return LastShape(record, replace(shape.aligned.prepared.shape, kind="last"))
 
 

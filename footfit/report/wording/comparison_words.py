@@ -44,7 +44,7 @@ def lengths_words(comparison: Comparison) -> str:
     foot, last = comparison.foot.aligned.alignment.length, comparison.last.length
     room, (first, second) = comparison.toe_room, comparison.nouns
     words = "not known" if room.value is None else f"{difference_text(room)} mm"
-    head = "difference in functional length" if comparison.foot.is_last else "toe room"
+    head = "difference in length along the bottom" if comparison.foot.is_last else "toe room"
     return (
         f"{first} {length_text(foot)}, {second} {length_text(last)}; {head} {words}; "
         f"flare {signed(comparison.flare_delta_deg)} deg"
