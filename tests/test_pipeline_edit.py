@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import shutil
 import sqlite3
+from collections.abc import Iterator
 from contextlib import closing
 from dataclasses import replace
 from pathlib import Path
@@ -18,7 +20,8 @@ from footfit.pipeline.library.edit import EDITABLE, edit_last
 from footfit.results import LastRecord
 from tests import records
 from tests.conftest import SAMPLES, Footfit
-from tests.torture.scripts import values
+from tests.torture.kills import kill_trials
+from tests.torture.scripts import MAIN, Script, values
 
 LAST = "derby-40"
 SCAN_MM = 0.035
@@ -272,3 +275,25 @@ def test_an_older_catalogue_is_upgraded_first(footfit: Footfit, tmp_path: Path) 
     info = footfit("catalogue-info", "--catalogue", place, "--json").document
     assert info["schema_revision"] == SIGNATURE.revisions[-1]
     assert record_in(place, "last-1").labels.size == "43"
+
+
+# ---------------------------------------------------------------- kills
+
+
+def edited_twice(folder: Path, done: int) -> Iterator[None]:
+    """Two edits that measure the last again, each in an opening of its own."""
+    for heel_mm in (30.0, 20.0)[done:]:
+        edit_last(folder / MAIN, LAST, {"style": f"heel {heel_mm:g}", "heel_height_mm": heel_mm})
+        yield
+
+
+def test_kill_9_leaves_the_labels_and_measures_before_or_after(
+    catalogue: Path, tmp_path: Path
+) -> None:
+    def prepare(folder: Path) -> None:
+        shutil.copy(catalogue, folder / MAIN)
+
+    place = tmp_path / "kills"
+    place.mkdir()
+    tally = kill_trials(place, Script("edit-last", edited_twice, prepare), 4, seed=1)
+    assert (tally.struck, tally.bad) == (4, [])

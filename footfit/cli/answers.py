@@ -6,6 +6,7 @@ import sys
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from contextlib import contextmanager, suppress
 from dataclasses import replace
+from pathlib import Path
 from typing import TYPE_CHECKING, Any, TypeVar
 
 import typer
@@ -181,18 +182,25 @@ def sources_of(
 
 def _named(meshes: Sequence[str], lasts: Lasts, *, quiet: bool) -> dict[str, Source]:
     """The meshes that are no files; where a file has the name of a last, say that it is taken."""
-    from footfit.pipeline.library.named_lasts import is_no_path, named_sources
+    from footfit.pipeline.batch.sources import is_no_path
 
-    say_hidden_lasts(meshes, lasts, quiet=quiet)
-    return named_sources(meshes, lasts.path()) if any(map(is_no_path, meshes)) else {}
+    say_hidden_lasts([mesh for mesh in meshes if not is_no_path(mesh)], lasts, quiet=quiet)
+    if not any(map(is_no_path, meshes)):
+        return {}
+    from footfit.pipeline.library.named_lasts import named_sources
+
+    return named_sources(meshes, lasts.path())
 
 
 def say_hidden_lasts(meshes: Sequence[str], lasts: Lasts, *, quiet: bool) -> None:
     """Say of each mesh that is a file whether a last of the catalogue has its name."""
+    bare = [mesh for mesh in meshes if Path(mesh).name == mesh]
+    if not bare:  # the usual case: nothing is imported for it
+        return
     from footfit.pipeline.library.named_lasts import hidden_lasts
 
-    with suppress(FootfitError):  # files need no catalogue
-        say_notices(hidden_lasts(meshes, lasts.path()), None, quiet=quiet)
+    with suppress(FootfitError):  # the settings file may be wrong: files need no catalogue
+        say_notices(hidden_lasts(bare, lasts.path()), None, quiet=quiet)
 
 
 def tell(value: Any, mode: OutputMode, notices: Notices | None = None) -> None:

@@ -103,6 +103,14 @@ def mesh_sources(
     return [named.get(path) or Source(path) for path in paths]
 
 
+def is_no_path(argument: str) -> bool:
+    """Whether there is no file and no folder of that name."""
+    try:
+        return bool(argument) and not os.path.lexists(stored_path(argument))
+    except ValueError:  # a name with a NUL in it
+        return False
+
+
 def stdin_source(stream: BinaryIO | None, mesh_format: str | None) -> Source:
     """One mesh from standard input, None if that is closed, with the limit of size of a file.
 

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import os
 from collections.abc import Sequence
 from contextlib import suppress
 from dataclasses import dataclass, replace
@@ -10,12 +9,12 @@ from pathlib import Path
 
 import numpy as np
 
-from footfit.catalogue.rows.last_names import meant_name, nearest_name
+from footfit.catalogue.rows.last_names import caseless, meant_name, nearest_name
 from footfit.catalogue.store import open_catalogue
 from footfit.errors import CatalogueUnusable, FootfitError, NoCatalogue, UnreadableFile
 from footfit.geometry.measures.landmarks import Shape
 from footfit.meshes.copies.compact_copy import expanded_mesh
-from footfit.pipeline.batch.sources import GLOB_CHARACTERS, MESH_SUFFIXES, Source, stored_path
+from footfit.pipeline.batch.sources import GLOB_CHARACTERS, MESH_SUFFIXES, Source, is_no_path
 from footfit.pipeline.library.lasts import has_other_measures
 from footfit.pipeline.scan.align import aligned_scan
 from footfit.pipeline.scan.preparation import stored_shape
@@ -75,14 +74,6 @@ def is_bare(argument: str) -> bool:
     return Path(argument).name == argument and Path(argument).suffix.lower() not in MESH_SUFFIXES
 
 
-def is_no_path(argument: str) -> bool:
-    """Whether there is no file and no folder of that name."""
-    try:
-        return bool(argument) and not os.path.lexists(stored_path(argument))
-    except ValueError:  # a name with a NUL in it
-        return False
-
-
 def named_sources(arguments: Sequence[str], catalogue: Path) -> dict[str, Source]:
     """A source for each argument that is no file: it may be a last of the catalogue.
 
@@ -97,23 +88,29 @@ def named_sources(arguments: Sequence[str], catalogue: Path) -> dict[str, Source
 
 
 def hidden_lasts(arguments: Sequence[str], catalogue: Path) -> tuple[Notice, ...]:
-    """A notice for each argument that is a file, or a folder, and also the name of a last."""
+    """A notice for each argument that is a file, or a folder, and also the name of a last.
+
+    Nothing is said if the catalogue cannot be read: files need none.
+    """
+    names: Sequence[str] = ()
+    with (
+        suppress(FootfitError),
+        open_catalogue(catalogue, busy_timeout_s=LOOK_WAIT_S) as opened,
+    ):
+        names = opened.names()
+    known = {caseless(name): name for name in names}
     return tuple(
         Notice(
             "file_before_last", f"{argument}: this is a file here; the last {name!r} is not read"
         )
         for argument in arguments
-        if Path(argument).name == argument and not is_no_path(argument)
-        if (name := stored_name(catalogue, argument)) is not None
+        if (name := known.get(caseless(argument))) is not None
     )
 
 
 def stored_name(catalogue: Path, name: str) -> str | None:
     """The stored name that a name means; None if there is none, or the catalogue cannot be read."""
-    with (
-        suppress(FootfitError),
-        open_catalogue(catalogue, busy_timeout_s=LOOK_WAIT_S) as opened,
-    ):
+    with suppress(FootfitError), open_catalogue(catalogue) as opened:
         return opened.name(name)
     return None
 
