@@ -110,6 +110,7 @@ def _shoes(shown: list[dict[str, Any]], *, fits: bool) -> Iterator[Fact]:
             continue
         system = (candidate["size_system"] or "").upper() or None
         labels = [candidate["style"], system, candidate["size"], candidate["width_label"]]
+        labels.append(candidate["size_asked"])
         verdict = [MARKS[candidate["verdict"]], candidate["verdict"]]
         yield fact(f"{name} 1", [candidate["last"], *labels, *verdict], SHEET)
         yield fact(f"{name} 2", room_text, SHEET)

@@ -97,8 +97,10 @@ def fit_words(candidate: Candidate) -> str:
 
 
 def shoe_labels(candidate: Candidate) -> str:
-    """The style and the size of a shoe, as the maker labels it."""
-    return ", ".join(part for part in (candidate.style, size_text(candidate)) if part)
+    """The style and the size of a shoe, as the maker labels it, and in the shop's size system."""
+    size = size_text(candidate)
+    size += f" ({candidate.size_asked})" if candidate.size_asked else ""
+    return ", ".join(part for part in (candidate.style, size) if part)
 
 
 def _faults(fits: Sequence[FootFit]) -> list[str]:
