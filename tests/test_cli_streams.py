@@ -96,6 +96,21 @@ def test_files_are_written_though_nobody_reads_the_answer(
     assert [path.suffix for path in shop.glob("answer.*")] != []
 
 
+def test_a_failure_is_not_hidden_by_a_reader_that_goes_away(shop: Path) -> None:
+    run = bash("footfit measure none.stl foot.stl --csv answer.csv | true", shop)
+    assert run.code == 3
+    assert (shop / "answer.csv").exists()
+
+
+@pytest.mark.parametrize(
+    "command", ["show-last", "remove-last", "forget-fits", "export-last -o x.stl"]
+)
+def test_a_name_that_is_no_text_is_not_in_the_catalogue(command: str, shop: Path) -> None:
+    run = bash(f"footfit {command} $'\\xff' --catalogue lasts.footfit", shop)
+    assert run.code == 4, run.err
+    assert len(run.err.splitlines()) == 1
+
+
 @pytest.mark.parametrize("stream", ["2>&-", pytest.param("2> /dev/full", marks=FULL)])
 def test_without_stderr_the_answer_and_the_code_are_the_same(stream: str, shop: Path) -> None:
     assert bash(f"{LIST} {stream}", shop).out == bash(LIST, shop).out

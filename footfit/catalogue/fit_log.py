@@ -77,5 +77,9 @@ class FitLog:
 
 def _keys(connection: sqlite3.Connection, asked: str) -> list[int]:
     """The keys of the entries that have this code or id."""
+    try:
+        asked.encode()
+    except UnicodeEncodeError:  # bytes that are no text cannot be stored
+        return []
     select = "SELECT number FROM fit WHERE wearer = ? OR id = ? ORDER BY number"
     return [int(key) for (key,) in connection.execute(select, (asked, asked))]

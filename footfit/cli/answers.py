@@ -11,7 +11,16 @@ from typing import TYPE_CHECKING, Any, TypeVar
 
 import typer
 
-from footfit.cli.console import AnswerLost, ReaderGone, answer, error_line, say, say_notices, show
+from footfit.cli.console import (
+    AnswerLost,
+    ReaderGone,
+    answer,
+    drop_stdout,
+    error_line,
+    say,
+    say_notices,
+    show,
+)
 from footfit.cli.notices import Notices
 from footfit.cli.options import STDOUT
 from footfit.cli.outputs import say_written
@@ -100,6 +109,7 @@ def answer_outcomes(
                 if not outputs.paths:
                     raise
                 lost, mode = error, replace(mode, answers=False)  # the files are still wanted
+                drop_stdout()
             write_files(outputs, result, mode, bar, number)
             if outputs.csv is not None:
                 tables.append(outputs.as_table(result))
@@ -107,7 +117,7 @@ def answer_outcomes(
         if errors and mode.total > 1:
             say(f"{len(errors)} of {mode.total} {noun} failed", quiet=mode.quiet or mode.json)
         say_written(outputs.write_csv(tables), quiet=mode.quiet)
-    if lost is not None:
+    if isinstance(lost, AnswerLost) and not errors:
         raise lost
     return common_code(int(error.exit) for error in errors)
 

@@ -59,7 +59,7 @@ def require_storable(name: str) -> None:
     try:
         name.encode("utf-8")
     except UnicodeEncodeError as error:
-        words = f"{name!r} cannot be stored as a name; give another one with --name"
+        words = f"{name!r} cannot be stored as a name; give another one"
         raise BadOption(words) from error
 
 
