@@ -155,6 +155,8 @@ def match_facts(match: Match, comparisons: Sequence[Comparison] = ()) -> Iterato
     profile = match.profile if match.by == "fit" else None
     lead = [*files, match.catalogue_lasts, match.by, profile, __version__]
     yield fact("lead", lead, PAGE)
+    if match.customer:
+        yield fact("customer", match.customer, PAGE)
     left_out = [
         text
         for why, count in match.rejected
@@ -396,6 +398,7 @@ def foot_cells(match: Match, foot: Profiled, status: str) -> dict[str, object]:
         "foot_size": foot_size(foot.length_mm, system).words,
         "customer_size": foot_size(longest, system).words,
         "error": None,
+        "customer": match.customer,
     }
 
 

@@ -139,9 +139,19 @@ def read_compare_page(page: str) -> Reading:
 
 def _headline(body: Node, reading: Reading, taken: list[Node]) -> None:
     """The lead, and the block of the first bold words: the best last."""
-    title, lead = body.one("h1"), body.one("p")
-    bold = next(node for node in body.every("b") if not node.text.startswith("Note"))
-    block = [node for node in body.every("div") if bold in node.walk()][-1]
+    title, (first, second, *_) = body.one("h1"), body.every("p")
+    named = first if [node.text for node in first.every("b")] == [first.text] else None
+    lead = second if named else first
+    if named:
+        reading.cells["customer"] = named.text
+        taken.append(named)
+    blocks = body.every("div")
+    bold = next(  # the head of the page and the notes stand in no block of their own
+        node
+        for node in body.every("b")
+        if not node.text.startswith("Note") and any(node in block.walk() for block in blocks)
+    )
+    block = [node for node in blocks if bold in node.walk()][-1]
     verdict = " ".join(node.text for node in block.inside if isinstance(node, Node))
     reading.cells |= {"lead": lead.text, "best last": bold.text, "best": verdict}
     taken += [title, lead, block]
