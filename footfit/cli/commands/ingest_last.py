@@ -112,7 +112,8 @@ def ingest_last(
                 tell_failure(error_line(outcome.failure, as_json=mode.json, verbose=mode.verbose))
         notices.close()
         if warned:
-            words = f"{warned} of {mode.total} lasts have warnings; footfit list-lasts marks them"
+            marked = "footfit list-lasts marks them"
+            words = f"{catalogue.path}: {warned} of {mode.total} lasts have warnings; {marked}"
             say(words, quiet=mode.quiet)
         if dry_run:
             say(f"{catalogue.path}: a dry run, nothing was stored", quiet=mode.quiet)
