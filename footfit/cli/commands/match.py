@@ -118,10 +118,10 @@ def match(
     def head(match: Match) -> str:
         return customer or (match.customer or "")[: files.MOST_LETTERS]
 
-    page, handed_over = partial(files.page, title=title), partial(files.sheet, title=title)
+    page, sheet_for = partial(files.page, title=title), partial(files.sheet, title=title)
     pages = (
         OutputFile(html, HTML, lambda one, _: page(one, catalogue.path, customer=head(one))),
-        OutputFile(sheet, HTML, lambda one, _: handed_over(one, customer=head(one)), "-sheet"),
+        OutputFile(sheet, HTML, lambda one, _: sheet_for(one, customer=head(one)), "-sheet"),
     )
 
     def failed(one: Customer, error: FootfitError) -> FailedMatch:

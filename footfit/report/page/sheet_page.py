@@ -58,11 +58,13 @@ def sheet_page(
         size=sizes[asked.name],
         width=widest.fitting(asked.name),
         other_sizes=[
-            width_words.sized(sizes[name], widest) for name in SHOWN_SYSTEMS if name != asked.name
+            width_words.size_with_width(sizes[name], widest)
+            for name in SHOWN_SYSTEMS
+            if name != asked.name
         ],
         shares=[(share.people, width_words.share_words(share)) for share in widest.shares],
         widest_side=wider_side(match),
-        compared=compared(match),
+        measure_rows=measure_rows(match),
         differences=differences(match),
         best=shown[0] if shown else None,
         following=shown[1] if len(shown) > 1 else None,
@@ -95,7 +97,7 @@ def measure_of(match: Match, place: int, name: str) -> Measured:
     return next((row.measured for row in rows if row.name == name), Measured(None))
 
 
-def compared(match: Match) -> list[tuple[str, list[Measured]]]:
+def measure_rows(match: Match) -> list[tuple[str, list[Measured]]]:
     """The measures that the sheet shows of each foot, by their names for customers."""
     rows = (
         (words, [measure_of(match, place, name) for place in range(len(match.feet))])

@@ -14,14 +14,14 @@ CLASSES = ((10.0, "very narrow"), (30.0, "narrow"), (70.0, "medium"), (90.0, "wi
 """The name of a width up to a share in percent; above the last it is "very wide"."""
 
 
-def sized(size: Size, width: FootWidth) -> str:
+def size_with_width(size: Size, width: FootWidth) -> str:
     """A size with the width beside it, where its system has one.
 
     Examples
     --------
     >>> from footfit.geometry.fit.width_fitting import Fitting
     >>> wide = FootWidth((Fitting("mondopoint", "98", False),), ())
-    >>> [sized(foot_size(251.0, SYSTEMS[name]), wide) for name in ("uk", "mondopoint")]
+    >>> [size_with_width(foot_size(251.0, SYSTEMS[name]), wide) for name in ("uk", "mondopoint")]
     ['UK 6.5', 'Mondopoint 250/98']
     """
     fitting = width.fitting(size.system)
@@ -42,7 +42,7 @@ def fittings_words(width: FootWidth, size_mm: float | None) -> str:
     if size_mm is None:
         return ""
     systems = [SYSTEMS[fitting.system] for fitting in width.fittings]
-    return ", ".join(sized(foot_size(size_mm, system), width) for system in systems)
+    return ", ".join(size_with_width(foot_size(size_mm, system), width) for system in systems)
 
 
 def shares_words(width: FootWidth) -> str:
