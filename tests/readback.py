@@ -438,6 +438,7 @@ def heel_cells(heel: HeelChange | None) -> dict[str, object]:
 def _labels(candidate: Candidate) -> list[str]:
     system = candidate.size_system.upper() if candidate.size_system else None
     size = " ".join(part for part in (system, candidate.size, candidate.width_label) if part)
+    size += f" ({candidate.size_asked})" if candidate.size_asked else ""
     side = f"{candidate.side} last" if candidate.mirrored else ""
     return [part for part in (candidate.style or "", size, side) if part]
 
