@@ -364,6 +364,7 @@ def match_csv_facts(
         "foot_verdict": None if fit is None else fit.verdict,
         "verdict": candidate.verdict,
         "why": candidate.why,
+        "size_asked": candidate.size_asked,
         "tied_with": " ".join(candidate.tied_with),
         "not_judged": " ".join(candidate.not_judged),
         "profile": match.profile,

@@ -11,8 +11,10 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from footfit.errors import HalfScan
+from footfit.pipeline.batch.sources import Source
 from footfit.report.csv import csv_text, harmless
-from footfit.results import Library, Match, Profiled
+from footfit.results import FailedMatch, Library, Match, Profiled, WideMeasures
 from tests import answers
 
 
@@ -29,6 +31,44 @@ def test_a_match_has_a_row_per_candidate() -> None:
     assert found[0]["clearance_ball_girth_mm"] == ""
     assert float(found[0]["flare_delta_deg"]) == pytest.approx(-2.0)
     assert found[0]["mirrored"] == "false"
+
+
+def test_nobody_is_lost_in_the_table_of_a_match() -> None:
+    """A foot that no last fits and one that failed have a row each, with the reason."""
+    empty = answers.match(candidates=(), rejected=(("too_long", 7),))
+    failed = FailedMatch(("l.stl", "r.stl"), "half_scan", "the toes were not scanned")
+    found = rows(csv_text(Match, [answers.match(), empty, failed]))
+    statuses = [row["status"] for row in found]
+    assert statuses == ["ranked"] * 5 + ["no_last_fits"] + ["failed"] * 2
+    assert {tuple(row) for row in found} == {Match.columns}
+    nothing, left, right = found[5:]
+    assert (nothing["foot_length_mm"], nothing["foot_size"]) == ("260.0", "EU 41")
+    assert "7 too_long" in nothing["why"]
+    assert [row["path"] for row in (left, right)] == ["l.stl", "r.stl"]
+    assert (left["error"], left["why"]) == ("half_scan", "the toes were not scanned")
+
+
+def test_a_pair_has_one_size_in_all_its_rows() -> None:
+    feet = (answers.foot("l.stl", left=True, length_mm=252.0), answers.foot("r.stl"))
+    found = rows(csv_text(Match, [answers.match(feet, size_system="uk")]))
+    assert {row["customer_size"] for row in found} == {"UK 7.5"}
+    assert {row["foot_size"] for row in found} == {"UK 7", "UK 7.5"}
+
+
+def test_measures_have_a_column_each_in_the_wide_table() -> None:
+    scan = answers.measured_scan()
+    wide = rows(
+        csv_text(
+            WideMeasures, [scan.wide(), WideMeasures.failed(Source("b.stl"), HalfScan("no toes"))]
+        )
+    )
+    assert tuple(wide[0]) == WideMeasures.columns
+    for row in scan.measures:
+        name = row.name if row.name.endswith("_deg") else f"{row.name}_mm"
+        value = row.measured.value
+        assert wide[0][name] == ("" if value is None else str(round(value, 3)))
+    assert [row["status"] for row in wide] == ["measured", "failed"]
+    assert (wide[1]["path"], wide[1]["error"], wide[1]["why"]) == ("b.stl", "half_scan", "no toes")
 
 
 def test_a_pair_has_rows_for_each_foot_and_a_stream_one_header() -> None:

@@ -148,7 +148,7 @@ class Match(Document):
         *("path", "foot_side", "by", *CANDIDATE_COLUMNS, "flare_distance", "flare_delta_deg"),
         *(f"clearance_{name}_{end}" for name in FIT_NAMES for end in ("mm", "sd_mm")),
         *("foot_verdict", "verdict", "why", "tied_with", "not_judged"),
-        *("profile", "profile_sha256", *HEEL_COLUMNS, *FOOT_COLUMNS, *ZONE_COLUMNS),
+        *("profile", "profile_sha256", *HEEL_COLUMNS, *FOOT_COLUMNS, "size_asked", *ZONE_COLUMNS),
     )
 
     schema = "match/2"
@@ -218,6 +218,7 @@ class Match(Document):
             None if self.fit_profile is None else self.fit_profile.sha256,
             *heel_cells(None if fit is None else fit.heel),
             *self._foot_cells(foot, "ranked"),
+            candidate.size_asked,
             *(cell for name in ZONE_ENDS for cell in zone_cells(fit, name)),
         )
 
