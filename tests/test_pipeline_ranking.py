@@ -5,14 +5,16 @@ from __future__ import annotations
 import csv
 import io
 from dataclasses import replace
+from types import SimpleNamespace
 from typing import Any
 
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from footfit.cli.commands.match import checked_code
+from footfit.cli.commands.match import Summary
 from footfit.errors import CheckFailed
+from footfit.pipeline.batch.runs import Outcome
 from footfit.pipeline.fit.fit_profile import fit_profile
 from footfit.pipeline.fit.match import Question, matched, meets
 from footfit.report.csv import csv_text
@@ -130,11 +132,13 @@ def test_every_output_and_the_check_speak_of_the_first_last(
         )
         passed = sure and VERDICTS.index(first.verdict or "") <= VERDICTS.index(least)
         assert meets(answer, least) == passed  # type: ignore[arg-type]
+        summary = Summary(least)  # type: ignore[arg-type]
+        summary.add(Outcome(SimpleNamespace(title="Ana", path=None), answer, None))  # type: ignore[arg-type]
         if passed:
-            assert checked_code([answer], least, 0, as_json=False) == 0  # type: ignore[arg-type]
+            assert summary.checked_code(0, as_json=False) == 0
         else:
             with pytest.raises(CheckFailed):
-                checked_code([answer], least, 0, as_json=False)  # type: ignore[arg-type]
+                summary.checked_code(0, as_json=False)
 
 
 @given(feet(), catalogues())
