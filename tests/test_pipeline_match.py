@@ -205,6 +205,14 @@ def test_a_missing_measure_is_said_and_never_good() -> None:
     assert "not_judged" in [n.code for n in found.warnings], "instep and heel girth have no measure"
 
 
+def test_lasts_that_cannot_be_judged_at_all_are_said_without_a_number() -> None:
+    """The heel is higher than the model knows, and the bottom is not measured."""
+    found = answer(last("pump", heel_height_mm=110.0))
+    assert (found.candidates, found.nearest) == ((), ())
+    assert dict(found.rejected) == {"length_unknown": 1}
+    assert np.isfinite([c.distance for c in answer(last("pump"), by="flare").candidates]).all()
+
+
 def test_measures_of_two_definitions_are_not_compared() -> None:
     old = last("old")
     changed = tuple(replace(m, definition="older") for m in old.measures)

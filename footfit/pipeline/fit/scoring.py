@@ -155,8 +155,15 @@ def fit_distance(scores: Scores) -> Floats:
     A zone that one last lacks counts as UNKNOWN_SCORE; one that every last lacks counts nothing.
     """
     weight = _carried(scores)
-    distance: Floats = np.sqrt(np.square(_known_scores(scores)) @ weight / weight.sum())
+    distance: Floats = np.sqrt(np.square(_known_scores(scores)) @ _shares(weight))
     return distance
+
+
+def _shares(weight: Floats) -> Floats:
+    """Weights (z,) that add up to 1; none where no last is judged in any zone."""
+    total = weight.sum()
+    shares: Floats = weight / total if total else weight
+    return shares
 
 
 def _carried(scores: Scores) -> Floats:
@@ -218,7 +225,7 @@ def distance_spread(scores: Scores) -> Spread:
     and var D = var Q / 4 Q with the noise's own share, sum w s^2 / W, added to Q.
     """
     weight = _carried(scores)
-    share = weight / weight.sum()
+    share = _shares(weight)
     foot = np.square(scores.foot_sd) + np.square(scores.heel_sd)
     last = np.square(scores.last_sd)
     score = _known_scores(scores)
