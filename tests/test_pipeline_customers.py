@@ -103,8 +103,16 @@ def test_the_folder_may_name_the_customer_or_the_side() -> None:
         ("ann", ("ann/left.stl", "ann/right.stl")),
         ("bob", ("bob/L.stl", "bob/R.stl")),
     ]
+    assert paired("ann/left foot.stl", "ann/Right_Foot.stl", "bob/Fuß rechts.stl") == [
+        ("ann", ("ann/left foot.stl", "ann/Right_Foot.stl")),
+        ("bob", ("bob/Fuß rechts.stl",)),
+    ]
     assert paired("s/left/ann.stl", "s/right/ann.stl") == [
         ("ann", ("s/left/ann.stl", "s/right/ann.stl"))
+    ]
+    assert paired("s/ann/left/foot.stl", "s/ann/right/foot.stl", "s/bob/left foot/scan.stl") == [
+        ("ann", ("s/ann/left/foot.stl", "s/ann/right/foot.stl")),
+        ("bob", ("s/bob/left foot/scan.stl",)),
     ]
     assert len(paired("mon/ann_L.stl", "tue/ann_R.stl")) == 2, "another folder, another customer"
 

@@ -135,13 +135,13 @@ class Outputs:
         BadOption
             The scan would be lost, also with --force.
         """
-        there = [path for path in self.paths if path.exists()]
+        there = {file_id(path): path for path in self.paths if path.exists()}
         for source in sources if there else ():
             name = source.path or ""
             read = Path(name if Path(name).exists() else name.rpartition("#")[0])
-            for path in there:
-                if read.is_file() and path.samefile(read):
-                    raise BadOption("is the scan itself; name another file to write", str(path))
+            if read.is_file() and file_id(read) in there:
+                words = "is the scan itself; name another file to write"
+                raise BadOption(words, str(there[file_id(read)]))
 
     def require_one(self, meshes: Sized, unless: str = "") -> None:
         """Refuse one file for several meshes; ``unless`` names another solution.
@@ -197,6 +197,12 @@ def say_written(paths: Iterable[Path], *, quiet: bool) -> None:
     """Write a line for each file that was written."""
     for path in paths:
         say(f"wrote {path}", quiet=quiet)
+
+
+def file_id(path: Path) -> tuple[int, int]:
+    """What two paths of one file have in common."""
+    known = path.stat()
+    return known.st_dev, known.st_ino
 
 
 def make_folder(folder: Path) -> None:

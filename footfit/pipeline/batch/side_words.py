@@ -27,6 +27,9 @@ _WORDS: dict[SideName, str] = {
         destro destra dret dreta höger højre høyre prawy prawa pravý pravá oikea drept dreapta
         правый правая правое правий права δεξί δεξιό δεξιά 右 右足 右脚 오른쪽 오른발""",
 }
+_FOOT = """foot feet fuß fuss pied pie pé piede voet fot fod jalka stopa noga нога стопа πόδι 足 脚
+    발 scan mesh 3d"""
+"""What names no customer."""
 _LETTERS: dict[SideName, str] = {"left": "l", "right": "r"}
 _SHORT: dict[SideName, str] = {
     "left": "li lt lf lh izq izda izqda izqdo esq sx",
@@ -76,6 +79,18 @@ def side_in_name(name: str, *, short: bool = True) -> SideInName:
             rest = _without(name, [match.span() for match, _ in named])
             return SideInName(frozenset(side for _, side in named), rest)
     return SideInName(frozenset(), name)
+
+
+def names_somebody(rest: str) -> bool:
+    """Whether the rest of a name says more than that it is a scan of a foot.
+
+    Examples
+    --------
+    >>> names_somebody("Fuß"), names_somebody("foot scan"), names_somebody("Ann foot")
+    (False, False, True)
+    """
+    words = {_plain(word) for word in _FOOT.split()}
+    return any(_plain(token) not in words for token in _TOKEN.findall(rest))
 
 
 def side_of_file(path: str | None) -> SideName | None:

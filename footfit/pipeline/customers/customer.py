@@ -10,7 +10,7 @@ from pathlib import Path
 
 from footfit.errors import BadManifest, BadOption
 from footfit.pipeline.batch.csv_rows import CsvRow, csv_rows
-from footfit.pipeline.batch.side_words import SideInName, side_in_name
+from footfit.pipeline.batch.side_words import SideInName, names_somebody, side_in_name
 from footfit.pipeline.batch.sources import Source, stored_path
 from footfit.results import Notice, SideName
 
@@ -137,9 +137,9 @@ class _NamedFile:
 def pairs_by_name(sources: Sequence[Source]) -> list[Customer]:
     """The customers of files whose names say left or right, in the order of their first files.
 
-    What a name says beside the side is the customer. If it says no more, the folder's name is; the
-    folder may say the side too. Two parts of one file are a pair. A foot without another one is a
-    customer with one foot.
+    What a name says beside the side is the customer. If it says no more, or only "foot", the
+    folder's name is; the folder may say the side too. Two parts of one file are a pair. A foot
+    without another one is a customer with one foot.
 
     Raises
     ------
@@ -192,9 +192,9 @@ def _named_file(path: str) -> _NamedFile:
     place = Path(path)
     said, folder = side_in_name(place.stem), place.parent
     of_folder = side_in_name(folder.name)
-    if not said.sides and of_folder.sides and not of_folder.rest:
-        return _NamedFile(str(folder.parent), said.rest, of_folder)
-    if not said.rest:
+    if not said.sides and of_folder.sides and not names_somebody(of_folder.rest):
+        said, folder = SideInName(of_folder.sides, said.rest), folder.parent
+    if said.sides and not names_somebody(said.rest):
         return _NamedFile(str(folder.parent), folder.name or "customer", said)
     return _NamedFile(str(folder), said.rest, said)
 
@@ -213,7 +213,7 @@ def _key(name: str) -> str:
 
 def alone_notices(customers: Sequence[Customer]) -> tuple[Notice, ...]:
     """A notice that names the customers of whom only one foot is there."""
-    single = [str(customer.path) for customer in customers if len(customer.feet) == 1]
+    single = [customer.path or "-" for customer in customers if len(customer.feet) == 1]
     if not single:
         return ()
     more = f" and {len(single) - NAMED_ALONE} more" if len(single) > NAMED_ALONE else ""
