@@ -91,7 +91,7 @@ def test_a_child_is_not_compared_with_adults():
     document = matched((foot(),), Library((answers.record(),), 1, None), asked).to_dict()
     shares = document["feet"][0]["width"]["wider_than"]
     assert {share["reason"] for share in shares.values()} == {"the survey has no children"}
-    small = foot_widths((foot(190.0, 180.0),), "walking")[0]
+    small = foot_widths((foot(190.0, 180.0),))[0]
     assert {share.reason for share in small.shares} == {
         "the survey has no women with feet this short",
         "the survey has no men with feet this short",
@@ -100,7 +100,7 @@ def test_a_child_is_not_compared_with_adults():
 
 def test_a_foot_without_a_girth_says_so():
     unknown = foot(girth_mm=None)
-    share = foot_widths((unknown,), "walking")[0].shares[0]
+    share = foot_widths((unknown,))[0].shares[0]
     assert share.percent is None
     assert share.reason == "the ball girth of the foot is not known"
 

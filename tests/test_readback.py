@@ -188,7 +188,7 @@ def planted(feet: int = 1, lasts: int = 5, *, judged: bool = True, **more: objec
         "warnings": (Notice("damaged_last", "pump-39 was left out: it is damaged"),),
     }
     match = answers.match(shapes, **(values | more))
-    return replace(match, widths=foot_widths(match.feet, match.profile))
+    return replace(match, widths=foot_widths(match.feet))
 
 
 def as_nearest(match: Match) -> Match:

@@ -45,14 +45,14 @@ def undrawn(monkeypatch: pytest.MonkeyPatch) -> None:
 @pytest.mark.parametrize("name", BY_FIT)
 def test_the_sheet_shows_the_match(name: str) -> None:
     match = CASES[name]
-    match = replace(match, widths=foot_widths(match.feet, match.profile))
+    match = replace(match, widths=foot_widths(match.feet))
     assert found(match) == []
 
 
 @pytest.mark.usefixtures("undrawn")
 @pytest.mark.parametrize("name", ["a pair", "nothing fits", "UK sizes"])
 def test_any_number_that_is_changed_is_found(name: str) -> None:
-    match = replace(CASES[name], widths=foot_widths(CASES[name].feet, "walking"))
+    match = replace(CASES[name], widths=foot_widths(CASES[name].feet))
     facts = list(sheet_facts(match.to_dict(), "Shoes & more", "Ana", DAY_WORDS))
     page, changed = sheet_of(match), 0
     for what, text in read_sheet(page).cells.items():

@@ -13,6 +13,7 @@ import pytest
 import footfit as library
 from footfit.api.files import MOST_LETTERS
 from footfit.errors import BadOption
+from footfit.pipeline.fit.fit_profile import fit_profile
 from footfit.pipeline.fit.zones import ZONES
 from footfit.pipeline.width.foot_width import foot_widths, survey_words
 from footfit.report.page import sheet_page
@@ -29,8 +30,8 @@ HOSTILE = "<script>alert(1)</script>\" onload='x' & \x1b\n"
 FEET = (SAMPLES / "feet" / "mh007_L.stl", SAMPLES / "feet" / "mh007_R.stl")
 
 
-def sheet_of(match, **head):
-    match = replace(match, widths=foot_widths(match.feet, match.profile))
+def sheet_of(match, usual_mm=None, **head):
+    match = replace(match, widths=foot_widths(match.feet, usual_mm))
     meshes = [answers.tube(foot.length_mm, left=i == 0) for i, foot in enumerate(match.feet)]
     return sheet_page.sheet_page(match, meshes, day=DAY, survey=survey_words(), **head)
 
@@ -137,7 +138,7 @@ def test_the_shops_size_system_comes_first() -> None:
 
 @pytest.mark.usefixtures("undrawn")
 def test_a_child_is_told_that_there_is_no_survey_of_children() -> None:
-    text = text_of(sheet_of(replace(CASES["one foot"], profile="child")))
+    text = text_of(sheet_of(CASES["one foot"], fit_profile("child").usual_length_mm))
     assert text.count("the survey has no children") == 2
     assert "wider than" not in text
 

@@ -99,7 +99,7 @@ def matched(
         size_system=question.size_system,
         best_verdict=_best_verdict(judged, ranked),
         heel=judged.heels.question,
-        widths=foot_widths(feet, profile.name),
+        widths=foot_widths(feet, profile.usual_length_mm),
     )
 
 

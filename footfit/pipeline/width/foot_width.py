@@ -13,7 +13,8 @@ from footfit.geometry.fit.width_fitting import fittings
 from footfit.results import FootWidth, Measured, Profiled, WidthShare
 
 FILE = Path(__file__).parent / "survey.toml"
-CHILD_PROFILE = "child"
+CHILD_MM = 200.0
+"""A fit profile whose usual feet may be shorter is for children."""
 NO_CHILDREN = "the survey has no children"
 
 
@@ -64,14 +65,18 @@ def survey_words() -> str:
     return f"{counts}; {known.source} ({known.licence})"
 
 
-def foot_widths(feet: Sequence[Profiled], profile: str) -> tuple[FootWidth, ...]:
+def foot_widths(
+    feet: Sequence[Profiled], usual_mm: tuple[float, float] | None = None
+) -> tuple[FootWidth, ...]:
     """The width of each foot of a customer, at the size of the longer one.
 
-    ``profile`` is the name of the fit profile: a child is not compared with adults.
+    ``usual_mm`` are the usual lengths of the fit profile's feet, None for adults. A child is not
+    compared with adults.
     """
     known = [foot.length_mm for foot in feet if foot.length_mm is not None]
     size_mm = max(known) if len(known) == len(feet) else None
-    return tuple(_foot_width(foot, size_mm, child=profile == CHILD_PROFILE) for foot in feet)
+    child = usual_mm is not None and usual_mm[0] < CHILD_MM
+    return tuple(_foot_width(foot, size_mm, child=child) for foot in feet)
 
 
 def _foot_width(foot: Profiled, size_mm: float | None, *, child: bool) -> FootWidth:
