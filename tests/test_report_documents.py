@@ -37,8 +37,9 @@ from footfit.results import (
     StoredLast,
     UpgradeOutcome,
 )
+from footfit.results.fit_entries import FitList, ForgetOutcome, RecordOutcome
 from footfit.results.values import exact, json_number, part
-from tests import answers
+from tests import answers, fits
 from tests.bounds import ROUNDING, printed
 from tests.comparisons import comparison
 
@@ -70,6 +71,9 @@ def every_document():
         EditOutcome("a", (("size", "41", "42"),), ("heel_height",), 3.0),
         RenameOutcome("b", "a"),
         RemoveOutcome("a"),
+        RecordOutcome(fits.entry(footfit_version=__version__)),
+        FitList((fits.entry(),)),
+        ForgetOutcome("w-1", 1),
         ExportOutcome("a", "a.stl", 10, 0.1),
         answers.facts(),
         upgrade,

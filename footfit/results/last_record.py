@@ -136,8 +136,6 @@ class LastRecord:
                 "flare_angle_deg": self.flare.angle_deg,
                 "class": self.flare.flare_class,
                 "reference": self.labels.name == reference,
-                "ball_girth_mm": self.value_of("ball_girth"),
-                "warnings": self.notices,
             }
         )
 
@@ -188,4 +186,5 @@ class StoredLast(Document):
             **record.eigenframe.to_dict(),
             "printed_frame": record.printed_frame,
             "pose": record.pose,
+            "warnings": record.notices,
         }

@@ -297,12 +297,19 @@ class Library(Document):
     schema = "list-lasts/2"
 
     def _keys(self) -> Json:
-        entries = [record.entry(self.reference) for record in self.ordered()]
-        return {"reference": self.reference, "lasts": entries}
+        return {"reference": self.reference, "lasts": self._entries()}
+
+    def _entries(self) -> list[Json]:
+        """A line for each last: what it is, and what should be known of it."""
+        return [
+            record.entry(self.reference)
+            | part({"ball_girth_mm": record.value_of("ball_girth"), "warnings": record.notices})
+            for record in self.ordered()
+        ]
 
     def rows(self) -> list[Json]:
         """A table: a row for each last, with its label's check and the codes of its warnings."""
-        entries = [record.entry(self.reference) for record in self.ordered()]
+        entries = self._entries()
         for entry in entries:
             entry["warnings"] = " ".join(notice["code"] for notice in entry["warnings"]) or None
             check = entry["label_check"] or {}

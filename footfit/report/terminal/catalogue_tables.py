@@ -255,7 +255,7 @@ def remove_last_line(outcome: results.RemoveOutcome) -> Text:
     if outcome.left:
         return line
     words = "the catalogue is empty: the next last that you ingest becomes the reference"
-    return line.append(f"\n{words}", "not bold")
+    return line.append(f"  {words}", "not bold")
 
 
 def export_last_line(outcome: results.ExportOutcome) -> Text:
