@@ -65,7 +65,8 @@ def other(rng: np.random.Generator, band: tuple[float, float], _: int) -> Case:
     import lasts2
 
     spec = stance.other_spec(rng, band)
-    vertices, faces = stance.at_rest(lasts2.mesh(spec, n_long=150, n_round=84))
+    mesh = lasts2.mesh(spec, n_long=150, n_round=84)
+    vertices, faces = stance.at_rest(np.array(mesh.vertices))[0], np.array(mesh.faces)
     plan = lasts2.Plan(spec)
     at = 0.5 - 0.5 * np.cos(np.pi * np.linspace(0.0, 1.0, 700))
     x, y, heading = plan.at(at)

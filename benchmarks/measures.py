@@ -3,8 +3,9 @@
     python -m benchmarks.measures [--lasts 20] [--seed 1] [--write]
 
 Shapes are the generated and the other feet of ../shared/scans where they are present, and the
-generator's lasts. Each is read, aligned and measured as it is, and again in a random pose: clean,
-with 0.3 mm of white noise, with 0.3 mm of a scanner's ripple, and decimated to a quarter.
+generator's lasts of every style and heel. Each is read, aligned and measured as it is, and again in
+a random pose: clean, with 0.3 mm of white noise, with 0.3 mm of a scanner's ripple, and decimated
+to a quarter.
 ``--write`` puts the tables into docs/measures.md.
 """
 
@@ -29,6 +30,7 @@ from footfit.pipeline.scan.measure import shape_measures
 from tests import distortions
 from tests.reading import read_scan
 from tests.scans import aligned
+from tools.last_specs import HEEL_BANDS_MM, STYLES, wide
 from tools.lasts import last_mesh
 
 SCANS = Path(__file__).resolve().parents[2] / "shared" / "scans"
@@ -70,9 +72,10 @@ def cases(rng, lasts):
             scan = read_scan(path)
             side = "right" if name.endswith("R") else "left"
             yield Case(name, "foot", side, scan.vertices_mm, scan.faces, {})
-    for index, spec in enumerate(random_specs(rng, lasts)):
-        truth = {"length": spec.length_mm, "heel_height": spec.heel_height_mm}
-        yield Case(f"last {index}", "last", "right", *last_mesh(spec), truth)
+    for index in range(lasts):
+        style, band = STYLES[index % len(STYLES)], HEEL_BANDS_MM[index % len(HEEL_BANDS_MM)]
+        spec = wide(rng, style, band, side="right", rings=100, segments=72)
+        yield Case(f"last {index}", "last", "right", *last_mesh(spec), {})
 
 
 def changed(case, change, rng):

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cached_property
+from typing import NamedTuple
 
 import numpy as np
 from scipy.spatial import ConvexHull
@@ -16,6 +17,20 @@ from tests import tape_peer
 
 GROWN_MM = 0.5  # a girth that is this much over the least is past it, and not only rough
 UP, ACROSS = np.array([0.0, 0.0, 1.0]), np.array([0.0, 1.0, 0.0])
+
+
+class Stands(NamedTuple):
+    """A last as it was drafted to stand: x from the rearmost place along the ground.
+
+    ``points_mm`` (n, 3) less ``shift_mm``; those that are ``low`` (n,) over the bottom reach
+    ``length_mm`` along the ground. ``middle_mm`` (k, 2) is the bottom's middle, as x and z.
+    """
+
+    points_mm: np.ndarray
+    shift_mm: np.ndarray
+    low: np.ndarray
+    length_mm: float
+    middle_mm: np.ndarray
 
 
 @dataclass(frozen=True)
@@ -67,8 +82,25 @@ class Drafted:
         return self.cut(np.array([x_mm, 0.0, 0.0]), np.array([1.0, 0.0, 0.0]))[:, 1:]
 
     def over_ground(self, points_mm: np.ndarray) -> np.ndarray:
-        """Heights over the drafted ground (n,)."""
-        return self.standing(points_mm)[:, 2] - self.standing(self.vertices_mm)[:, 2].min()
+        """Heights over the drafted ground (n,), which touches the lowest of a last's middle."""
+        return self.standing(points_mm)[:, 2] - self.ground_mm
+
+    @cached_property
+    def ground_mm(self) -> float:
+        if self.kind == "foot":
+            return float(self.vertices_mm[:, 2].min())
+        return float(self.stands.middle_mm[:, 1].min() + self.stands.shift_mm[2])
+
+    @cached_property
+    def stands(self) -> Stands:
+        points = self.standing(self.vertices_mm)
+        shift = np.array([points[:, 0].min(), 0.0, points[:, 2].min()])
+        low = _over_bottom(points - shift) < 0.13 * np.ptp(points[:, 0])
+        shift[0] = points[low, 0].min()
+        points = points - shift
+        length = float(np.ptp(points[low, 0]))
+        middle = _middle(Drafted(points, self.faces, "last", 0.0, {}), length)
+        return Stands(points, shift, low, length, middle)
 
     def standing(self, points_mm: np.ndarray) -> np.ndarray:
         cosine, sine = np.cos(self.pitch), np.sin(self.pitch)
@@ -144,14 +176,14 @@ def _parts(count: int) -> np.ndarray:
 
 
 def outermost(shape: Drafted, side: float, window: tuple[float, float], along=None, over=None):
-    """The outermost place (3,) of one side between two shares; None at the end of its window."""
+    """The outermost vertex (3,) of one side between two shares; None at the end of its window."""
     points = shape.vertices_mm
     along = (points[:, 0] - shape.ends_mm[0]) / shape.length_mm if along is None else along
     over = points[:, 2] / shape.length_mm if over is None else over
     near = (along > window[0]) & (along < window[1]) & (over < 0.20)
     best = np.argmax(np.where(near, side * points[:, 1], -np.inf))
     inside = window[0] + 0.008 < along[best] < window[1] - 0.008
-    return middle_of_cap(shape, side * ACROSS, near) if inside else None
+    return points[best] if inside else None
 
 
 def true_measures(shape: Drafted) -> dict[str, float]:
@@ -233,8 +265,9 @@ def _heel_girths(shape: Drafted) -> dict[str, float]:
     if shape.kind == "last":
         x, _, z = shape.vertices_mm.T
         cone = np.array([shape.x_mm(0.15), shape.across(shape.x_mm(0.15))[:, 1].max()])
-        over = np.array([cone[1] - top[1], top[0] - cone[0]])
-        between = (x > cone[0]) & (x < top[0])
+        ball = np.array([shape.x_mm(0.70), shape.across(shape.x_mm(0.70))[:, 1].max()])
+        over = np.array([cone[1] - ball[1], ball[0] - cone[0]])
+        between = (x > cone[0]) & (x < shape.x_mm(0.55))
         edge = shape.vertices_mm[between][np.argmax(np.column_stack([x, z])[between] @ over)]
         steepest = float(np.degrees(np.arctan2(edge[2] - base[2], edge[0] - base[0])))
     highest = shape.vertices_mm[:, 2].max() - 1.0
@@ -255,19 +288,14 @@ def _least_tapes(shape: Drafted) -> dict[str, float]:
     along = (points[:, 0] - shape.ends_mm[0]) / shape.length_mm
     over = points[:, 2] / shape.length_mm
     if shape.kind == "last":
-        standing = shape.standing(points)
-        low = standing[over < 0.30]
-        rear, front = low[:, 0].min(), low[:, 0].max()
-        curve = shape.bottom_curve((0.03, 0.97), (0.35, 0.5, 0.65))
-        line = shape.standing(np.column_stack([curve[:, 0], 0.0 * curve[:, 0], curve[:, 1]]))
-        place = (line[:, 0] - rear) / (front - rear)
-        x, z = line[(place > 0.035) & (place < 0.965)][:, [0, 2]].T
+        stands = shape.stands
+        x, z = stands.middle_mm.T
         heel, toe = (np.polyfit(x[end], z[end], 1) for end in (slice(4), slice(-4, None)))
-        x = np.concatenate([[rear], x, [front]])
-        z = np.concatenate([[np.polyval(heel, rear)], z, [np.polyval(toe, front)]])
+        x = np.concatenate([[0.0], x, [stands.length_mm]])
+        z = np.concatenate([[np.polyval(heel, x[0])], z, [np.polyval(toe, x[-1])]])
         arc = np.concatenate([[0.0], np.cumsum(np.hypot(np.diff(x), np.diff(z)))])
-        along = np.interp(standing[:, 0], x, arc / arc[-1])
-        over = (standing[:, 2] - np.interp(standing[:, 0], x, z)) / arc[-1]
+        along = np.interp(stands.points_mm[:, 0], x, arc / arc[-1])
+        over = (stands.points_mm[:, 2] - np.interp(stands.points_mm[:, 0], x, z)) / arc[-1]
     inner = outermost(shape, 1.0, (0.60, 0.82), along, over)
     outer = outermost(shape, -1.0, (0.52, 0.76), along, over)
     if inner is None or outer is None:
@@ -276,15 +304,18 @@ def _least_tapes(shape: Drafted) -> dict[str, float]:
     def crown(share: float) -> np.ndarray:
         where = shape.x_mm(share)
         if shape.kind == "last":  # down from the standing arc to the resting frame
-            x_at, z_at = np.interp(share, arc / arc[-1], x), np.interp(share, arc / arc[-1], z)
-            where = x_at * np.cos(shape.pitch) - z_at * np.sin(shape.pitch)
+            at = [np.interp(share, arc / arc[-1], line) for line in (x, z)]
+            at = at + stands.shift_mm[[0, 2]]
+            where = at[0] * np.cos(shape.pitch) - at[1] * np.sin(shape.pitch)
         section = shape.across(where)
-        return np.array([where, *section[np.argmax(section[:, 1])]])
+        top = section[:, 1].max()
+        flat = section[section[:, 1] > top - 0.3, 0]
+        return np.array([where, 0.5 * (flat.min() + flat.max()), top])
 
     share = float(np.interp(0.5 * (inner + outer)[0], np.sort(points[:, 0]), np.sort(along)))
     if shape.kind == "last":
-        middle = shape.standing(0.5 * (inner + outer)[None])[0, 0]
-        share = float(np.interp(middle, x, arc / arc[-1]))
+        middle = shape.standing(0.5 * (inner + outer)[None])[0] - stands.shift_mm
+        share = float(np.interp(middle[0], x, arc / arc[-1]))
     instep, waist, base = crown(0.5), crown(0.5 * (share + 0.5)), _heel_base(shape)
     ahead = (instep - base) / np.linalg.norm(instep - base)
     farthest = (ahead, instep @ ahead + 0.1 * shape.length_mm)
@@ -329,8 +360,13 @@ def _last_only(shape: Drafted) -> dict[str, float]:
     for name, share in (("bottom_width_ball", 0.66), ("bottom_width_heel", 1.0 / 6.0)):
         widths = []
         for by in (-0.03, -0.015, 0.0, 0.015, 0.03):
-            y, z = shape.across(shape.x_mm(share + by)).T
-            widths.append(y[np.argmax(y - z)] - y[np.argmax(-y - z)])
+            section = shape.across(shape.x_mm(share + by))
+            for deg in np.radians(np.arange(30.0, 60.5, 3.0)):
+                inner, outer = (
+                    section @ [np.cos(deg), -np.sin(deg)],
+                    section @ [-np.cos(deg), -np.sin(deg)],
+                )
+                widths.append(section[np.argmax(inner), 0] - section[np.argmax(outer), 0])
         values[name] = float(np.mean(widths))
     curve = shape.bottom_curve((0.04, 0.96), (0.35, 0.50, 0.65))
     run, rise = np.diff(curve, axis=0).T
@@ -340,12 +376,8 @@ def _last_only(shape: Drafted) -> dict[str, float]:
 
 def standing_measures(shape: Drafted) -> dict[str, float]:
     """What is read of a last as it was drafted to stand: along its ground, and over it."""
-    points = shape.standing(shape.vertices_mm)
-    points = points - [points[:, 0].min(), 0.0, points[:, 2].min()]
-    low = points[_over_bottom(points) < 0.13 * np.ptp(points[:, 0])]
-    start, length = low[:, 0].min(), np.ptp(low[:, 0])
-    stands = Drafted(points - [start, 0.0, 0.0], shape.faces, "last", 0.0, {})
-    x, z = _middle(stands, length).T
+    stands, length = shape.stands, shape.stands.length_mm
+    x, z = stands.middle_mm.T
     z = z - z.min()
     seat = (x >= 0.06 * length) & (x <= 0.14 * length)
     slope = np.polyfit(x[seat], z[seat], 1)[0]
@@ -355,10 +387,36 @@ def standing_measures(shape: Drafted) -> dict[str, float]:
     high = heights > 0.002 * length
     return {
         "stick_length": float(length),
+        "bottom_length": _bottom_length(stands.middle_mm, stands.points_mm[stands.low]),
         "seat_angle_deg": -float(np.degrees(np.arctan(slope))),
-        "tread_from": float(fine[np.flatnonzero(high[:lowest])[-1] + 1]),
+        "tread_from": max(float(fine[np.flatnonzero(high[:lowest])[-1] + 1]), 0.40 * length),
         "tread_to": float(fine[lowest + np.flatnonzero(high[lowest:])[0]]),
     }
+
+
+def _bottom_length(middle: np.ndarray, points: np.ndarray) -> float:
+    """Along the middle (k, 2) between the feather edges of the low points (n, 3).
+
+    An edge is where a line touches that is half-way between the bottom and the wall.
+    """
+    points = points[:, [0, 2]]
+    total = float(np.linalg.norm(np.diff(middle, axis=0), axis=1).sum())
+    length = np.ptp(points[:, 0])
+    for end, ahead in ((middle[:6][::-1], -1.0), (middle[-6:], 1.0)):
+        near = points[np.abs(points[:, 0] - end[-1, 0]) < 0.15 * length]
+        run = np.polyfit(end[:, 0], end[:, 1], 1)[0]
+        own = ahead * np.array([1.0, run]) / np.hypot(1.0, run)
+        lean = 0.0
+        if ahead < 0.0:  # the wall of the heel's back, by its rearmost points at two heights
+            heights = end[-1, 1] + np.array([0.02, 0.07]) * length
+            rear = [near[np.abs(near[:, 1] - z) < 0.007 * length, 0].min() for z in heights]
+            lean = np.arctan2(rear[1] - rear[0], heights[1] - heights[0])
+        wall = ahead * np.array([np.cos(lean), -np.sin(lean)])
+        half = np.arctan2(*(wall + ahead * np.array([own[1], -own[0]]))[::-1])
+        angles = half + np.radians(np.linspace(-5.0, 5.0, 11))
+        touched = near[(near @ [np.cos(angles), np.sin(angles)]).argmax(axis=0)]
+        total += float((touched.mean(axis=0) - end[-1]) @ own)
+    return total
 
 
 def _over_bottom(points: np.ndarray) -> np.ndarray:

@@ -9,10 +9,10 @@ import numpy as np
 import pytest
 
 from footfit.errors import BadOption
-from footfit.geometry.measures.measure_table import MEASURES, measure_named, of_kind
+from footfit.geometry.measures.measure_table import HEELS_MM, MEASURES, measure_named, of_kind
 from footfit.geometry.measures.measure_value import MeasureValue
 from footfit.pipeline.scan.measure import scan_measures
-from footfit.pipeline.scan.trueness import SCANNER_SD_MM, TRUENESS, check_scanner, measured
+from footfit.pipeline.scan.trueness import OPEN_SHARE, SCANNER_SD_MM, check_scanner, measured
 from tests import answers
 from tests.measure_peer import Drafted, true_measures
 from tests.scans import aligned, cleaned
@@ -22,28 +22,25 @@ from tools.lasts import last_mesh, standing
 GIRTH = measure_named("ball_girth")
 
 
-UNREAD = {"bottom_length"}
-"""No independent reading of it is at hand: it has no total standard deviation."""
-
-
-def test_every_measure_of_a_kind_has_a_trueness() -> None:
-    for kind, table in TRUENESS.items():
-        taken = {entry.name for entry in of_kind(kind)}
-        never = {"heel_height"} if kind == "foot" else UNREAD
-        assert set(table) == taken - never, kind
+def test_every_measure_states_a_trueness_for_each_kind_and_heel() -> None:
+    for kind, count in (("foot", 1), ("last", len(HEELS_MM))):
+        for entry in of_kind(kind):
+            stands_flat = (kind, entry.name) == ("foot", "heel_height")  # a foot has no such value
+            assert stands_flat or len(entry.trueness(kind).sd) == count, (kind, entry.name)
 
 
 def test_the_squares_of_all_parts_are_added() -> None:
-    trueness = TRUENESS["last"]["ball_girth"]
+    trueness = GIRTH.last
     info = replace(answers.info(), step=0.4, scanner="phone")
-    value = measured(GIRTH, MeasureValue(240.0), "last", info)
-    parts = (GIRTH.sd, trueness.sd, 0.65 * 0.4, SCANNER_SD_MM["phone"]["girth"])
+    value = measured(GIRTH, MeasureValue(240.0, convention_sd=0.7), "last", HEELS_MM[1], info)
+    scanner_sd = SCANNER_SD_MM["phone"]["girth"]
+    parts = (GIRTH.sd, trueness.sd[1], OPEN_SHARE * 0.7, 0.65 * 0.4, scanner_sd)
     assert value.total_sd == pytest.approx(math.hypot(*parts))
     assert (value.value, value.sd, value.bias) == (240.0, GIRTH.sd, trueness.bias)
 
 
 def test_a_value_that_is_missing_has_no_uncertainty() -> None:
-    value = measured(GIRTH, MeasureValue(None, "open"), "last")
+    value = measured(GIRTH, MeasureValue(None, "open"), "last", None)
     assert (value.sd, value.total_sd, value.bias, value.reason) == (None, None, None, "open")
 
 
@@ -80,7 +77,7 @@ def test_true_values_lie_within_two_total_sd(heel_mm: float) -> None:
     truth = true_measures(Drafted(*fine, "last", pitch, planted))
     rows = scan_measures(aligned(cleaned(*last_mesh(spec)), side="right").prepared)
     values = {row.name: row.measured for row in rows}
-    assert set(truth) == {entry.name for entry in MEASURES} - UNREAD
+    assert set(truth) == {entry.name for entry in MEASURES}
     outside = [
         name
         for name, true_mm in truth.items()

@@ -20,7 +20,7 @@ from footfit.geometry.measures.tape import convex_hull, depth_under_hull
 from footfit.geometry.measures.top_cut import top_cut_faces
 from footfit.geometry.mesh.filled_holes import filled_faces
 from footfit.geometry.mesh.outermost_point import Tip, tip
-from footfit.geometry.mesh.outlines import Outline, outline
+from footfit.geometry.mesh.outlines import OUTLINES, Outline, OutlineSettings, outline
 from footfit.geometry.numeric.arrays import Bools, Floats, Ints
 from footfit.geometry.stance.cues import NO_LABELS, StanceLabels
 from footfit.geometry.stance.stance import Stance, stance_of
@@ -40,11 +40,15 @@ class LandmarkSettings:
     joint_edge: float = 0.008  # a joint this close to the edge of its search window is rejected
     instep: float = 0.50
     cone: float = 0.15  # a place on a last's cone
+    cone_line: tuple[float, float] = (0.15, 0.70)  # over this line the cone's front edge stands out
+    cone_end: float = 0.55  # the edge lies behind this place, and the shaft of a boot has none
+    cone_turn_deg: float = 6.0  # the plane that touches the edge is turned so far both ways
     top_crossed: float = 0.05  # a section that runs farther over the top cut is not measured
     gap: float = 0.03  # a section with a wider gap is not measured
     ground: float = 0.006  # a flat sole lies so near to the ground
     filled_crossed: float = 0.05  # a tape that runs farther over a filled hole is not read
     touched: float = 0.008  # what lies so deep under a tape is touched by it
+    crown: float = 0.004  # what is so near to a section's highest point is its crown
     filled_beside: float = 0.004  # a joint this near to a filled hole may have lain in it
 
 
@@ -56,12 +60,15 @@ class Crown(NamedTuple):
 
     section: Outline
     x_mm: float
+    deep_mm: float
 
     @property
     def place(self) -> Floats:
-        """The highest place, (3,)."""
-        points = self.section.points
-        return np.array([self.x_mm, *points[np.argmax(points[:, 1])]])
+        """The highest place, (3,); on a flat top it is the middle of what is highest."""
+        y, z = self.section.points.T
+        top_mm = z.max()
+        weight = np.maximum(z - (top_mm - self.deep_mm), 0.0)
+        return np.array([self.x_mm, float(y @ weight / weight.sum()), top_mm])
 
 
 @dataclass(frozen=True)
@@ -134,6 +141,11 @@ class Shape:
     def stance(self) -> Stance | None:
         """How it stands; None if a last's bottom is open or has no tread."""
         return stance_of(self.vertices_mm, self.faces, self.kind, self.labels)
+
+    @property
+    def shape_heel_mm(self) -> float | None:
+        """About how high a last's heel stands by its shape, whatever a label says."""
+        return None if self.stance is None else self.stance.shape_heel_mm(self.length_mm)
 
     @property
     def standing_transform(self) -> Floats | None:
@@ -278,16 +290,26 @@ class Shape:
 
     @cached_property
     def cone_edge(self) -> Floats:
-        """A last's upper front edge: the point (3,) farthest over the line from the cone's top to
-        the instep.
+        """A last's upper front edge: the place (3,) that is farthest over the line from the cone's
+        top to the top of the ball.
+
+        A plane with the normal n that touches it is at the distance h. As the plane turns, h
+        changes by h' and n by n': it touches at h n + h' n'. The middle of what lies near to the
+        plane would lie far back on the top of a low cone.
         """
+        ends = [(self.x_mm(share), self.across(share)) for share in LANDMARKS.cone_line]
+        (start_mm, start), (end_mm, end) = ends
+        fall = float(start.points[:, 1].max() - end.points[:, 1].max())
+        lean, turn = np.arctan2(fall, end_mm - start_mm), np.radians(LANDMARKS.cone_turn_deg)
         x = self.vertices_mm[:, 0]
-        start_mm, end_mm = self.x_mm(LANDMARKS.cone), self.x_mm(LANDMARKS.instep)
-        top_mm = self.across(LANDMARKS.cone).points[:, 1].max()
-        run, fall = end_mm - start_mm, top_mm - self.instep[2]
-        over = np.array([fall, 0.0, run]) / np.hypot(run, fall)
-        faces = self._faces_of((x > start_mm) & (x < end_mm))
-        return tip(self.vertices_mm, faces, over, self.length_mm).place
+        faces = self._faces_of((x > start_mm) & (x < self.x_mm(LANDMARKS.cone_end)))
+        normals = [
+            np.array([np.sin(at), 0.0, np.cos(at)]) for at in (lean - turn, lean, lean + turn)
+        ]
+        before, over, after = (tip(self.vertices_mm, faces, n, self.length_mm) for n in normals)
+        change = (after.reach - before.reach) / (2.0 * np.sin(turn))
+        along = np.array([np.cos(lean), 0.0, -np.sin(lean)])
+        return np.asarray(over.reach * normals[1] + change * along + over.place * AXES[1])
 
     # ------------------------------------------------------------ where a tape lies
 
@@ -343,7 +365,8 @@ class Shape:
         """The section across X at a share of the length, or of the arc of a last's bottom."""
         if self.bottom_arc is not None:
             share = (self.bottom_arc.x_mm(share) - self.x_mm(0.0)) / self.length_mm
-        return Crown(self.across(share), self.x_mm(share))
+        crown_mm = LANDMARKS.crown * self.length_mm
+        return Crown(self.across(share), self.x_mm(share), crown_mm)
 
     # ------------------------------------------------------------ places and sections
 
@@ -351,15 +374,16 @@ class Shape:
         """Where a share of the length lies along X."""
         return float(-self.ends[0].reach + share * self.length_mm)
 
-    def across(self, share: float) -> Outline:
+    def across(self, share: float, settings: OutlineSettings = OUTLINES) -> Outline:
         """The section normal to X at a share of the length, as (y, z)."""
-        if share not in self._across:
-            self._across[share] = self.cut(np.array([self.x_mm(share), 0.0, 0.0]), AXES[1:])
-        return self._across[share]
+        if (share, settings) not in self._across:
+            origin = np.array([self.x_mm(share), 0.0, 0.0])
+            self._across[share, settings] = self.cut(origin, AXES[1:], settings)
+        return self._across[share, settings]
 
-    def cut(self, origin: Floats, axes: Floats) -> Outline:
+    def cut(self, origin: Floats, axes: Floats, settings: OutlineSettings = OUTLINES) -> Outline:
         """The section by the plane through ``origin`` (3,) along ``axes`` (2, 3)."""
-        return outline(self.vertices_mm, self.faces, origin, axes, self.length_mm)
+        return outline(self.vertices_mm, self.faces, origin, axes, self.length_mm, settings)
 
     def opened(self, section: Outline, below_mm: float = np.inf) -> bool:
         """Whether a section has a gap, below a height (mm) if one is given."""
@@ -371,7 +395,7 @@ class Shape:
         return top_mm > LANDMARKS.top_crossed * self.length_mm or self.opened(section)
 
     @cached_property
-    def _across(self) -> dict[float, Outline]:
+    def _across(self) -> dict[tuple[float, OutlineSettings], Outline]:
         return {}
 
     @cached_property

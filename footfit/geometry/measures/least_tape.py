@@ -14,7 +14,7 @@ from functools import cache
 import numpy as np
 
 from footfit.geometry.measures.landmarks import AXES, Shape
-from footfit.geometry.mesh.outlines import TAPE_OUTLINES, Outline, outline
+from footfit.geometry.mesh.outlines import TAPE_OUTLINES, Outline
 from footfit.geometry.mesh.surface import cross
 from footfit.geometry.numeric.arrays import Floats
 
@@ -72,8 +72,7 @@ class Tape:
 
     def section(self, shape: Shape) -> Outline:
         """The section in which the tape lies, with its corners."""
-        mesh = shape.vertices_mm, shape.faces
-        whole = outline(*mesh, self.origin, self.axes, shape.length_mm, TAPE_OUTLINES)
+        whole = shape.cut(self.origin, self.axes, TAPE_OUTLINES)
         near = tuple(loop for loop in whole.loops if loop[:, 0].mean() < self.reach_mm)
         return replace(whole, loops=near)
 

@@ -96,7 +96,7 @@ def tape_length(shape: Shape) -> MeasureValue:
     bottom = underside(shape, BOTTOM.whole, BOTTOM.middle_places)
     if bottom is None:
         return MeasureValue(None, "the sole is open along its middle")
-    curve = bottom.smooth(BOTTOM.bandwidth * shape.length_mm)
+    curve = bottom.smooth(BOTTOM.tape_bandwidth * shape.length_mm)
     run, rise = np.diff(curve.x_mm), np.diff(curve.z_mm)
     return MeasureValue(shape.length_mm + float((np.hypot(run, rise) - run).sum()))
 

@@ -8,6 +8,9 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from typing import NamedTuple
+
+import numpy as np
 
 from footfit.geometry.measures import girths, heights, lengths, widths
 from footfit.geometry.measures.landmarks import Shape
@@ -15,6 +18,42 @@ from footfit.geometry.measures.measure_value import MeasureValue
 from footfit.number_words import plain
 
 BOTH, LAST = ("foot", "last"), ("last",)
+HEELS_MM = (15.0, 45.0, 75.0, 105.0)
+"""The heels of lasts for which a trueness is stated; it is interpolated between them."""
+
+
+class Trueness(NamedTuple):
+    """How far a measure of a kind is from its definition, on shapes whose truth is known, in mm.
+
+    ``bias`` is the mean of the errors. ``sd`` (1,) of a foot, or (4,) of a last with a heel of
+    ``HEELS_MM``, is what they have on top of all else that is known of a value's uncertainty, with
+    the bias in it. ``python -m benchmarks.trueness --fit`` prints both.
+    """
+
+    bias: float
+    sd: tuple[float, ...]
+
+    def sd_at(self, heel_mm: float | None) -> float:
+        """The standard deviation at a heel; the largest one if the heel is not known.
+
+        Examples
+        --------
+        >>> known = Trueness(-0.3, (0.2, 0.4, 0.4, 0.9))
+        >>> known.sd_at(30.0), known.sd_at(120.0), known.sd_at(None)
+        (0.3, 0.9, 0.9)
+        """
+        if heel_mm is None or len(self.sd) == 1:
+            return max(self.sd)
+        return float(np.interp(heel_mm, HEELS_MM, self.sd))
+
+
+NO_VALUE = Trueness(0.0, (0.0,))
+"""Of a kind that does not have the measure."""
+
+
+def off(bias: float, *sd: float) -> Trueness:
+    """A trueness as the table has it."""
+    return Trueness(bias, sd)
 
 
 @dataclass(frozen=True, slots=True)
@@ -23,7 +62,8 @@ class MeasureDefinition:
 
     The docstring of ``value_of`` is the definition, and ``version`` counts its changes. ``sd`` is
     the repeatability of the whole way from a scan, in any pose, with noise or ripple of 0.3 mm, or
-    with a quarter of the faces (benchmarks/measures.py). ``usual_mm`` in mm, or ``usual_share``
+    with a quarter of the faces (benchmarks/measures.py). ``foot`` and ``last`` are the trueness of
+    each kind (benchmarks/trueness.py). ``usual_mm`` in mm, or ``usual_share``
     over the length, is the range of the feet of a survey's 6,068 people [ansur2].
     """
 
@@ -31,6 +71,8 @@ class MeasureDefinition:
     version: int
     sd: float
     kinds: tuple[str, ...] = BOTH
+    foot: Trueness = NO_VALUE
+    last: Trueness = NO_VALUE
     usual_mm: tuple[float, float] | None = None
     usual_share: tuple[float, float] | None = None
 
@@ -44,37 +86,142 @@ class MeasureDefinition:
         """The name with the version: what a stored value was measured by."""
         return f"{self.name}/{self.version}"
 
+    def trueness(self, kind: str) -> Trueness:
+        """What is known of the trueness of a "foot" or a "last"."""
+        return self.foot if kind == "foot" else self.last
+
 
 MEASURES: tuple[MeasureDefinition, ...] = (
-    MeasureDefinition(lengths.length, 2, 0.25, usual_mm=(200.0, 310.0)),
-    MeasureDefinition(lengths.functional_length, 1, 0.25),
-    MeasureDefinition(lengths.ball_length, 1, 0.45, usual_share=(0.66, 0.80)),
-    MeasureDefinition(widths.ball_width, 2, 0.3, usual_share=(0.31, 0.46)),
-    MeasureDefinition(widths.ball_width_orthogonal, 1, 0.25, usual_share=(0.31, 0.46)),
-    MeasureDefinition(girths.ball_girth, 1, 0.6, usual_share=(0.77, 1.10)),
-    MeasureDefinition(girths.waist_girth, 1, 0.35),
-    MeasureDefinition(girths.instep_girth, 1, 0.45),
-    MeasureDefinition(girths.long_heel_girth, 1, 0.4),
-    MeasureDefinition(girths.short_heel_girth, 1, 0.6, usual_share=(1.12, 1.47)),
-    MeasureDefinition(girths.ball_girth_least, 1, 0.6),
-    MeasureDefinition(girths.waist_girth_least, 1, 0.35),
-    MeasureDefinition(girths.instep_girth_least, 1, 0.4),
-    MeasureDefinition(girths.heel_girth_instep, 1, 0.6),
-    MeasureDefinition(widths.heel_width, 2, 0.2, usual_share=(0.19, 0.35)),
-    MeasureDefinition(heights.arch_height, 1, 0.2),
-    MeasureDefinition(heights.instep_height, 1, 0.3),
-    MeasureDefinition(heights.toe_height, 1, 0.3),
-    MeasureDefinition(heights.toe_spring, 3, 0.5),
-    MeasureDefinition(heights.heel_height, 3, 1.2),
-    MeasureDefinition(widths.bottom_width_ball, 1, 0.4, LAST),
-    MeasureDefinition(widths.bottom_width_heel, 1, 0.2, LAST),
-    MeasureDefinition(lengths.tape_length, 1, 0.25, LAST),
-    MeasureDefinition(lengths.stick_length, 1, 0.3, LAST),
-    MeasureDefinition(lengths.bottom_length, 2, 0.5, LAST),
-    MeasureDefinition(heights.toe_spring_tip, 1, 0.8, LAST),
-    MeasureDefinition(lengths.tread_from, 1, 2.0, LAST),
-    MeasureDefinition(lengths.tread_to, 1, 2.0, LAST),
-    MeasureDefinition(heights.seat_angle_deg, 1, 0.5, LAST),
+    MeasureDefinition(
+        lengths.length,
+        2,
+        0.25,
+        foot=off(-0.19, 0.28),
+        last=off(-0.20, 0.00, 0.17, 0.18, 0.50),
+        usual_mm=(200.0, 310.0),
+    ),
+    MeasureDefinition(
+        lengths.functional_length,
+        1,
+        0.25,
+        foot=off(-0.22, 0.35),
+        last=off(-0.23, 0.02, 0.22, 0.25, 0.48),
+    ),
+    MeasureDefinition(
+        lengths.ball_length,
+        1,
+        0.45,
+        foot=off(0.82, 0.91),
+        last=off(0.04, 1.55, 1.63, 2.20, 2.26),
+        usual_share=(0.66, 0.80),
+    ),
+    MeasureDefinition(
+        widths.ball_width,
+        2,
+        0.3,
+        foot=off(-0.19, 0.17),
+        last=off(0.03, 0.37, 0.36, 0.45, 0.68),
+        usual_share=(0.31, 0.46),
+    ),
+    MeasureDefinition(
+        widths.ball_width_orthogonal,
+        1,
+        0.25,
+        foot=off(-0.33, 0.33),
+        last=off(-0.32, 0.37, 0.30, 0.40, 0.44),
+        usual_share=(0.31, 0.46),
+    ),
+    MeasureDefinition(
+        girths.ball_girth,
+        1,
+        0.6,
+        foot=off(-0.58, 0.74),
+        last=off(0.50, 0.86, 1.04, 1.57, 1.54),
+        usual_share=(0.77, 1.10),
+    ),
+    MeasureDefinition(
+        girths.waist_girth, 1, 0.35, foot=off(-0.22, 0.14), last=off(-0.56, 0.39, 0.65, 0.75, 0.82)
+    ),
+    MeasureDefinition(
+        girths.instep_girth, 1, 0.45, foot=off(-0.08, 0.00), last=off(-0.44, 0.15, 0.63, 0.36, 0.57)
+    ),
+    MeasureDefinition(
+        girths.long_heel_girth,
+        1,
+        0.4,
+        foot=off(-0.16, 0.33),
+        last=off(-0.37, 0.90, 0.57, 0.39, 0.57),
+    ),
+    MeasureDefinition(
+        girths.short_heel_girth,
+        2,
+        0.6,
+        foot=off(-0.38, 0.00),
+        last=off(0.06, 1.18, 0.60, 0.45, 1.94),
+        usual_share=(1.12, 1.47),
+    ),
+    MeasureDefinition(
+        girths.ball_girth_least,
+        1,
+        0.6,
+        foot=off(-0.19, 0.36),
+        last=off(0.87, 1.04, 1.35, 1.85, 1.77),
+    ),
+    MeasureDefinition(
+        girths.waist_girth_least,
+        2,
+        0.35,
+        foot=off(0.16, 0.00),
+        last=off(-0.26, 0.63, 0.37, 0.65, 0.48),
+    ),
+    MeasureDefinition(
+        girths.instep_girth_least,
+        2,
+        0.4,
+        foot=off(0.14, 0.00),
+        last=off(-0.01, 0.38, 0.00, 0.00, 0.00),
+    ),
+    MeasureDefinition(
+        girths.heel_girth_instep,
+        2,
+        0.6,
+        foot=off(0.29, 0.33),
+        last=off(-0.46, 1.31, 1.61, 1.38, 1.31),
+    ),
+    MeasureDefinition(
+        widths.heel_width,
+        2,
+        0.2,
+        foot=off(-0.10, 0.21),
+        last=off(-0.04, 0.00, 0.00, 0.00, 0.00),
+        usual_share=(0.19, 0.35),
+    ),
+    MeasureDefinition(
+        heights.arch_height, 1, 0.2, foot=off(-0.44, 0.60), last=off(0.10, 0.81, 0.35, 0.24, 0.26)
+    ),
+    MeasureDefinition(
+        heights.instep_height, 1, 0.3, foot=off(-0.48, 0.61), last=off(0.06, 0.58, 0.18, 0.00, 0.20)
+    ),
+    MeasureDefinition(
+        heights.toe_height, 1, 0.3, foot=off(-0.15, 0.00), last=off(0.18, 0.14, 0.36, 0.66, 1.09)
+    ),
+    MeasureDefinition(
+        heights.toe_spring, 3, 0.3, foot=off(-0.22, 0.46), last=off(-0.22, 0.00, 0.56, 0.06, 0.32)
+    ),
+    MeasureDefinition(heights.heel_height, 3, 0.7, last=off(-0.29, 0.51, 0.64, 0.00, 0.00)),
+    MeasureDefinition(
+        widths.bottom_width_ball, 2, 0.5, LAST, last=off(0.17, 0.30, 0.00, 0.00, 0.00)
+    ),
+    MeasureDefinition(
+        widths.bottom_width_heel, 2, 0.2, LAST, last=off(-0.05, 0.11, 0.00, 0.00, 0.05)
+    ),
+    MeasureDefinition(lengths.tape_length, 2, 0.25, LAST, last=off(-0.32, 0.19, 0.40, 0.49, 0.71)),
+    MeasureDefinition(lengths.stick_length, 1, 0.3, LAST, last=off(-0.24, 0.26, 0.45, 0.76, 0.60)),
+    MeasureDefinition(lengths.bottom_length, 2, 0.5, LAST, last=off(0.18, 0.56, 0.07, 0.20, 0.59)),
+    MeasureDefinition(heights.toe_spring_tip, 1, 0.6, LAST, last=off(0.23, 0.28, 0.27, 0.70, 0.88)),
+    MeasureDefinition(lengths.tread_from, 1, 2.0, LAST, last=off(0.79, 0.00, 1.62, 0.00, 0.39)),
+    MeasureDefinition(lengths.tread_to, 1, 2.0, LAST, last=off(0.01, 3.88, 4.94, 1.56, 0.97)),
+    MeasureDefinition(heights.seat_angle_deg, 1, 0.5, LAST, last=off(0.07, 0.00, 0.49, 0.00, 0.00)),
 )
 
 

@@ -21,6 +21,7 @@ class BottomSettings:
     band: float = 0.10  # over the section's lowest point: the places are shares of its width
     reach: float = 0.30  # higher faces are not underside
     bandwidth: float = 0.03
+    tape_bandwidth: float = 0.018  # of a tape, which lies over a crisp break at the tread
     gap_rise: float = 0.01  # a section so much higher than those before and after is in a gap
     whole: tuple[float, float] = (0.04, 0.96)
     arch: tuple[float, float] = (0.28, 0.62)

@@ -9,7 +9,7 @@ import numpy as np
 
 from footfit.geometry.measures.landmarks import Shape
 from footfit.geometry.measures.measure_value import OPEN, UNSCANNED, MeasureValue, no_ball
-from footfit.geometry.mesh.outlines import Outline
+from footfit.geometry.mesh.outlines import OUTLINES, TAPE_OUTLINES, Outline, OutlineSettings
 
 
 @dataclass(frozen=True, slots=True)
@@ -21,6 +21,7 @@ class WidthSettings:
     ball: float = 0.66
     beside: tuple[float, ...] = (-0.015, 0.0, 0.015)  # sections that are averaged
     bottom_beside: tuple[float, ...] = (-0.03, -0.015, 0.0, 0.015, 0.03)
+    feather_turn_deg: float = 15.0  # how far the line that touches the feather edge is turned
     height: float = 0.15  # over each section's lowest point; above it ankles may stand out
 
 
@@ -59,16 +60,20 @@ def bottom_width_heel(shape: Shape) -> MeasureValue:
 
 def _bottom_width(shape: Shape, share: float, place: str) -> MeasureValue:
     shares = [share + by for by in WIDTHS.bottom_beside]
-    return _mean_width(shape, shares, place, _feather_width)
+    return _mean_width(shape, shares, place, _feather_width, TAPE_OUTLINES)
 
 
 def _mean_width(
-    shape: Shape, shares: Sequence[float], place: str, width: Callable[[Outline, float], float]
+    shape: Shape,
+    shares: Sequence[float],
+    place: str,
+    width: Callable[[Outline, float], float],
+    outlines: OutlineSettings = OUTLINES,
 ) -> MeasureValue:
     """The mean width of the sections at some shares of the length."""
     widths = []
     for share in shares:
-        section = shape.across(share)
+        section = shape.across(share, outlines)
         below_mm = section.points[:, 1].min(initial=np.inf) + WIDTHS.height * shape.length_mm
         if shape.opened(section, below_mm):
             return MeasureValue(None, OPEN.format(place=place))
@@ -87,20 +92,17 @@ def _lower_width(section: Outline, length_mm: float) -> float:
 
 def _feather_width(section: Outline, length_mm: float) -> float:  # noqa: ARG001
     """Between the two points of a section that lines of 45 degrees touch from below."""
-    return _touched(section, 1.0) - _touched(section, -1.0)
+    return _touched(section, 1.0) + _touched(section, -1.0)
 
 
 def _touched(section: Outline, side: float) -> float:
-    """Where across a section a line of 45 degrees touches it from below, on one side.
+    """How far across a section a line of 45 degrees touches it from below, on one side.
 
-    Between the outline's points, by the parabola through the outermost and its neighbours.
+    A line with the normal n is at the distance h. As it turns, h changes by h' and n by n': it
+    touches at h n + h' n'. Distances are steadier than the points of an edge.
     """
-    out = [side * loop[:, 0] - loop[:, 1] for loop in section.loops]
-    index = int(np.argmax([values.max() for values in out]))
-    values, across = out[index], section.loops[index][:, 0]
-    at = int(np.argmax(values))
-    before, top, after = values[at - 1], values[at], values[(at + 1) % len(values)]
-    bend = before - 2.0 * top + after
-    shift = 0.5 * (before - after) / bend if bend < 0.0 else 0.0
-    beside = across[(at + 1) % len(values)] if shift > 0.0 else across[at - 1]
-    return float(across[at] + abs(shift) * (beside - across[at]))
+    angles = np.radians(45.0 + WIDTHS.feather_turn_deg * np.array([-1.0, 0.0, 1.0]))
+    directions = np.stack([side * np.cos(angles), -np.sin(angles)])
+    before, reach, after = (section.points @ directions).max(axis=0)
+    change = (after - before) / (2.0 * np.sin(np.radians(WIDTHS.feather_turn_deg)))
+    return float((reach - change) * np.sqrt(0.5))

@@ -59,6 +59,8 @@ class StanceSettings:
 
 
 STANCE = StanceSettings()
+SEAT_TO_TREAD = 0.62
+"""From the seat to where the ground touches the tread, over the length, about."""
 LINE_SD_MM = 0.5
 """How far a line that is drawn on from the bottom may pass the end that it is drawn to."""
 
@@ -140,6 +142,13 @@ class Stance:
         """
         across = (z_mm - self.touching_mm[1]) * np.cos(self.ground)
         return float(across - (x_mm - self.touching_mm[0]) * np.sin(self.ground))
+
+    def shape_heel_mm(self, length_mm: float) -> float | None:
+        """About how high the heel of a last of that length stands, by its shape whatever a label
+        says. None of a foot.
+        """
+        shape = next((cue for cue in self.cues if cue.name == "shape"), None)
+        return None if shape is None else SEAT_TO_TREAD * length_mm * float(np.sin(shape.ground))
 
     def stretch_mm(self, window: tuple[float, float]) -> Floats:
         """The points (k, 2) of the middle line between two shares of the standing length."""

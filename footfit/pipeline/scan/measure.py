@@ -92,7 +92,11 @@ def shape_measures(shape: Shape, info: MeshInfo | None = None) -> tuple[Measure,
     """
     kind = shape.kind
     return tuple(
-        Measure(entry.name, measured(entry, entry.value_of(shape), kind, info), entry.definition_id)
+        Measure(
+            entry.name,
+            measured(entry, entry.value_of(shape), kind, shape.shape_heel_mm, info),
+            entry.definition_id,
+        )
         for entry in measure_table.of_kind(kind)
     )
 

@@ -115,7 +115,7 @@ def prepared_scan(
         side=verdict,
         pose=frame.quality,
         canonical_transform=transform(frame.rotation, factor * frame.shift, info.unit_scale),
-        length=_length(frame, factor, info),
+        length=_length(frame, factor, shape, info),
         extent_mm=factor * frame.extent,
         stance=last_stance(shape),
         standing_transform=shape.standing_transform,
@@ -279,12 +279,12 @@ def _verdict(frame: _Frame, side: str, *, forced: bool) -> SideVerdict:
 # ---------------------------------------------------------------- notices
 
 
-def _length(frame: _Frame, factor: float, info: MeshInfo) -> Measured:
+def _length(frame: _Frame, factor: float, shape: Shape, info: MeshInfo) -> Measured:
     """The measured length; what was not scanned is not known."""
     if frame.open_end is not None:
         return Measured(None, reason=_OPEN_END.format(end=frame.open_end))
     value = MeasureValue(factor * frame.length)
-    return measured(measure_named("length"), value, frame.quality.kind, info)
+    return measured(measure_named("length"), value, shape.kind, shape.shape_heel_mm, info)
 
 
 def _notices(

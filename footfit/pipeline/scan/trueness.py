@@ -8,7 +8,6 @@ are standard deviations in mm, and independent of each other, so their squares a
 from __future__ import annotations
 
 import math
-from typing import NamedTuple
 
 from footfit.errors import BadOption
 from footfit.geometry.measures.measure_table import MeasureDefinition
@@ -22,79 +21,19 @@ SCANNER_SD_MM = {  # lengths, widths and heights, girths
     "photos": {"length": 6.0, "width": 4.0, "height": 4.0, "girth": 8.0},
 }
 """What is assumed of a kind of scanner; no source gives heights, which get what widths have."""
+OPEN_SHARE = 0.7
+"""Of the standard deviation of what a shape leaves open: what was measured on two families of lasts
+is that much of what the stance states for lasts of all kinds (decision 0200)."""
 STEP_SHARE = {"length": 0.45, "width": 0.45, "height": 0.45, "girth": 0.65}
 """The standard deviation by the step of a file's coordinates, over the step (decision 0184)."""
 
 
-class Trueness(NamedTuple):
-    """How far a measure is from its definition on shapes whose truth is known, in mm.
-
-    ``sd`` is the root mean square of the errors, with the ``bias`` in it but without what is
-    repeatability; ``bias`` is their mean. See ``benchmarks/trueness.py``.
-    """
-
-    sd: float
-    bias: float
-
-
-TRUENESS: dict[str, dict[str, Trueness]] = {
-    "last": {
-        "length": Trueness(0.35, -0.27),
-        "functional_length": Trueness(0.38, -0.30),
-        "ball_length": Trueness(0.75, 0.24),
-        "ball_width": Trueness(0.42, -0.34),
-        "ball_width_orthogonal": Trueness(0.27, -0.32),
-        "ball_girth": Trueness(0.94, -0.71),
-        "waist_girth": Trueness(0.25, -0.25),
-        "instep_girth": Trueness(0.40, -0.43),
-        "long_heel_girth": Trueness(0.61, -0.43),
-        "short_heel_girth": Trueness(4.11, -1.34),
-        "ball_girth_least": Trueness(0.90, -0.17),
-        "waist_girth_least": Trueness(0.79, 0.30),
-        "instep_girth_least": Trueness(0.22, 0.07),
-        "heel_girth_instep": Trueness(1.77, 0.20),
-        "heel_width": Trueness(0.00, -0.06),
-        "arch_height": Trueness(0.39, 0.10),
-        "instep_height": Trueness(0.33, 0.06),
-        "toe_height": Trueness(0.53, 0.27),
-        "toe_spring": Trueness(0.00, -0.56),
-        "heel_height": Trueness(0.00, -0.24),
-        "bottom_width_ball": Trueness(1.77, 1.28),
-        "bottom_width_heel": Trueness(0.35, -0.32),
-        "tape_length": Trueness(0.85, -0.64),
-        "stick_length": Trueness(0.35, -0.17),
-        "toe_spring_tip": Trueness(0.30, 0.46),
-        "tread_from": Trueness(0.00, 1.03),
-        "tread_to": Trueness(0.00, -0.48),
-        "seat_angle_deg": Trueness(0.00, 0.01),
-    },
-    "foot": {
-        "length": Trueness(0.21, -0.26),
-        "functional_length": Trueness(0.22, -0.24),
-        "ball_length": Trueness(0.78, 0.80),
-        "ball_width": Trueness(0.27, -0.16),
-        "ball_width_orthogonal": Trueness(0.28, -0.31),
-        "ball_girth": Trueness(0.75, -0.57),
-        "waist_girth": Trueness(0.04, -0.22),
-        "instep_girth": Trueness(0.24, -0.29),
-        "long_heel_girth": Trueness(0.40, -0.05),
-        "short_heel_girth": Trueness(0.00, -0.35),
-        "ball_girth_least": Trueness(0.53, -0.15),
-        "waist_girth_least": Trueness(0.00, 0.07),
-        "instep_girth_least": Trueness(0.00, 0.02),
-        "heel_girth_instep": Trueness(0.48, 0.45),
-        "heel_width": Trueness(0.00, -0.11),
-        "arch_height": Trueness(0.62, -0.49),
-        "instep_height": Trueness(0.67, -0.60),
-        "toe_height": Trueness(0.00, -0.15),
-        "toe_spring": Trueness(0.00, -0.18),
-    },
-}
-"""By kind and measure; the table of docs/measures.md shows the families it comes from."""
-
-
 def measured(
-    entry: MeasureDefinition, taken: MeasureValue, kind: str, info: MeshInfo | None = None
+    entry: MeasureDefinition,
+    taken: MeasureValue,
+    kind: str,
+    heel_mm: float | None,
+    info: MeshInfo | None = None,
 ) -> Measured:
     """A value with its uncertainties, as a result.
 
@@ -103,15 +42,16 @@ def measured(
     entry : MeasureDefinition
     taken : MeasureValue
     kind : {"foot", "last"}
+    heel_mm : float or None
+        How high the heel of a last stands by its shape: the trueness depends on it.
     info : MeshInfo, optional
         What is known of the scan.
     """
     if taken.value is None:
         return Measured(None, reason=taken.reason)
-    trueness = TRUENESS[kind].get(entry.name)
-    if trueness is None:
-        return Measured(taken.value, entry.sd)
-    parts = (entry.sd, trueness.sd, taken.convention_sd, scan_sd_mm(entry.name, info))
+    trueness = entry.trueness(kind)
+    open_sd = OPEN_SHARE * taken.convention_sd
+    parts = (entry.sd, trueness.sd_at(heel_mm), open_sd, scan_sd_mm(entry.name, info))
     total_sd = math.hypot(*parts)
     return Measured(taken.value, entry.sd, None, total_sd, trueness.bias)
 
