@@ -176,14 +176,19 @@ def _parts(count: int) -> np.ndarray:
 
 
 def outermost(shape: Drafted, side: float, window: tuple[float, float], along=None, over=None):
-    """The outermost vertex (3,) of one side between two shares; None at the end of its window."""
+    """The outermost place (3,) of one side between two shares; None at the end of its window.
+
+    It is a vertex of a last's fine mesh. The triangles of a foot are too large for that.
+    """
     points = shape.vertices_mm
     along = (points[:, 0] - shape.ends_mm[0]) / shape.length_mm if along is None else along
     over = points[:, 2] / shape.length_mm if over is None else over
     near = (along > window[0]) & (along < window[1]) & (over < 0.20)
     best = np.argmax(np.where(near, side * points[:, 1], -np.inf))
     inside = window[0] + 0.008 < along[best] < window[1] - 0.008
-    return points[best] if inside else None
+    if not inside:
+        return None
+    return points[best] if shape.kind == "last" else middle_of_cap(shape, side * ACROSS, near)
 
 
 def true_measures(shape: Drafted) -> dict[str, float]:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from footfit.geometry.measures.heel_girths import angle_to_deg, around_heel, shortest_around_heel
-from footfit.geometry.measures.landmarks import LANDMARKS, Crown, Shape
+from footfit.geometry.measures.landmarks import LANDMARKS, Shape
 from footfit.geometry.measures.least_tape import heel_tape, tape_about, tape_over
 from footfit.geometry.measures.measure_value import (
     BLOCKED,
@@ -14,7 +14,7 @@ from footfit.geometry.measures.measure_value import (
     no_ball,
     section_value,
 )
-from footfit.geometry.measures.tape import hull_girth
+from footfit.geometry.measures.tape import Crown, hull_girth
 
 
 def ball_girth(shape: Shape) -> MeasureValue:

@@ -7,7 +7,6 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cached_property
-from typing import NamedTuple
 
 import numpy as np
 
@@ -16,7 +15,7 @@ from footfit.geometry.flare.flattened import Flattened, flattened
 from footfit.geometry.flare.leaning_shank import heel_end
 from footfit.geometry.flare.levelled_bottom import low_length
 from footfit.geometry.measures.bottom_arc import BottomArc, bottom_arc
-from footfit.geometry.measures.tape import convex_hull, depth_under_hull
+from footfit.geometry.measures.tape import Crown, convex_hull, depth_under_hull
 from footfit.geometry.measures.top_cut import top_cut_faces
 from footfit.geometry.mesh.filled_holes import filled_faces
 from footfit.geometry.mesh.outermost_point import Tip, tip
@@ -53,22 +52,6 @@ class LandmarkSettings:
 
 
 LANDMARKS = LandmarkSettings()
-
-
-class Crown(NamedTuple):
-    """The section (y, z) across the shape at ``x_mm``; its highest place is where a tape lies."""
-
-    section: Outline
-    x_mm: float
-    deep_mm: float
-
-    @property
-    def place(self) -> Floats:
-        """The highest place, (3,); on a flat top it is the middle of what is highest."""
-        y, z = self.section.points.T
-        top_mm = z.max()
-        weight = np.maximum(z - (top_mm - self.deep_mm), 0.0)
-        return np.array([self.x_mm, float(y @ weight / weight.sum()), top_mm])
 
 
 @dataclass(frozen=True)

@@ -2,9 +2,28 @@
 
 from __future__ import annotations
 
+from typing import NamedTuple
+
 import numpy as np
 
+from footfit.geometry.mesh.outlines import Outline
 from footfit.geometry.numeric.arrays import Floats
+
+
+class Crown(NamedTuple):
+    """The section (y, z) across the shape at ``x_mm``; its highest place is where a tape lies."""
+
+    section: Outline
+    x_mm: float
+    deep_mm: float
+
+    @property
+    def place(self) -> Floats:
+        """The highest place, (3,); on a flat top it is the middle of what is highest."""
+        y, z = self.section.points.T
+        top_mm = z.max()
+        weight = np.maximum(z - (top_mm - self.deep_mm), 0.0)
+        return np.array([self.x_mm, float(y @ weight / weight.sum()), top_mm])
 
 
 def convex_hull(points: Floats) -> Floats:
