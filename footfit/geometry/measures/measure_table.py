@@ -96,131 +96,131 @@ MEASURES: tuple[MeasureDefinition, ...] = (
         lengths.length,
         2,
         0.25,
-        foot=off(-0.19, 0.28),
-        last=off(-0.20, 0.00, 0.17, 0.18, 0.50),
+        foot=off(-0.23, 0.31),
+        last=off(-0.20, 0.00, 0.17, 0.18, 0.41),
         usual_mm=(200.0, 310.0),
     ),
     MeasureDefinition(
         lengths.functional_length,
         1,
         0.25,
-        foot=off(-0.22, 0.35),
-        last=off(-0.23, 0.02, 0.22, 0.25, 0.48),
+        foot=off(-0.27, 0.32),
+        last=off(-0.23, 0.01, 0.23, 0.25, 0.47),
     ),
     MeasureDefinition(
         lengths.ball_length,
         1,
         0.45,
-        foot=off(0.82, 0.91),
-        last=off(0.04, 1.55, 1.63, 2.20, 2.26),
+        foot=off(0.79, 0.82),
+        last=off(0.02, 1.50, 1.59, 2.20, 2.26),
         usual_share=(0.66, 0.80),
     ),
     MeasureDefinition(
         widths.ball_width,
         2,
         0.3,
-        foot=off(-0.19, 0.17),
-        last=off(0.03, 0.37, 0.36, 0.45, 0.68),
+        foot=off(-0.25, 0.26),
+        last=off(0.03, 0.35, 0.35, 0.44, 0.68),
         usual_share=(0.31, 0.46),
     ),
     MeasureDefinition(
         widths.ball_width_orthogonal,
         1,
         0.25,
-        foot=off(-0.33, 0.33),
-        last=off(-0.32, 0.37, 0.30, 0.40, 0.44),
+        foot=off(-0.42, 0.43),
+        last=off(-0.33, 0.36, 0.30, 0.40, 0.45),
         usual_share=(0.31, 0.46),
     ),
     MeasureDefinition(
         girths.ball_girth,
         1,
         0.6,
-        foot=off(-0.58, 0.74),
-        last=off(0.50, 0.86, 1.04, 1.57, 1.54),
+        foot=off(-0.45, 0.54),
+        last=off(0.49, 0.83, 1.04, 1.55, 1.54),
         usual_share=(0.77, 1.10),
     ),
     MeasureDefinition(
-        girths.waist_girth, 1, 0.35, foot=off(-0.22, 0.14), last=off(-0.56, 0.39, 0.65, 0.75, 0.82)
+        girths.waist_girth, 1, 0.35, foot=off(-0.19, 0.21), last=off(-0.56, 0.37, 0.65, 0.76, 0.82)
     ),
     MeasureDefinition(
-        girths.instep_girth, 1, 0.45, foot=off(-0.08, 0.00), last=off(-0.44, 0.15, 0.63, 0.36, 0.57)
+        girths.instep_girth, 1, 0.45, foot=off(-0.14, 0.18), last=off(-0.43, 0.12, 0.63, 0.39, 0.57)
     ),
     MeasureDefinition(
         girths.long_heel_girth,
         1,
         0.4,
-        foot=off(-0.16, 0.33),
-        last=off(-0.37, 0.90, 0.57, 0.39, 0.57),
+        foot=off(-0.25, 0.46),
+        last=off(-0.38, 0.91, 0.55, 0.39, 0.57),
     ),
     MeasureDefinition(
         girths.short_heel_girth,
         2,
         0.6,
-        foot=off(-0.38, 0.00),
-        last=off(0.06, 1.18, 0.60, 0.45, 1.94),
+        foot=off(-0.35, 0.00),
+        last=off(0.07, 1.18, 0.60, 0.60, 1.94),
         usual_share=(1.12, 1.47),
     ),
     MeasureDefinition(
         girths.ball_girth_least,
         1,
         0.6,
-        foot=off(-0.19, 0.36),
-        last=off(0.87, 1.04, 1.35, 1.85, 1.77),
+        foot=off(-0.03, 0.00),
+        last=off(0.88, 1.00, 1.35, 1.80, 1.81),
     ),
     MeasureDefinition(
         girths.waist_girth_least,
         2,
         0.35,
-        foot=off(0.16, 0.00),
-        last=off(-0.26, 0.63, 0.37, 0.65, 0.48),
+        foot=off(0.11, 0.00),
+        last=off(-0.26, 0.61, 0.37, 0.64, 0.47),
     ),
     MeasureDefinition(
         girths.instep_girth_least,
         2,
         0.4,
-        foot=off(0.14, 0.00),
-        last=off(-0.01, 0.38, 0.00, 0.00, 0.00),
+        foot=off(0.17, 0.18),
+        last=off(-0.01, 0.35, 0.00, 0.00, 0.00),
     ),
     MeasureDefinition(
         girths.heel_girth_instep,
         2,
         0.6,
-        foot=off(0.29, 0.33),
-        last=off(-0.46, 1.31, 1.61, 1.38, 1.31),
+        foot=off(0.27, 0.23),
+        last=off(-0.47, 1.30, 1.66, 1.33, 1.31),
     ),
     MeasureDefinition(
         widths.heel_width,
         2,
         0.2,
-        foot=off(-0.10, 0.21),
+        foot=off(-0.08, 0.07),
         last=off(-0.04, 0.00, 0.00, 0.00, 0.00),
         usual_share=(0.19, 0.35),
     ),
     MeasureDefinition(
-        heights.arch_height, 1, 0.2, foot=off(-0.44, 0.60), last=off(0.10, 0.81, 0.35, 0.24, 0.26)
+        heights.arch_height, 1, 0.2, foot=off(-0.46, 0.59), last=off(0.11, 0.80, 0.33, 0.24, 0.26)
     ),
     MeasureDefinition(
-        heights.instep_height, 1, 0.3, foot=off(-0.48, 0.61), last=off(0.06, 0.58, 0.18, 0.00, 0.20)
+        heights.instep_height, 1, 0.3, foot=off(-0.45, 0.67), last=off(0.06, 0.58, 0.18, 0.00, 0.20)
     ),
     MeasureDefinition(
-        heights.toe_height, 1, 0.3, foot=off(-0.15, 0.00), last=off(0.18, 0.14, 0.36, 0.66, 1.09)
+        heights.toe_height, 1, 0.3, foot=off(-0.11, 0.00), last=off(0.18, 0.13, 0.35, 0.53, 1.12)
     ),
     MeasureDefinition(
-        heights.toe_spring, 3, 0.3, foot=off(-0.22, 0.46), last=off(-0.22, 0.00, 0.56, 0.06, 0.32)
+        heights.toe_spring, 3, 0.3, foot=off(-0.23, 0.45), last=off(-0.23, 0.00, 0.56, 0.00, 0.39)
     ),
-    MeasureDefinition(heights.heel_height, 3, 0.7, last=off(-0.29, 0.51, 0.64, 0.00, 0.00)),
+    MeasureDefinition(heights.heel_height, 3, 0.7, last=off(-0.27, 0.42, 0.63, 0.00, 0.00)),
     MeasureDefinition(
-        widths.bottom_width_ball, 2, 0.5, LAST, last=off(0.17, 0.30, 0.00, 0.00, 0.00)
+        widths.bottom_width_ball, 2, 0.5, LAST, last=off(0.17, 0.26, 0.00, 0.00, 0.00)
     ),
     MeasureDefinition(
-        widths.bottom_width_heel, 2, 0.2, LAST, last=off(-0.05, 0.11, 0.00, 0.00, 0.05)
+        widths.bottom_width_heel, 2, 0.2, LAST, last=off(-0.05, 0.10, 0.00, 0.00, 0.02)
     ),
-    MeasureDefinition(lengths.tape_length, 2, 0.25, LAST, last=off(-0.32, 0.19, 0.40, 0.49, 0.71)),
-    MeasureDefinition(lengths.stick_length, 1, 0.3, LAST, last=off(-0.24, 0.26, 0.45, 0.76, 0.60)),
-    MeasureDefinition(lengths.bottom_length, 2, 0.5, LAST, last=off(0.18, 0.56, 0.07, 0.20, 0.59)),
-    MeasureDefinition(heights.toe_spring_tip, 1, 0.6, LAST, last=off(0.23, 0.28, 0.27, 0.70, 0.88)),
-    MeasureDefinition(lengths.tread_from, 1, 2.0, LAST, last=off(0.79, 0.00, 1.62, 0.00, 0.39)),
-    MeasureDefinition(lengths.tread_to, 1, 2.0, LAST, last=off(0.01, 3.88, 4.94, 1.56, 0.97)),
+    MeasureDefinition(lengths.tape_length, 2, 0.25, LAST, last=off(-0.33, 0.19, 0.51, 0.49, 0.71)),
+    MeasureDefinition(lengths.stick_length, 1, 0.3, LAST, last=off(-0.24, 0.25, 0.45, 0.76, 0.63)),
+    MeasureDefinition(lengths.bottom_length, 2, 0.5, LAST, last=off(0.18, 0.37, 0.00, 0.20, 0.58)),
+    MeasureDefinition(heights.toe_spring_tip, 1, 0.6, LAST, last=off(0.22, 0.23, 0.27, 0.70, 0.89)),
+    MeasureDefinition(lengths.tread_from, 1, 2.0, LAST, last=off(0.77, 0.00, 1.67, 0.00, 0.57)),
+    MeasureDefinition(lengths.tread_to, 1, 2.0, LAST, last=off(0.03, 3.91, 4.80, 1.53, 1.31)),
     MeasureDefinition(heights.seat_angle_deg, 1, 0.5, LAST, last=off(0.07, 0.00, 0.49, 0.00, 0.00)),
 )
 
