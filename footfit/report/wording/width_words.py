@@ -52,20 +52,26 @@ def shares_words(width: FootWidth) -> str:
     --------
     >>> known = WidthShare("women", 83.2, 4.0), WidthShare("men", 24.0, 4.0)
     >>> shares_words(FootWidth((), known))
-    'wider than about 80 % of women and narrower than about 80 % of men with feet this long'
+    'wider than about 80 % of women, narrower than about 80 % of men with feet this long'
+    >>> shares_words(FootWidth((), (known[1], WidthShare("men", 7.0, 4.0))))
+    'narrower than about 80 % of men, 90 % of men with feet this long'
     """
-    known = [share for share in width.shares if share.percent is not None]
     reasons = dict.fromkeys(share.reason or "" for share in width.shares if share.percent is None)
-    words = " and ".join(_than(share) for share in known)
-    return "; ".join([f"{words} with feet this long"] * bool(known) + list(reasons))
+    words, before = "", ""
+    for share in width.shares:
+        if share.percent is not None:
+            way, rest = _than(share)
+            words += (", " if words else "") + (rest if way == before else f"{way} about {rest}")
+            before = way
+    return "; ".join([f"{words} with feet this long"] * bool(words) + list(reasons))
 
 
-def _than(share: WidthShare) -> str:
-    """A known share in words, without its class."""
+def _than(share: WidthShare) -> tuple[str, str]:
+    """A known share: "wider than" or "narrower than", and of how many."""
     least = about_percent(share.percent or 0.0)
     if least < 50.0:
-        return f"narrower than about {100.0 - least:g} % of {share.people}"
-    return f"wider than about {least:g} % of {share.people}"
+        return "narrower than", f"{100.0 - least:g} % of {share.people}"
+    return "wider than", f"{least:g} % of {share.people}"
 
 
 def share_words(share: WidthShare) -> str:
@@ -82,7 +88,7 @@ def share_words(share: WidthShare) -> str:
     """
     if share.percent is None:
         return f"not compared: {share.reason}"
-    return f"{width_class(share.percent)}: {_than(share)} with feet this long"
+    return f"{width_class(share.percent)}: {' about '.join(_than(share))} with feet this long"
 
 
 def about_percent(percent: float) -> float:
