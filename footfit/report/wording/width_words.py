@@ -53,8 +53,8 @@ def shares_words(width: FootWidth) -> str:
     >>> known = WidthShare("women", 83.2, 4.0), WidthShare("men", 24.0, 4.0)
     >>> shares_words(FootWidth((), known))
     'wider than about 80 % of women, narrower than about 80 % of men with feet this long'
-    >>> shares_words(FootWidth((), (known[1], WidthShare("men", 7.0, 4.0))))
-    'narrower than about 80 % of men, 90 % of men with feet this long'
+    >>> shares_words(FootWidth((), (WidthShare("women", 24.0, 4.0), WidthShare("men", 7.0, 4.0))))
+    'narrower than about 80 % of women, 90 % of men with feet this long'
     """
     reasons = dict.fromkeys(share.reason or "" for share in width.shares if share.percent is None)
     words, before = "", ""
