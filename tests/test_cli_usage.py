@@ -172,6 +172,17 @@ def test_compare_names_the_bad_one_of_two_files(
     assert json.loads(run.last_error)["path"] == str(bad)
 
 
+@pytest.mark.parametrize("last", ["none.stl", "lasts/none"])
+def test_a_missing_file_of_a_last_is_named(
+    last: str, footfit: Footfit, foot: Path, stocked: Path
+) -> None:
+    run = footfit("compare", foot, last, "--catalogue", stocked, "--json")
+    error = json.loads(run.last_error)
+    assert (error["code"], error["path"]) == ("unreadable_file", last)
+    bare = footfit("compare", foot, "none", "--catalogue", stocked, "--json")
+    assert json.loads(bare.last_error)["code"] == "unknown_last"
+
+
 def test_the_numbers_behind_a_refusal_come_with_verbose(footfit: Footfit, tmp_path: Path) -> None:
     cube = tmp_path / "cube.stl"
     cube.write_bytes(corpus.stl())

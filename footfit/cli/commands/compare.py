@@ -44,9 +44,10 @@ def compare(
     from footfit.cli.answers import answer_result, say_hidden_lasts, sources_of
     from footfit.cli.outputs import OutputFile, Outputs
     from footfit.cli.progress import progress
-    from footfit.errors import BadOption
+    from footfit.errors import BadOption, NoCatalogue, UnknownLast, UnreadableFile
     from footfit.pipeline.batch.sources import Source
     from footfit.pipeline.export import PICTURE_KINDS
+    from footfit.pipeline.library.named_lasts import is_bare
     from footfit.report.pictures.heat_figure import HEAT_KINDS
     from footfit.results import Comparison
 
@@ -70,5 +71,10 @@ def compare(
         if is_file:
             comparison = scans.compare(sources[0], last, **asked)
         else:
-            comparison = lasts.open().compare(sources[0], last, **asked)
+            try:
+                comparison = lasts.open().compare(sources[0], last, **asked)
+            except (UnknownLast, NoCatalogue) as error:
+                if is_bare(last):
+                    raise
+                raise UnreadableFile("there is no such file: check the path", last) from error
     answer_result(comparison, mode, outputs)
