@@ -110,6 +110,15 @@ def test_a_mistyped_name_in_any_case_gets_the_nearest(catalogue_of_names: Catalo
         catalogue_of_names.record("DERBI-40")
 
 
+def test_labels_are_compared_in_any_case_and_form(catalogue_of_names: Catalogue) -> None:
+    catalogue_of_names.add(records.last("labelled", 9, style=NFC, size="42 2/3"))
+    for style in (NFC, NFD, NFD.upper()):
+        for size in ("42 2/3", "42⅔", None):
+            chosen = catalogue_of_names.lasts(style=style, size=size).records
+            assert [record.labels.name for record in chosen] == ["labelled"]
+    assert catalogue_of_names.lasts(style=NFC, size="42").records == ()
+
+
 # ---------------------------------------------------------------- the command line
 
 SCANS = [SAMPLES / "lasts" / f"derby-{size}.stl" for size in (38, 39)]

@@ -8,6 +8,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 
 from footfit.catalogue.rows.array_blobs import definition_text
+from footfit.catalogue.rows.last_names import caseless
 from footfit.catalogue.rows.records import record_of
 from footfit.catalogue.rows.verified_rows import last_names, stored_lasts
 from footfit.geometry.fit.sizes import label_number
@@ -68,4 +69,4 @@ def _same(name: str, label: str, wanted: str) -> bool:
     """Whether two labels say the same; "42.5" and "42,5" are one size."""
     if name == "size" and label_number(label) is not None:
         return label_number(label) == label_number(wanted)
-    return label.strip().casefold() == wanted.strip().casefold()
+    return caseless(label.strip()) == caseless(wanted.strip())
