@@ -17,12 +17,14 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from footfit import __version__
+from footfit.geometry.fit.clearance import ZoneClearance
 from footfit.geometry.fit.sizes import foot_size, foot_sizes, system_named
 from footfit.geometry.flare.definition import FlareProfile
 from footfit.pipeline.fit.zones import ZONES
 from footfit.results import (
     Candidate,
     Comparison,
+    FootFit,
     HeelChange,
     Match,
     Measured,
@@ -177,7 +179,7 @@ def match_facts(match: Match, comparisons: Sequence[Comparison] = ()) -> Iterato
     if len(match.feet) > 1 and not any("differ" in known.code for known in match.warnings):
         lengths = [foot.length_mm for foot in match.feet]
         yield fact(f"{SAID} pair", plain(abs(lengths[0] - lengths[1])), PAGE)
-    yield from best_facts(match)
+    yield from best_facts(match, comparisons)
     shown = match.candidates or match.nearest
     judged = any(candidate.verdict for candidate in shown)
     for candidate in shown:
@@ -188,6 +190,7 @@ def match_facts(match: Match, comparisons: Sequence[Comparison] = ()) -> Iterato
             yield from match_csv_facts(match, candidate, number, foot)
         if not match.candidates:
             yield from empty_csv_facts(match, number, foot)
+    yield from judged_facts(files, shown, comparisons)
     names = [candidate.last for candidate in shown[:3]]
     for name in files:
         yield fact(f"{SAID} under the flare of {name}", [name, *names], PAGE)
@@ -200,6 +203,75 @@ def match_facts(match: Match, comparisons: Sequence[Comparison] = ()) -> Iterato
         yield fact(f"{SAID} under the sections", known, PAGE)
     if comparisons:
         yield fact(f"{SAID} room in", comparisons[0].last.labels.name, PAGE)
+        yield fact(f"{SAID} usual red", ["2", "4"], PAGE)
+
+
+def judged_facts(
+    files: Sequence[str], shown: Sequence[Candidate], comparisons: Sequence[Comparison]
+) -> Iterator[Fact]:
+    """What is said of the zones beside their numbers, and of a surface that is far too tight."""
+    judged = [candidate for candidate in shown if candidate.fits]
+    if shown and shown[0].fits:
+        yield fact(f"{SAID} judged in", shown[0].last, PAGE)
+        for file, _ in zip(files, shown[0].fits, strict=False):
+            yield fact(f"{SAID} under the judged zones", [file, shown[0].last], PAGE)
+    lacking: dict[tuple[str, tuple[str, ...]], list[str]] = {}
+    for candidate in judged:
+        reasons: dict[str, dict[str, None]] = {}
+        for zone in (zone for fit in candidate.fits for zone in fit.zones):
+            if zone.clearance.value is None:
+                names = reasons.setdefault(zone.clearance.reason or "not measured", {})
+                names[zone_name(zone)] = None
+        for reason, known in reasons.items():
+            lacking.setdefault((reason, tuple(known)), []).append(candidate.last)
+    for (reason, names), lasts in lacking.items():
+        yield fact(f"{SAID} not judged", [*lasts, *names, reason], PAGE)
+    for comparison in comparisons:
+        side = comparison.foot.aligned.alignment.side.side
+        fits = shown[0].fits if shown else ()
+        zones = next((fit.zones for fit in fits if fit.side == side), ())
+        for surface in comparison.zones:
+            if surface.pressed_cm2 > 20.0:
+                yield fact(f"{SAID} pressed", _pressed(surface, side, zones), PAGE)
+
+
+def _pressed(surface: ZoneClearance, side: str | None, zones: Sequence[ZoneFit]) -> list[object]:
+    around = {
+        "medial": ("ball_girth", "ball_width"),
+        "lateral": ("ball_girth", "ball_width"),
+        "dorsal": ("ball_girth", "waist_girth", "instep_girth"),
+        "toe": ("toes", "toe_height"),
+    }.get(surface.zone, ())
+    judged = [zone for zone in zones if zone.zone in around and zone.verdict is not None]
+    tight = [zone for zone in judged if zone.verdict != "good" and (zone.score or 0.0) < 0.0]
+    said: list[object] = [side, plain(surface.pressed_cm2, 0), "5 mm"]
+    for zone in tight or judged:
+        said += [zone_name(zone), clearance_text(zone), zone.verdict]
+    return said
+
+
+def zone_name(zone: ZoneFit) -> str:
+    """A zone as the page and the terminal call it."""
+    return zone.label or zone.zone.replace("_", " ")
+
+
+def tightest_values(
+    surfaces: Sequence[tuple[str | None, Sequence[ZoneClearance]]], fits: Sequence[FootFit]
+) -> list[object]:
+    """The tightest place: a zone of which a tenth is tight, or a toe 2 mm through its wall."""
+    places: list[tuple[float, list[object]]] = []
+    for side, zones in surfaces:
+        for zone in zones:
+            tight = zone.p05_mm is not None and zone.tight_cm2 > 0.1 * zone.area_cm2
+            if zone.zone != "bottom" and tight:
+                said = [PLACES[zone.zone], side, plain(-zone.p05_mm), plain(zone.tight_cm2, 0)]
+                places.append((zone.p05_mm, said))
+    for fit in fits:
+        for toe in () if fit.toe_box is None else fit.toe_box.toes:
+            value = toe.clearance.value
+            if value is not None and value < -2.0:
+                places.append((value, [toe.toe, fit.side, plain(-value), toe.wall]))
+    return min(places, key=lambda place: place[0])[1] if places else ["where tight", "2"]
 
 
 def foot_facts(match: Match, foot: Profiled, name: str) -> Iterator[Fact]:
@@ -266,7 +338,7 @@ def width_facts(match: Match, foot: Profiled, name: str) -> Iterator[Fact]:
     yield fact(f"{SAID} width of {name}", [*at_size, *shares], TERMINAL)
 
 
-def best_facts(match: Match) -> Iterator[Fact]:
+def best_facts(match: Match, comparisons: Sequence[Comparison]) -> Iterator[Fact]:
     """The headline: the first candidate, or that nothing fits."""
     if not match.candidates:
         yield fact("best last", "No last fits.", PAGE)
@@ -276,8 +348,10 @@ def best_facts(match: Match) -> Iterator[Fact]:
     best = match.candidates[0]
     yield fact("best last", best.last, PAGE)
     verdict = [MARKS[best.verdict], best.verdict] if best.verdict else []
-    ties = _ties(best, named=3)
-    yield fact("best", [*verdict, best.last, *_labels(best), best.why, *ties], PAGE)
+    surfaces = [(each.foot.aligned.alignment.side.side, each.zones) for each in comparisons]
+    tight = tightest_values(surfaces, best.fits) if comparisons else []
+    said = [*verdict, best.last, *_labels(best), best.why, *tight, *_ties(best, named=3)]
+    yield fact("best", said, PAGE)
 
 
 def candidate_facts(candidate: Candidate, *, judged: bool) -> Iterator[Fact]:
@@ -302,10 +376,14 @@ def candidate_facts(candidate: Candidate, *, judged: bool) -> Iterator[Fact]:
     mirrored = OTHER_FOOT if candidate.mirrored else None
     sentence = [candidate.why, mirrored, *_ties(candidate, named=3)]
     yield fact(f"{name} why", sentence, TERMINAL)
+    if candidate.surfaces:
+        surfaces = [(room_there.side, room_there.zones) for room_there in candidate.surfaces]
+        yield fact(f"{name} surface 1", tightest_values(surfaces, candidate.fits), TERMINAL)
     for number, room_there in enumerate(candidate.surfaces, 1):
         side = room_there.side if len(candidate.surfaces) > 1 else None
         words = [side, *_surface(room_there)]
-        yield fact(f"{name} surface {number}", words, *both)
+        yield fact(f"{name} surface {number}", words, PAGE)
+        yield fact(f"{name} surface {number + 1}", words, TERMINAL)
 
 
 def _room(candidate: Candidate, room: Measured) -> str:
@@ -453,10 +531,13 @@ def _ties(candidate: Candidate, named: int) -> list[object]:
 def _page_zones(feet: Sequence[ZoneFit]) -> list[str]:
     texts = []
     for zone in feet:
-        known = zone.clearance.value is not None
-        verdict = zone.verdict if known else None
-        number = [clearance_text(zone)] if known else []
-        texts += [*number, f"{MARKS[verdict]} ({verdict or 'not judged'})"]
+        if zone.clearance.value is None:
+            texts.append(f"{MARKS[None]} (not judged) ({zone.clearance.reason})")
+        elif not zone.counts:
+            texts.append(f"({clearance_text(zone)})")
+        else:
+            place = [f"({zone.place})"] if zone.place else []
+            texts += [clearance_text(zone), *place, f"{MARKS[zone.verdict]} ({zone.verdict})"]
     return texts
 
 
@@ -581,7 +662,8 @@ def comparison_facts(comparison: Comparison) -> Iterator[Fact]:
             yield from _compare_csv(comparison, ("section", section.station, size.name), cells)
     for zone in comparison.zones:
         lengths_there = {name: mm(getattr(zone, f"{name}_mm")) for name in ("mean", "p05", "p95")}
-        areas = {name: getattr(zone, f"{name}_cm2") for name in ("area", "tight", "loose")}
+        names = ("area", "tight", "loose", "pressed")
+        areas = {name: getattr(zone, f"{name}_cm2") for name in names}
         for name, text in lengths_there.items():
             cells = ["mm", "", "", text, "", ""]
             yield from _compare_csv(comparison, ("zone", zone.zone, name), cells)

@@ -13,6 +13,7 @@ from dataclasses import replace
 from itertools import count
 from pathlib import Path
 
+import numpy as np
 import pytest
 
 from footfit.geometry.fit.clearance import ZoneClearance
@@ -38,6 +39,8 @@ from footfit.results import (
     Measured,
     Notice,
     SurfaceClearance,
+    ToeBox,
+    ToeFit,
     ZoneFit,
 )
 from tests import answers, readers
@@ -57,7 +60,7 @@ from tests.readback import (
 
 WIDE = 400
 ZONES = (("length", "mm"), ("ball_girth", "mm"), ("ball_line", "percent"), ("flare", "deg"))
-ZONES += (("heel_width", "mm"), ("plan", "ratio"))
+ZONES += (("heel_width", "mm"), ("plan", "ratio"), ("toes", "mm"))
 VERDICTS = ("good", "acceptable", "poor", "reject")
 LAST_NAMES = ("oxford", "derby", "loafer", "boot", "pump")
 
@@ -111,10 +114,28 @@ def planted_fits(number: int, feet: int) -> tuple[FootFit, ...]:
             known = Measured(None, None, "no joint") if lacking else Measured(value, 0.3 + foot)
             verdict = None if lacking else VERDICTS[(place + number + foot) % 4]
             counts = not (foot and zone == "heel_width")
-            zones.append(ZoneFit(zone, unit, known, -4.5 + 1.5 * place, value / 7, verdict, counts))
-        heel = planted_heel(number, foot)
-        fits.append(FootFit(side, VERDICTS[(number + foot) % 4], tuple(zones), heel))
+            score, target = value / 7, -4.5 + 1.5 * place
+            where = "big toe, inner wall" if zone == "toes" else None
+            zones.append(ZoneFit(zone, unit, known, target, score, verdict, counts, where))
+        heel, toes = planted_heel(number, foot), planted_toes(number, foot)
+        fits.append(FootFit(side, VERDICTS[(number + foot) % 4], tuple(zones), heel, toes))
     return tuple(fits)
+
+
+def planted_toes(number: int, foot: int) -> ToeBox | None:
+    """The toes of a foot in a last; in one they press more than anything else, in one they are not
+    known.
+    """
+    if number == 1:
+        return None
+    deepest = -17.4 - foot if number == 3 else 1.7 + number
+    toes = tuple(
+        ToeFit(toe, "inner", Measured(deepest + 2.3 * place, 0.7))
+        for place, toe in enumerate(("big toe", "second toe", "third toe"))
+    )
+    points = np.array([[200.0, 30.0], [240.0, 10.0], [210.0, -30.0]])
+    wall = np.array([[160.0, -45.0, 40.0], [260.0, -5.0, 5.0]])
+    return ToeBox(toes, points, np.arange(3), wall)
 
 
 def planted_heel(number: int, foot: int) -> HeelChange | None:
@@ -270,6 +291,7 @@ def moved(known: Comparison) -> Comparison:
             p95_mm=zone.p95_mm + 0.7 * step,
             area_cm2=zone.area_cm2 + 30.0 * step,
             tight_cm2=zone.tight_cm2 + 2.0 * step,
+            pressed_cm2=zone.pressed_cm2 + 13.7 * step,
             loose_cm2=zone.loose_cm2 + 3.0 * step,
         )
         for zone, step in zip(known.zones, steps, strict=False)

@@ -15,6 +15,8 @@ from footfit.results.compare import Comparison as Comparison
 from footfit.results.compare import SectionComparison as SectionComparison
 from footfit.results.compare import SizeDifference as SizeDifference
 from footfit.results.compare import SurfaceClearance as SurfaceClearance
+from footfit.results.compare import TightPlace as TightPlace
+from footfit.results.compare import tightest_place as tightest_place
 from footfit.results.fit import FitProfile as FitProfile
 from footfit.results.fit import FootFit as FootFit
 from footfit.results.fit import ToeBox as ToeBox

@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
+from footfit.geometry.fit.clearance import CLEARANCE
 from footfit.results.heel import FLARE, HeelChange
 from footfit.results.values import (
     Document,
@@ -24,6 +25,7 @@ if TYPE_CHECKING:
     from footfit.geometry.fit.clearance import ZoneClearance
     from footfit.geometry.fit.placement import Placement
     from footfit.geometry.numeric.arrays import Floats, Ints
+    from footfit.results.fit import ToeBox
     from footfit.results.last_record import LastRecord
     from footfit.results.profile import Profiled
     from footfit.results.values import Notice, SideName
@@ -89,6 +91,42 @@ class SurfaceClearance(Part):
 
     def _keys(self) -> Json:
         return fields(self) | {"zones": zones_part(self.zones)}
+
+
+@dataclass(frozen=True, slots=True)
+class TightPlace(Part):
+    """The tightest place of a customer's feet in a last.
+
+    ``place`` is a zone of the surface, whose ``clearance_mm`` is the 5 % quantile and ``tight_cm2``
+    the area that is tight; or a toe and its wall, without an area.
+    """
+
+    side: SideName | None
+    place: str
+    clearance_mm: float
+    tight_cm2: float | None = None
+
+
+def tightest_place(
+    surfaces: Iterable[tuple[SideName | None, Iterable[ZoneClearance]]],
+    toes: Iterable[tuple[SideName | None, ToeBox | None]],
+) -> TightPlace | None:
+    """The tightest place of feet by their side: of their surfaces' zones, and of their toes.
+
+    None if no zone is tight on a tenth of its area, and no toe stands so far through its wall. The
+    bottom is left out: a foot stands on it.
+    """
+    places = [
+        TightPlace(side, zone.zone, zone.p05_mm, zone.tight_cm2)
+        for side, zones in surfaces
+        for zone in zones
+        if zone.zone != "bottom" and zone.is_tight and zone.p05_mm is not None
+    ]
+    for side, box in toes:
+        value_mm = None if box is None else box.tightest.clearance.value
+        if box is not None and value_mm is not None and value_mm < CLEARANCE.tight_mm:
+            places.append(TightPlace(side, box.tightest.place, value_mm))
+    return min(places, key=lambda place: place.clearance_mm, default=None)
 
 
 @dataclass(frozen=True, slots=True)

@@ -7,6 +7,7 @@ from itertools import zip_longest
 from typing import TYPE_CHECKING
 
 from footfit.geometry.fit.sizes import SYSTEMS, foot_size, foot_sizes, system_named
+from footfit.results.compare import tightest_place
 from footfit.results.fit import ZONE_ENDS
 from footfit.results.heel import AS_SCANNED, FLARE, HeelChange, HeelQuestion
 from footfit.results.profile import flare_part
@@ -25,7 +26,7 @@ from footfit.results.values import (
 )
 
 if TYPE_CHECKING:
-    from footfit.results.compare import SurfaceClearance
+    from footfit.results.compare import SurfaceClearance, TightPlace
     from footfit.results.fit import FitProfile, FootFit
     from footfit.results.last_record import LastRecord
     from footfit.results.profile import Profiled
@@ -96,10 +97,24 @@ class Candidate(Part):
     surfaces: tuple[SurfaceClearance, ...] = ()
     size_asked: str | None = None
 
+    @property
+    def tightest(self) -> TightPlace | None:
+        """The tightest place of the feet, if their surfaces were compared with the last's."""
+        if not self.surfaces:
+            return None
+        return tightest_place(
+            [(surface.side, surface.zones) for surface in self.surfaces],
+            [(fit.side, fit.toe_box) for fit in self.fits],
+        )
+
     def _keys(self) -> Json:
         keys = fields(self, "record", "surfaces")
         clearance, room = measured_part(self.clearance_mm), self.surfaces or None
-        return keys | {"clearance_mm": clearance, "surface_clearance": room}
+        return keys | {
+            "clearance_mm": clearance,
+            "surface_clearance": room,
+            "tightest": self.tightest,
+        }
 
 
 @dataclass(frozen=True, slots=True)

@@ -36,6 +36,10 @@ class ClearanceSettings:
     tight_mm, loose_mm : float
         An area with less clearance than the first is tight, with more than the second loose. A foot
         yields by the first without pressure (the spread of a soft foot's scans).
+    pressed_mm, pressed_cm2 : float
+        More than this area with less clearance than this is worth a word, although the girths fit.
+    worth_saying : float
+        A zone is said to be tight, or loose, if more than this share of its area is.
     quantiles : (share, share)
         The low and the high quantile that stand for a zone's tightest and loosest places.
     """
@@ -46,6 +50,9 @@ class ClearanceSettings:
     facing_up: float = 0.60
     tight_mm: float = -2.0
     loose_mm: float = 8.0
+    pressed_mm: float = -5.0
+    pressed_cm2: float = 20.0
+    worth_saying: float = 0.10
     quantiles: tuple[float, float] = (0.05, 0.95)
 
 
@@ -55,7 +62,7 @@ CLEARANCE = ClearanceSettings()
 @dataclass(frozen=True, slots=True)
 class ZoneClearance:
     """The clearance in one zone: its area-weighted mean, its 5 and 95 % quantiles, and how much of
-    the area is tight or loose. The figures are None if nothing of the zone is compared.
+    the area is tight, loose or pressed. The figures are None if nothing of the zone is compared.
     """
 
     zone: str
@@ -65,6 +72,12 @@ class ZoneClearance:
     area_cm2: float
     tight_cm2: float
     loose_cm2: float
+    pressed_cm2: float = 0.0
+
+    @property
+    def is_tight(self) -> bool:
+        """Is so much of it tight that it is worth a word?"""
+        return self.p05_mm is not None and self.tight_cm2 > CLEARANCE.worth_saying * self.area_cm2
 
 
 def signed_clearance(
@@ -167,4 +180,5 @@ def _zone_clearance(name: str, clearance_mm: Floats, areas_mm2: Floats) -> ZoneC
         area_cm2=float(areas_mm2.sum()) / 100.0,
         tight_cm2=float(areas_mm2[tight].sum()) / 100.0,
         loose_cm2=float(areas_mm2[loose].sum()) / 100.0,
+        pressed_cm2=float(areas_mm2[clearance_mm < CLEARANCE.pressed_mm].sum()) / 100.0,
     )

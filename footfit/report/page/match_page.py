@@ -4,16 +4,23 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
+from footfit.geometry.fit.clearance import ZoneClearance
 from footfit.geometry.fit.sizes import Size, foot_sizes, system_named
 from footfit.report.page.rendering import html_page, picture_data
 from footfit.report.page.scene import scene_of
 from footfit.report.pictures.heat_figure import heat_figure
+from footfit.report.pictures.judged_figure import judged_figure
 from footfit.report.pictures.overlay_figure import SHOWN, Shapes, drawn_lasts, overlay_figure
 from footfit.report.pictures.section_figure import STRIP, section_figure
-from footfit.report.wording.comparison_words import comparison_names
+from footfit.report.wording.comparison_words import (
+    comparison_names,
+    pressed_words,
+    tightest_words,
+)
 from footfit.report.wording.fit_words import OTHER_FOOT
 from footfit.report.wording.text import SHOWN_SYSTEMS, file_name, is_scanned_last, size_text
-from footfit.results import Candidate, Comparison, Match
+from footfit.report.wording.zone_words import uncounted_lines, unjudged_lines
+from footfit.results import Candidate, Comparison, Match, SideName, tightest_place
 
 UNIT_SIGNS = {"mm": " mm", "deg": "°", "percent": " %", "ratio": ""}
 PAIR_NOTICES = {"pair_difference", "feet_differ_by_a_size"}
@@ -61,7 +68,14 @@ def match_page(
         comparisons=comparisons,
         longer=longer,
         drawn=shown[:SHOWN],
+        tightest=_tightest(shown[:1], comparisons),
+        pressed=_pressed(shown[:1], comparisons),
         pictures={
+            "judged": [
+                picture_data(judged_figure(foot, fit))
+                for last in shown[:1]
+                for foot, fit in zip(match.feet, last.fits, strict=False)
+            ],
             "heat": [picture_data(heat_figure(each, titled=False)) for each in comparisons],
             "sections": [
                 picture_data(section_figure(each, STRIP, titled=False)) for each in comparisons
@@ -77,7 +91,34 @@ def match_page(
         is_scanned_last=is_scanned_last,
         labels=labels,
         shown_sizes=shown_sizes,
+        uncounted_lines=uncounted_lines,
+        unjudged_lines=unjudged_lines,
     )
+
+
+def _surfaces(
+    comparisons: Sequence[Comparison],
+) -> list[tuple[SideName | None, Sequence[ZoneClearance]]]:
+    """The side of each foot and the clearance around it."""
+    return [(each.foot.aligned.alignment.side.side, each.zones) for each in comparisons]
+
+
+def _tightest(best: Sequence[Candidate], comparisons: Sequence[Comparison]) -> str:
+    """The tightest place of the feet in the best last; empty if no surface was compared."""
+    if not comparisons:
+        return ""
+    toes = [(fit.side, fit.toe_box) for last in best for fit in last.fits]
+    return tightest_words(tightest_place(_surfaces(comparisons), toes))
+
+
+def _pressed(best: Sequence[Candidate], comparisons: Sequence[Comparison]) -> list[str]:
+    """Where the surface of each foot is far too tight in the best last."""
+    fits = {fit.side: fit for last in best for fit in last.fits}
+    return [
+        sentence
+        for side, zones in _surfaces(comparisons)
+        for sentence in pressed_words(side, zones, fits.get(side))
+    ]
 
 
 def labels(candidate: Candidate, *, brief: bool = False) -> str:

@@ -9,7 +9,14 @@ from importlib import resources
 from typing import TYPE_CHECKING, Any
 
 from footfit import number_words
-from footfit.report.wording import comparison_words, fit_words, sheet_words, text, width_words
+from footfit.report.wording import (
+    comparison_words,
+    fit_words,
+    sheet_words,
+    text,
+    width_words,
+    zone_words,
+)
 from footfit.version import __version__
 
 if TYPE_CHECKING:
@@ -104,6 +111,7 @@ def templates() -> Environment:
         keep_trailing_newline=True,
     )
     environment.globals["spreads"] = text.SPREADS
+    environment.globals["marks"] = zone_words.MARKS
     environment.filters |= {function.__name__: function for function in FILTERS}
     return environment
 

@@ -18,7 +18,7 @@ from footfit.report.pictures.figures import (
     new_figure,
     write_title,
 )
-from footfit.report.pictures.flare_axes import (
+from footfit.report.pictures.flare_figure import (
     centre_line_mm,
     label_stations,
     set_up_curves,

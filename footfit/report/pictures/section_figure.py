@@ -90,7 +90,7 @@ def _top(section: SectionComparison) -> float:
 
 
 def _words(section: SectionComparison, nouns: tuple[str, str], *, brief: bool) -> str:
-    """The differences that are known: "last minus foot: width +3.2, girth +4.4 mm"."""
+    """The differences that are known: "last minus foot: width +3.2, height +4.4 mm"."""
     known = [
         f"{size.name} {signed(size.difference.value)}"
         for size in section.sizes

@@ -16,7 +16,7 @@ from rich.text import Text
 from footfit.geometry.fit.sizes import foot_size, foot_sizes, system_named
 from footfit.number_words import RATIO_KEPT, plain, signed
 from footfit.report.terminal.scan_tables import cell, flare_words, lined_table
-from footfit.report.wording.comparison_words import surfaces_words
+from footfit.report.wording.comparison_words import surfaces_words, tightest_words
 from footfit.report.wording.fit_words import (
     OTHER_FOOT,
     UNITS,
@@ -156,7 +156,8 @@ def _sentence(candidate: Candidate) -> RenderableType:
         words.append(f"; {OTHER_FOOT}")
     if candidate.tied_with:
         words.append(f"; {tie_words(candidate.tied_with)}")
-    rooms = [Text(line, "dim") for line in surfaces_words(candidate.surfaces)]
+    lines = [tightest_words(candidate.tightest)] if candidate.surfaces else []
+    rooms = [Text(line, "dim") for line in (*lines, *surfaces_words(candidate.surfaces))]
     return Padding(Group(words, *rooms), (0, 0, 0, 4))
 
 
@@ -185,7 +186,8 @@ def _clearance(zone: ZoneFit) -> Text:
     """A clearance; grey if it does not count."""
     if zone.clearance.value is None:
         return Text("-", "dim")
-    return Text(f"{zone_number(zone)}{UNITS[zone.unit]}", "" if zone.counts else "dim")
+    number = f"{zone_number(zone)}{UNITS[zone.unit]}"
+    return Text(number) if zone.counts else Text(f"({number})", "dim")
 
 
 def _zone_verdict(zones: Sequence[ZoneFit], feet: Sequence[str]) -> Text:
@@ -198,6 +200,8 @@ def _zone_verdict(zones: Sequence[ZoneFit], feet: Sequence[str]) -> Text:
         return Text("not judged: ", "dim").append(visible(reason))
     worst = max(known, key=order.index)
     words = Text(worst, VERDICT_STYLES[worst])
+    places = {zone.place for zone in zones if zone.counts and zone.verdict == worst and zone.place}
+    words.append(f": {'; '.join(sorted(places))}" if places else "", "default")
     for foot, zone in zip(feet, zones, strict=True):
         if zone.not_counted and zone.clearance.value is not None:
             words.append(f"; {foot} not judged: {visible(zone.not_counted)}", "dim")

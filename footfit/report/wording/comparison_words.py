@@ -4,10 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 
-from footfit.geometry.fit.clearance import CLEARANCE
+from footfit.geometry.fit.clearance import CLEARANCE, ZoneClearance
 from footfit.number_words import plain, signed
+from footfit.report.wording.fit_words import UNITS, zone_number
 from footfit.report.wording.text import difference_text, file_name, length_text, visible
-from footfit.results import Comparison, SurfaceClearance
+from footfit.report.wording.zone_words import zone_name
+from footfit.results import Comparison, FootFit, SurfaceClearance, TightPlace, ZoneFit
 from footfit.results.heel import FLARE, heel_words
 
 SIZE_HEADS = {
@@ -17,8 +19,6 @@ SIZE_HEADS = {
     "height": "height",
 }
 """The sizes of a section by name, as the head of a column says them."""
-WORTH_SAYING = 0.10
-"""The share of a zone that must be tight, or loose, to be worth a word."""
 MOST_ZONES = 2
 ZONE_PLACES = {
     "bottom": "under the foot",
@@ -28,6 +28,14 @@ ZONE_PLACES = {
     "toe": "at the toes",
 }
 """Where each zone of the surface is."""
+JUDGED_BY = {
+    "bottom": (),
+    "medial": ("ball_girth", "ball_width"),
+    "lateral": ("ball_girth", "ball_width"),
+    "dorsal": ("ball_girth", "waist_girth", "instep_girth"),
+    "toe": ("toes", "toe_height"),
+}
+"""The judged zones that go around a zone of the surface."""
 
 
 def comparison_names(comparison: Comparison) -> tuple[str, str]:
@@ -106,7 +114,7 @@ def surface_words(room: SurfaceClearance) -> str:
     >>> inner = ZoneClearance("medial", 0.6, -20.94, 9.2, 91.0, 74.4, 5.2)
     >>> top = ZoneClearance("dorsal", 0.6, -3.1, 5.2, 91.0, 26.4, 5.2)
     >>> surface_words(SurfaceClearance("right", 2.9, (top, inner)))
-    'presses most on the inner side: up to 20.9 mm; and on top of the foot'
+    'the surface presses most on the inner side: up to 20.9 mm; and on top of the foot'
     >>> surface_words(SurfaceClearance("right", None, (), "the sole is open"))
     'no clearance between the surfaces: the sole is open'
     """
@@ -115,11 +123,11 @@ def surface_words(room: SurfaceClearance) -> str:
     zones = room.zones
     tight = _zones_words((z.zone, z.p05_mm, z.tight_cm2, z.area_cm2) for z in zones)
     loose = _zones_words((z.zone, z.p95_mm, z.loose_cm2, z.area_cm2) for z in zones)
-    named = (("presses most", tight), ("loosest", loose))
+    named = (("the surface presses most", tight), ("loosest", loose))
     parts = [f"{word} {words}" for word, words in named if words]
     nowhere = (
-        f"nowhere tight by {plain(-CLEARANCE.tight_mm, 0)} mm, "
-        f"nowhere loose by {plain(CLEARANCE.loose_mm, 0)} mm"
+        f"no zone is tight by {plain(-CLEARANCE.tight_mm, 0)} mm or loose by "
+        f"{plain(CLEARANCE.loose_mm, 0)} mm on a tenth of its area"
     )
     return "; ".join(parts) or nowhere
 
@@ -129,9 +137,75 @@ def _zones_words(zones: Iterable[tuple[str, float | None, float, float]]) -> str
     known = sorted(
         (-abs(mm), ZONE_PLACES[name])
         for name, mm, area, whole in zones
-        if mm is not None and area > WORTH_SAYING * whole
+        if mm is not None and area > CLEARANCE.worth_saying * whole
     )
     if not known:
         return ""
     (most, place), *others = known[:MOST_ZONES]
     return "; and ".join([f"{place}: up to {plain(-most)} mm", *(words for _, words in others)])
+
+
+def tightest_words(place: TightPlace | None) -> str:
+    """The tightest place of a customer's feet in a last.
+
+    Examples
+    --------
+    >>> from footfit.results import TightPlace
+    >>> tightest_words(TightPlace("right", "medial", -7.21, 26.4))
+    'tightest on the inner side of the right foot: up to 7.2 mm (26 cm2)'
+    >>> tightest_words(TightPlace("left", "big toe, inner wall", -3.04))
+    'tightest at the big toe of the left foot: 3.0 mm through the inner wall'
+    """
+    if place is None:
+        return f"nowhere tight by {plain(-CLEARANCE.tight_mm, 0)} mm"
+    foot = f" of the {place.side} foot" if place.side else ""
+    depth = plain(-place.clearance_mm)
+    if place.tight_cm2 is None:
+        toe, _, wall = place.place.partition(", ")
+        return f"tightest at the {toe}{foot}: {depth} mm through the {wall}"
+    area = plain(place.tight_cm2, 0)
+    return f"tightest {ZONE_PLACES[place.place]}{foot}: up to {depth} mm ({area} cm2)"
+
+
+def pressed_words(
+    side: str | None, zones: Iterable[ZoneClearance], fit: FootFit | None
+) -> list[str]:
+    """Where the surface is far too tight on a large area, and what the verdict says of it.
+
+    A sentence for each such zone of one foot in a last. ``fit`` is None where nothing was judged.
+    """
+    limit = f"{plain(-CLEARANCE.pressed_mm, 0)} mm"
+    sentences = []
+    for zone in zones:
+        if zone.pressed_cm2 <= CLEARANCE.pressed_cm2:
+            continue
+        judged = [
+            each
+            for each in (() if fit is None else fit.zones)
+            if each.zone in JUDGED_BY[zone.zone] and each.verdict is not None
+        ]
+        tight = [each for each in judged if each.verdict != "good" and (each.score or 0.0) < 0.0]
+        where = f"{ZONE_PLACES[zone.zone]} of the {side} foot" if side else ZONE_PLACES[zone.zone]
+        start = (
+            f"{where[0].upper()}{where[1:]} {plain(zone.pressed_cm2, 0)} cm2 lie more than {limit} "
+            "outside of the last."
+        )
+        if tight:
+            end = f"That is judged: {_verdicts(tight)}."
+        elif judged:
+            end = (
+                f"What is judged there fits, so it counts for nothing: {_verdicts(judged)}. "
+                "A bare foot is wider and flatter than it is in a shoe, and gives way."
+            )
+        else:
+            end = "No zone that is judged lies there."
+        sentences.append(f"{start} {end}")
+    return sentences
+
+
+def _verdicts(zones: Sequence[ZoneFit]) -> str:
+    """Zones with their clearance and verdict in words."""
+    return ", ".join(
+        f"{zone_name(zone)} {zone_number(zone)}{UNITS[zone.unit]} ({zone.verdict})"
+        for zone in zones
+    )
