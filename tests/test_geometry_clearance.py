@@ -250,9 +250,9 @@ def test_a_wider_last_is_wider_in_every_section_by_its_share():
         assert pair.station in STATIONS
 
 
-def test_a_section_through_the_cut_top_has_no_girth_but_a_width():
+def test_a_section_through_the_cut_top_has_no_height_but_a_width():
     heel = section_pairs(last(), last())[0]
     assert heel.station.name == "heel"
-    assert heel.last_sizes["girth"].value is None
-    assert "heel" in heel.last_sizes["girth"].reason
+    assert heel.last_sizes["height"].value is None
+    assert "heel" in heel.last_sizes["height"].reason
     assert heel.last_sizes["width"].value > 40.0

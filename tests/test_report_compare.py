@@ -68,7 +68,7 @@ def test_the_csv_has_a_row_for_every_size_and_every_zones_figure():
     sizes = sum(len(section["sizes"]) for section in document["sections"])
     heel = 2 + len(document["heel"]["changes_mm"])  # the drop, the flare, the sizes
     whole = len(document["clearance_mm"]) + heel
-    assert len(rows) == sizes + 6 * len(document["zones"]) + whole
+    assert len(rows) == sizes + 7 * len(document["zones"]) + whole
     for row in rows:
         assert (row["difference"] == "") == bool(row["reason"])
 
