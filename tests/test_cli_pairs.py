@@ -110,6 +110,7 @@ def test_the_columns_of_a_csv_give_the_sides(footfit: Footfit, shop: Path) -> No
         (("scans", "--pairs", "pairs.csv"), "leave them out"),
         (("scans", "--customer", "Ann", "-o", "pages/"), "--customer names one customer"),
         (("--pairs", "auto"), "no mesh was given"),
+        (("scans", "--force-side"), "--force-side goes with"),
         ((), "no mesh was given"),
     ],
 )

@@ -25,7 +25,7 @@ NOT_HERE = {
     "migrations/versions/NNNN_title.py",
 }
 """Folders that only the wheel has, and a name to fill in."""
-OF_TOOLS = {"--count", "--only", "--scale", "--seed", "--write"}
+OF_TOOLS = {"--count", "--fit", "--only", "--scale", "--seed", "--write"}
 """Options of benchmarks, ``tests.torture`` and ``tools.fuzz``."""
 SCRIPTS = {
     title: "\n".join(re.findall(r"```sh\n(.*?)```", text, re.S))

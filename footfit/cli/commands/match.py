@@ -180,6 +180,8 @@ def customers_of(
         raise BadOption("no mesh was given; name files or a folder, or --pairs FILE.csv")
     if pairs is not None and pair:
         raise BadOption("--pair is for one customer and --pairs for many: give one of them")
+    if reading.force_side and reading.side == "auto" and (pairs is None or feet):
+        raise BadOption("--force-side goes with --side left or right, or with --pairs FILE.csv")
     if pairs is not None and reading.side != "auto":
         raise BadOption("--side goes with no --pairs: the names or the CSV say the sides")
     sources = sources_of(feet, reading, lasts, split=batch.split, quiet=mode.quiet) if feet else []
