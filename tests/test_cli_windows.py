@@ -22,6 +22,8 @@ COMMANDS = (
     ("set-reference", "derby-40"),
     ("measure", *FEET, "--csv", "measures.csv", "--jobs", "2"),
     ("match", *FEET, "--pair", "--html", "page.html", "--csv", "-"),
+    ("match", *FEET, "--pairs", "auto", "--sheet", "sheets/", "--jobs", "2"),
+    ("edit-last", "derby-39", "--size", "39½"),
     ("compare", FEET[0], "derby-40", "-o", "heat.png", "--html", "clearance.html"),
     ("align", FEET[0], "-o", "aligned.stl"),
     ("align", FEET[0], "-o", "aligned.stl", "--force"),
