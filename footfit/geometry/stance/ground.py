@@ -37,6 +37,9 @@ class GroundSettings:
         A wrong fit has the toe rise far from the ground, because its ground is too low.
     starts_deg : tuple of float
         Else the grounds that more fits begin from; the least cost wins.
+    most_spring, spring_doubt : float
+        If the toe of the winner springs by more than this share of the length, the best fit whose
+        toe springs by less wins instead, up to so many times the winner's cost.
     range_deg : tuple of float
         A ground outside of this range is no ground.
     rounds, damping, settled_deg
@@ -69,6 +72,8 @@ class GroundSettings:
     low_cost: float = 25.0
     low_spring: float = 0.06
     starts_deg: tuple[float, ...] = (1.0, 17.0, 25.0, 33.0, 41.0, 49.0)
+    most_spring: float = 0.09
+    spring_doubt: float = 3.0
     range_deg: tuple[float, float] = (-1.5, 60.0)
     rounds: int = 10
     damping: float = 0.8
@@ -153,20 +158,30 @@ def _rough_fit(trials: _Trials, settings: GroundSettings) -> TreadFit | None:
     fits = [fit, *(_fit(trials.near, start, start, settings) for start in starts)]
     least, most = np.radians(settings.range_deg)
     possible = [each for each in fits if each is not None and least < each.ground < most]
-    return min(possible, key=lambda each: each.cost, default=None)
+    best = min(possible, key=lambda each: each.cost, default=None)
+    if best is None or _spring(best, trials) < settings.most_spring:
+        return best
+    near = (each for each in possible if each.cost < settings.spring_doubt * best.cost)
+    sound = (each for each in near if _spring(each, trials) < settings.most_spring)
+    return min(sound, key=lambda each: each.cost, default=best)
 
 
 def _is_low(fit: TreadFit, trials: _Trials, settings: GroundSettings) -> bool:
     """Whether a fit is that of a low heel, with a toe that springs as toes do."""
-    bottom = trials.near(fit.ground)
     lowest = np.radians(settings.range_deg[0])
     low = lowest < fit.ground < np.radians(settings.low_deg) and fit.cost < settings.low_cost
-    if bottom is None or not low:
-        return False
+    return low and _spring(fit, trials) < settings.low_spring
+
+
+def _spring(fit: TreadFit, trials: _Trials) -> float:
+    """How far the toe rises from a fit's tread, over the length."""
+    bottom = trials.near(fit.ground)
+    if bottom is None:
+        return np.inf
     place = bottom.places(fit.ground)
     toe = (place > TREAD_FIT.tread[0]) & (place < _TIP)
-    rise = np.sin(bottom.slope - fit.ground)[toe].sum() * (bottom.arc[1] - bottom.arc[0])
-    return bool(rise < settings.low_spring)
+    step = float(bottom.arc[1] - bottom.arc[0])
+    return float(np.sin(bottom.slope - fit.ground)[toe].sum()) * step
 
 
 def _fit(
