@@ -2,14 +2,19 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
+from trimesh import Trimesh
 
+from benchmarks import stance as benchmark
 from footfit.geometry.stance.middle_line import middle_line, turned
 from footfit.geometry.stance.stance import stance_of
 from tests.bounds import EXACT
 from tests.test_shapes import euler, is_closed_and_wound, volume
 from tools import last_cuts
+from tools.bent_lasts import bent
 from tools.last_specs import HEEL_BANDS_MM, STYLES, LastSpec, wide
 from tools.lasts import last_mesh, standing
 
@@ -77,3 +82,19 @@ def test_a_cut_last_is_sound_and_smaller(cut, bodies):
     assert 0.988 * volume(*whole) < kept < volume(*whole) * (1 + EXACT)
     vertices, faces = last_cuts.joined(parts)
     assert faces.max() == len(vertices) - 1
+
+
+def test_a_high_heel_is_not_taken_for_a_toe_that_springs_high():
+    """The best fit of this bottom has the toe 23 mm over the ground, and the heel under it."""
+    if not benchmark.second_family():
+        pytest.skip("../shared/tools/lasts2.py is not here; the project's own lasts are tested")
+    import lasts2
+
+    spec = replace(lasts2.random_last(np.random.default_rng(2)), heel_height=0.0)
+    vertices, faces = benchmark.at_rest(lasts2.mesh(spec, n_long=150, n_round=84))
+    stance = stance_of(vertices, faces, "last")
+    stands = stance.standing_transform
+    level = vertices @ stands[:3, :3].T + stands[:3, 3]
+    raised = Trimesh(bent(level, stance.length_mm, 95.0, 1.0), faces, process=False)
+    found = stance_of(*benchmark.at_rest(raised), "last")
+    assert found.heel_mm() == pytest.approx(95.0, abs=4.0)  # measured 1.9
