@@ -13,6 +13,7 @@ import pytest
 import footfit as library
 from footfit.api.files import MOST_LETTERS
 from footfit.errors import BadOption
+from footfit.meshes.write import encoded_mesh
 from footfit.pipeline.fit.fit_profile import fit_profile
 from footfit.pipeline.fit.zones import ZONES
 from footfit.pipeline.width.foot_width import foot_widths, survey_words
@@ -290,6 +291,19 @@ def test_what_does_not_go_together_is_refused_before_any_work(
     assert run.code == 2
     assert words in run.last_error
     assert not list(tmp_path.glob("s.*"))
+
+
+def test_a_foot_without_its_toes_has_no_sheet(
+    footfit: Footfit, stocked: Path, tmp_path: Path
+) -> None:
+    scan = library.align(FEET[1])
+    x = scan.vertices_mm[scan.faces, 0].max(axis=1)
+    cut = tmp_path / "cut.stl"
+    cut.write_bytes(encoded_mesh(scan.vertices_mm, scan.faces[x < 0.85 * x.max()], "stl"))
+    sheet = tmp_path / "sheet.html"
+    run = footfit("match", cut, "--catalogue", stocked, "--sheet", sheet)
+    assert run.code == 5
+    assert not sheet.exists()
 
 
 def test_the_library_makes_the_sheet_of_a_match_by_fit_alone() -> None:
