@@ -150,7 +150,11 @@ def align_facts(alignment: Alignment) -> Iterator[Fact]:
         "length": [plain(alignment.length_mm)],
         "eigenvalues": named_values(frame.eigenvalues_mm2),
         "centroid": [plain(value) for value in frame.centroid_mm],
-        "pose": [plain(pose.cost, 2), plain(pose.margin, 2), "sole" if pose.sole else "no sole"],
+        "pose": [
+            plain(pose.cost, 2, 6),
+            plain(pose.margin, 2, 6),
+            "sole" if pose.sole else "no sole",
+        ],
     }
     if alignment.reference is not None:
         rows["reference"] = [alignment.reference.last]
