@@ -332,7 +332,7 @@ def width_facts(match: Match, foot: Profiled, name: str) -> Iterator[Fact]:
         if share.percent is None:
             shares.append(share.reason)
             continue
-        percent = min(max(10 * round(share.percent / 10), 5), 95)
+        percent = min(max(10 * int(round(share.percent, 6) / 10 + 0.5), 5), 95)
         shares += [percent if percent >= 50 else 100 - percent, share.people]
     yield fact(f"{name} among people", shares, PAGE)
     yield fact(f"{SAID} width of {name}", [*at_size, *shares], TERMINAL)
@@ -638,7 +638,7 @@ def comparison_facts(comparison: Comparison) -> Iterator[Fact]:
         f"{SAID} measures", ["last minus foot in mm", *(known_measures or ["none"])], TERMINAL, PAGE
     )
     if heel is not None:
-        cells = ["mm", "", "", mm(heel.drop_mm), "", "" if heel.drop_mm else UNKNOWN_HEEL]
+        cells = ["mm", "", "", mm(heel.drop_mm), "", UNKNOWN_HEEL if heel.drop_mm is None else ""]
         yield from _compare_csv(comparison, ("heel", "last", "drop"), cells)
         for name, change in heel.changes:
             unit = "deg" if name == "flare_angle" else "mm"

@@ -68,7 +68,7 @@ def _share(share: dict[str, Any], people: str) -> list[str]:
     """A share in steps of 10 %, from 5 to 95 %; below 50 as those who are wider."""
     if share["percent"] is None:
         return [share["reason"]]
-    least = min(max(10 * round(share["percent"] / 10), 5), 95)
+    least = min(max(10 * int(share["percent"] / 10 + 0.5), 5), 95)
     than = ["wider", str(least)] if least >= 50 else ["narrower", str(100 - least)]
     return [*than, people]
 

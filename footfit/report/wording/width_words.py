@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from footfit.geometry.fit.sizes import SYSTEMS, Size, foot_size
-from footfit.number_words import rounded
+from footfit.number_words import RATIO_KEPT, rounded
 from footfit.results import FootWidth, WidthShare
 
 SHARE_STEP = 10.0
@@ -99,7 +99,7 @@ def about_percent(percent: float) -> float:
     >>> [about_percent(value) for value in (0.0, 8.0, 54.9, 97.0)]
     [5.0, 10.0, 50.0, 95.0]
     """
-    steps = float(rounded(percent / SHARE_STEP, 0))
+    steps = float(rounded(percent / SHARE_STEP, 0, RATIO_KEPT))
     return min(max(SHARE_STEP * steps, LEAST_SHARE), LARGEST_SHARE)
 
 
