@@ -143,10 +143,12 @@ def test_a_file_wins_over_a_last_and_it_is_said(
     here = ("--catalogue", stocked)
     for command in (("measure", LAST), ("match", LAST), ("compare", foot, LAST)):
         run = footfit(*command, *here)
-        assert f"{LAST}: this is a file here; the last '{LAST}' is not read" in run.err
+        assert (
+            f"{LAST}: there is a file or folder here, so the last '{LAST}' is not read" in run.err
+        )
     assert footfit("measure", LAST, *here, "--json").document["kind"] == "foot"
-    assert "this is a file" not in footfit("measure", f"./{LAST}", *here).err
-    assert "this is a file" not in footfit("measure", LAST, *here, "--quiet").err
+    assert "there is a file" not in footfit("measure", f"./{LAST}", *here).err
+    assert "there is a file" not in footfit("measure", LAST, *here, "--quiet").err
 
 
 @pytest.mark.parametrize(

@@ -67,7 +67,7 @@ def height(text: str, label: str) -> float | None:
     from footfit.errors import BadOption
 
     try:
-        return float(text) if text.strip() else None
+        return float(text.replace(",", ".")) if text.strip() else None
     except ValueError as error:
         flag = "--" + label.removesuffix("_mm").replace("_", "-")
         words = f'{flag} takes a number of mm, or "" to remove the label, not {text!r}'

@@ -101,7 +101,8 @@ def hidden_lasts(arguments: Sequence[str], catalogue: Path) -> tuple[Notice, ...
     known = {caseless(name): name for name in names}
     return tuple(
         Notice(
-            "file_before_last", f"{argument}: this is a file here; the last {name!r} is not read"
+            "file_before_last",
+            f"{argument}: there is a file or folder here, so the last {name!r} is not read",
         )
         for argument in arguments
         if (name := known.get(caseless(argument))) is not None
