@@ -50,7 +50,8 @@ def _headline(comparison: Comparison) -> Text:
     line.append(visible(comparison.last.labels.name), "bold")
     if is_last:
         line.append(f", {comparison.last.side.side or 'undecided'} last", "not bold")
-    return line.append(f" ({OTHER_FOOT})" if comparison.mirrored else "", "not bold")
+    shown = "shown on its mirror image" if is_last else OTHER_FOOT
+    return line.append(f" ({shown})" if comparison.mirrored else "", "not bold")
 
 
 def _zones_table(comparison: Comparison) -> RenderableType:
