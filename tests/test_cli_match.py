@@ -121,6 +121,8 @@ def test_the_customers_system_is_shown_though_no_last_is_labelled_in_it(
     run = footfit("match", foot, "--size-system", "us-women", "--catalogue", stocked)
     assert run.code == 0
     assert "size US women 9; beside it US women 8.5 and US women 9.5" in run.out
+    classes = ("straight", "inflare", "outflare")
+    assert not any(word in run.out for word in classes), "a foot has no class; a difference is said"
     assert "no last is labelled in US women sizes" in run.err
     document = footfit("match", foot, "--catalogue", stocked, "--json").document
     assert document["feet"][0]["sizes"]["eu"]["words"] == "EU 40"

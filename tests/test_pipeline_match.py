@@ -366,7 +366,52 @@ def test_a_pair_that_differs_by_a_size_is_advised() -> None:
     assert "pair_difference" in [n.code for n in near]
 
 
+def test_feet_that_differ_by_less_than_a_millimetre_are_equally_long() -> None:
+    for apart_mm, words in ((0.6, "equally long"), (0.94, "equally long"), (1.0, "1.0 mm longer")):
+        feet = (foot(262.0 - apart_mm, left=True), foot(262.0))
+        (notice,) = [n for n in answer(last("a", 275), feet=feet).warnings if "differ" in n.code]
+        assert words in notice.message
+
+
+def test_what_does_not_count_says_why() -> None:
+    pair = (foot(255.0, left=True), foot(262.0))
+    best = answer(last("a", 275), feet=pair).candidates[0]
+    assert zone(best, "length", 0).not_counted == "the right foot decides this"
+    assert zone(best, "length", 1).not_counted is None
+    shown = replace(
+        WALKING,
+        zones=tuple(replace(r, weight=r.weight * (r.zone != "flare")) for r in WALKING.zones),
+    )
+    (best,) = answer(last("a"), profile=shown).candidates
+    assert zone(best, "flare").not_counted == "the fit profile only shows this zone"
+    text = terminal_text(match_table(answer(last("a", 275), feet=pair)), 200)
+    assert "left not judged: the right foot decides this" in text
+
+
+def test_a_pair_has_one_size_and_lasts_have_the_system_asked_for() -> None:
+    pair = (foot(251.5, left=True), foot(252.1))
+    found = answer(last("a", 265, size="40"), feet=pair, size_system="uk")
+    text = terminal_text(match_table(found), 200)
+    assert text.count("size UK") == 1
+    assert "EU 40 G (UK 7)" in text
+    assert found.candidates[0].size_asked == "UK 7"
+    assert found.to_dict()["sizes"]["uk"]["words"] == "UK 7"
+
+
 # ---------------------------------------------------------------- reasons
+
+
+def test_a_number_has_a_digit_more_where_it_decides() -> None:
+    """9.96 mm of toe room is not good: 10.0 beside "acceptable" would contradict the profile."""
+    found = answer(last("short", 269.96), last("good", 270.04))
+    assert [c.verdict for c in found.candidates] == ["good", "acceptable"]
+    good, short = found.candidates
+    assert good.why.startswith("10.0 mm toe room")
+    assert short.why.startswith("9.96 mm toe room")
+    text = terminal_text(match_table(found), 200)
+    assert "+9.96" in text
+    miss = answer(last("out", 267.97)).nearest[0]
+    assert miss.why == "7.97 mm toe room (wanted: 13 mm), 0.03 mm past the limit"
 
 
 def test_the_first_is_said_by_its_worst_zone() -> None:
