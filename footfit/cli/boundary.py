@@ -18,7 +18,6 @@ from footfit.cli.console import (
     say,
 )
 from footfit.cli.signals import CODES, LISTENER, Stopped
-from footfit.cli.usage_words import plain_words
 from footfit.errors import BadOption, ExitCode, FootfitError
 
 REPORT_TO = "please report it with the command that you typed (docs/exit-codes.md says how)"
@@ -67,6 +66,8 @@ def _say_unexpected(
     """Say a usage error of the command-line library, or a bug; return the exit code."""
     words = getattr(error, "format_message", None)
     if words is not None and getattr(error, "exit_code", None) == int(ExitCode.USAGE):
+        from footfit.cli.usage_words import plain_words
+
         context = getattr(error, "ctx", None)
         command = context.command_path if context is not None else "footfit"
         message = str(words())
