@@ -264,7 +264,12 @@ def tightest_values(
         for zone in zones:
             tight = zone.p05_mm is not None and zone.tight_cm2 > 0.1 * zone.area_cm2
             if zone.zone != "bottom" and tight:
-                said = [PLACES[zone.zone], side, plain(-zone.p05_mm), plain(zone.tight_cm2, 0)]
+                said = [
+                    PLACES[zone.zone].removesuffix(" the foot"),
+                    side,
+                    plain(-zone.p05_mm),
+                    plain(zone.tight_cm2, 0),
+                ]
                 places.append((zone.p05_mm, said))
     for fit in fits:
         for toe in () if fit.toe_box is None else fit.toe_box.toes:

@@ -18,7 +18,7 @@ from footfit.pipeline.batch.sources import ReadingOptions, Source
 from footfit.pipeline.fit import toe_box
 from footfit.pipeline.fit.fit_profile import fit_profile, shipped
 from footfit.pipeline.fit.scoring import GOOD, REJECT, levels
-from footfit.pipeline.fit.zones import NOT_READ, TOE_HEIGHT, TOES
+from footfit.pipeline.fit.zones import NOT_READ, TOE_BOX, TOE_HEIGHT, TOES
 from footfit.pipeline.scan.reading import profiled_source
 from footfit.results import Candidate, FootFit, Match, Measured, Profiled, ZoneFit
 from tests.conftest import SAMPLES
@@ -200,8 +200,10 @@ def test_every_shipped_profile_judges_the_toe_box(name: str) -> None:
         assert rule.good[0] - rule.acceptable[0] == pytest.approx(reach)
 
 
-def test_every_sample_customer_has_a_good_last(stocked: Path) -> None:
+def test_every_sample_customer_has_a_last_with_a_good_toe_box(stocked: Path) -> None:
     with open_catalogue(stocked) as lasts:
         pair = lasts.match([str(FEET / "mh007_L.stl"), str(FEET / "mh007_R.stl")])
         single = lasts.match(str(FEET / "mh008_R.stl"))
-    assert [answer.candidates[0].verdict for answer in (pair, single)] == ["good", "good"]
+    for answer in (pair, single):
+        zones = [zone(fit, name) for fit in answer.candidates[0].fits for name in TOE_BOX]
+        assert {each.verdict for each in zones} == {"good"}

@@ -17,10 +17,12 @@ from footfit.report.pictures.drawn_outlines import SHADOW, side_outline, sole_ou
 from footfit.report.pictures.figures import picture_bytes, svg_text
 from footfit.report.pictures.flare_figure import centre_line_mm, flare_figure, mean_heading_deg
 from footfit.report.pictures.frames_figure import frames_figure
+from footfit.report.pictures.judged_figure import COLOURS, WIDTHS, judged_figure, zone_style
 from footfit.report.pictures.overlay_figure import drawn_lasts, overlay_figure
 from footfit.report.pictures.shading import VIEWS, Frame, axonometric_view, fragments, shaded_image
 from footfit.report.pictures.sides import on_side
-from footfit.results import SideVerdict
+from footfit.report.wording.zone_words import MARKS, zone_text
+from footfit.results import FootFit, Measured, SideVerdict, ToeBox, ToeFit, ZoneFit
 from tests import answers
 from tests.bounds import ROUNDING
 from tests.shapes import sphere
@@ -307,3 +309,71 @@ def test_an_undecided_side_is_drawn_as_it_is() -> None:
     known = replace(foot.aligned.alignment, side=verdict)
     said = texts(frames_figure(replace(foot.aligned, alignment=known)))
     assert "side undecided" in said
+
+
+# ---------------------------------------------------------------- what was judged
+
+
+def judged_zone(name: str, verdict: str | None, *, counts: bool = True) -> ZoneFit:
+    known = Measured(-3.3, 0.5) if verdict else Measured(None, None, "not scanned")
+    return ZoneFit(name, "mm", known, 0.0, -1.2, verdict, counts, label=name.replace("_", " "))
+
+
+def judged_fit(*zones: ZoneFit, toes: bool = True) -> FootFit:
+    values = (-3.3, 4.0, 6.0, 5.0, 1.5)
+    names = ("big toe", "second toe", "third toe", "fourth toe", "little toe")
+    each = tuple(
+        ToeFit(name, "inner", Measured(value, 0.6))
+        for name, value in zip(names, values, strict=True)
+    )
+    y = np.linspace(35.0, -40.0, 20)
+    outline = np.column_stack([240.0 - 0.01 * (y - 10.0) ** 2, y])
+    x = np.linspace(165.0, 265.0, 30)
+    wall = np.column_stack([x, -45.0 + 0.0035 * (x - 165.0) ** 2, 40.0 - 0.003 * (x - 165.0) ** 2])
+    box = ToeBox(each, outline, np.repeat(np.arange(5), 4), wall)
+    return FootFit("right", "poor", zones, None, box if toes else None)
+
+
+def drawn_words(figure) -> list[str]:
+    return [text.get_text() for axes in figure.axes for text in axes.texts]
+
+
+def test_a_verdict_is_told_apart_without_its_colour():
+    assert len(set(MARKS.values())) == len(set(WIDTHS.values())) == len(COLOURS) == 4
+    order = [WIDTHS[verdict] for verdict in ("good", "acceptable", "poor", "reject")]
+    assert order == sorted(order)
+    assert min(np.diff(order)) >= 1.0  # points: seen on paper
+
+
+@pytest.mark.parametrize("name", ["ball_girth", "short_heel_girth", "heel_width", "toe_height"])
+def test_each_zone_stands_at_its_place_with_its_verdict(name):
+    for verdict in MARKS:
+        zone = judged_zone(name, verdict)
+        figure = judged_figure(answers.foot(), judged_fit(zone, toes=False))
+        assert drawn_words(figure) == [f"{MARKS[verdict]} {zone.label} -3.3 mm"]
+        (line,) = (line for line in figure.axes[0].lines if line.get_linewidth() == WIDTHS[verdict])
+        assert line.get_color() == COLOURS[verdict]
+
+
+def test_what_does_not_count_is_grey_and_in_brackets():
+    zone = judged_zone("ball_girth", "poor", counts=False)
+    assert zone_text(zone) == "(ball girth -3.3 mm)"
+    assert zone_style(zone)["color"] not in COLOURS.values()
+    assert zone_style(zone)["linewidth"] < min(WIDTHS.values())
+    assert zone_text(judged_zone("ball_girth", None)) == "– ball girth not judged"
+
+
+@pytest.mark.parametrize("left", [False, True])
+def test_the_tightest_toe_has_the_verdict_and_each_toe_its_number(left):
+    figure = judged_figure(answers.foot(left=left), judged_fit(judged_zone("toes", "acceptable")))
+    words = drawn_words(figure)
+    assert f"{MARKS['acceptable']} big toe -3.3" in words
+    assert {"second toe +4.0", "third toe +6.0", "fourth toe +5.0", "little toe +1.5"} < set(words)
+    place = next(t for t in figure.axes[1].texts if "big toe" in t.get_text()).get_position()
+    assert (place[1] > 0.0) is not left  # a right foot's big toe is on its left
+
+
+def test_toes_that_were_not_judged_are_not_drawn():
+    figure = judged_figure(answers.foot(), judged_fit(judged_zone("toes", None), toes=False))
+    assert len(figure.axes) == 1
+    assert figure.get_supxlabel() == "– toes not judged"

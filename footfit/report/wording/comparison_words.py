@@ -164,7 +164,15 @@ def tightest_words(place: TightPlace | None) -> str:
         toe, _, wall = place.place.partition(", ")
         return f"tightest at the {toe}{foot}: {depth} mm through the {wall}"
     area = plain(place.tight_cm2, 0)
-    return f"tightest {ZONE_PLACES[place.place]}{foot}: up to {depth} mm ({area} cm2)"
+    return f"tightest {_place_of(place.place, place.side)}: up to {depth} mm ({area} cm2)"
+
+
+def _place_of(zone: str, side: str | None) -> str:
+    """Where a zone of the surface of one foot is: "on top of the right foot"."""
+    place = ZONE_PLACES[zone]
+    if side is None or "the foot" in place:
+        return place.replace("the foot", f"the {side} foot" if side else "the foot")
+    return f"{place} of the {side} foot"
 
 
 def pressed_words(
@@ -185,7 +193,7 @@ def pressed_words(
             if each.zone in JUDGED_BY[zone.zone] and each.verdict is not None
         ]
         tight = [each for each in judged if each.verdict != "good" and (each.score or 0.0) < 0.0]
-        where = f"{ZONE_PLACES[zone.zone]} of the {side} foot" if side else ZONE_PLACES[zone.zone]
+        where = _place_of(zone.zone, side)
         start = (
             f"{where[0].upper()}{where[1:]} {plain(zone.pressed_cm2, 0)} cm2 lie more than {limit} "
             "outside of the last."
