@@ -182,8 +182,9 @@ def test_a_heel_that_is_too_high_is_judged_by_length_alone(
     from footfit.pipeline.fit.match import Question, matched
     from footfit.results import Library
 
-    answer = matched([right], Library((raised,), 1, None, file=catalogue), Question())
-    fit = (answer.candidates or answer.nearest)[0].fits[0]
+    library = Library((raised,), 1, None, file=catalogue)
+    answer = matched([right], library, Question(profile=fit_profile("dress")))
+    fit = answer.candidates[0].fits[0]
     assert "only the length is judged" in str(zone(fit, TOES).clearance.reason)
 
 
