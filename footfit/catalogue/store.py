@@ -7,7 +7,6 @@ from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 from footfit.catalogue.checks.damage import findings
 from footfit.catalogue.file.copying import copy_into
@@ -16,12 +15,8 @@ from footfit.catalogue.file.migrate import Revisions, Schema
 from footfit.catalogue.file.opening import open_for_reading, open_for_writing
 from footfit.catalogue.fit_log import FitLog
 from footfit.catalogue.rows.columns import (
-    FLARE,
-    FRAME,
     LAST,
-    MEASURE,
     MESH_COPY,
-    NOTICE,
     REFERENCE,
     SECTION,
     Table,
@@ -53,8 +48,9 @@ from footfit.catalogue.rows.writing import (
     driver_of,
     seal,
     update_row,
+    write_labels,
     write_last,
-    write_owned,
+    write_measured,
     write_sealed,
 )
 from footfit.errors import CatalogueDamaged, UnknownLast
@@ -69,14 +65,6 @@ from footfit.results import (
     RenameOutcome,
     ShapeSections,
 )
-
-if TYPE_CHECKING:
-    import sqlalchemy as sa
-
-LABEL_COLUMNS = tuple(name for name in LAST.readers("labels") if name != "name")
-"""What is said of a last and may change."""
-STANCE_COLUMNS = ("standing_transform", "ground_sd_deg", "stance_by")
-"""What a frame has that is measured again."""
 
 
 @contextmanager
@@ -346,10 +334,8 @@ class Catalogue:
             before = record_of(stored, last_names(driver))
             after, sections = change(before, lambda: self._copy_of(driver, stored.id, stored.name))
             if after.labels != before.labels:
-                row = LAST.row(after)
-                update_row(connection, LAST, stored.id, {name: row[name] for name in LABEL_COLUMNS})
-                write_owned(connection, stored.id, NOTICE, after)
-                _write_measured(connection, stored.id, after, sections)
+                write_labels(connection, stored.id, after)
+                write_measured(connection, stored.id, after, sections)
         return before, after
 
     def set_reference(self, name: str) -> ReferenceOutcome:
@@ -378,17 +364,4 @@ class Catalogue:
         with self.file.atomic() as connection:
             driver = driver_of(connection)
             key = intact_last(driver, last_id(driver, record.labels.name)).id
-            _write_measured(connection, key, record, sections)
-
-
-def _write_measured(
-    connection: sa.Connection, key: int, record: LastRecord, sections: ShapeSections | None
-) -> None:
-    """Write all that is measured from the mesh of a last, and seal the last."""
-    for table in (FLARE, MEASURE):
-        write_owned(connection, key, table, record)
-    stance = {name: FRAME.row(record)[name] for name in STANCE_COLUMNS}
-    update_row(connection, FRAME, key, stance)
-    if sections is not None:
-        write_sealed(connection, key, SECTION, sections)
-    seal(connection, key)
+            write_measured(connection, key, record, sections)

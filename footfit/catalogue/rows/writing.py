@@ -16,15 +16,21 @@ from footfit.catalogue.rows.columns import (
     MEASURE,
     NOTICE,
     REFERENCE,
+    SECTION,
     Table,
 )
 from footfit.catalogue.rows.digests import Row
 from footfit.catalogue.rows.verified_rows import row_digest, rows, stored_lasts
-from footfit.results import FitEntry, LastRecord, Reference
+from footfit.results import FitEntry, LastRecord, Reference, ShapeSections
 from footfit.version import __version__
 
 if TYPE_CHECKING:
     import sqlalchemy as sa
+
+LABEL_COLUMNS = tuple(name for name in LAST.readers("labels") if name != "name")
+"""What is said of a last and may change."""
+STANCE_COLUMNS = ("standing_transform", "ground_sd_deg", "stance_by")
+"""What a frame has that is measured again."""
 
 
 def driver_of(connection: sa.Connection) -> sqlite3.Connection:
@@ -71,6 +77,26 @@ def write_owned(connection: sa.Connection, key: int, table: Table, record: LastR
     else:
         values = [table.row(record)]
     _write_rows(connection, key, table, values)
+
+
+def write_labels(connection: sa.Connection, key: int, record: LastRecord) -> None:
+    """Write what is said of a last, but for its name, and its warnings, not yet sealed."""
+    row = LAST.row(record)
+    update_row(connection, LAST, key, {name: row[name] for name in LABEL_COLUMNS})
+    write_owned(connection, key, NOTICE, record)
+
+
+def write_measured(
+    connection: sa.Connection, key: int, record: LastRecord, sections: ShapeSections | None
+) -> None:
+    """Write all that is measured from the mesh of a last, and seal the last."""
+    for table in (FLARE, MEASURE):
+        write_owned(connection, key, table, record)
+    stance = {name: FRAME.row(record)[name] for name in STANCE_COLUMNS}
+    update_row(connection, FRAME, key, stance)
+    if sections is not None:
+        write_sealed(connection, key, SECTION, sections)
+    seal(connection, key)
 
 
 def write_reference(connection: sa.Connection, key: int, reference: Reference) -> None:
