@@ -13,14 +13,17 @@ import numpy as np
 import pytest
 
 from footfit.api.catalogues import open_catalogue
+from footfit.catalogue.store import open_catalogue as catalogue_at
 from footfit.meshes.write import encoded_mesh
 from footfit.pipeline.batch.sources import ReadingOptions, Source
 from footfit.pipeline.fit import toe_box
 from footfit.pipeline.fit.fit_profile import fit_profile, shipped
+from footfit.pipeline.fit.heels import heels_of
 from footfit.pipeline.fit.scoring import GOOD, REJECT, levels
 from footfit.pipeline.fit.zones import NOT_READ, TOE_BOX, TOE_HEIGHT, TOES
 from footfit.pipeline.scan.reading import profiled_source
 from footfit.results import Candidate, FootFit, Match, Measured, Profiled, ZoneFit
+from footfit.results.heel import AS_SCANNED
 from tests.conftest import SAMPLES
 
 FEET = SAMPLES / "feet"
@@ -157,6 +160,23 @@ def test_damaged_sections_are_not_judged(right: Profiled, catalogue: Path) -> No
     reason = zone(in_last(right, catalogue).fits[0], TOES).clearance.reason
     assert reason is not None
     assert "damaged; ingest the last again with --replace" in reason
+
+
+@pytest.mark.parametrize("stations", [0, 40, 79])
+def test_an_outline_that_ends_before_the_tip_is_not_judged(
+    right: Profiled, stocked: Path, stations: int
+) -> None:
+    with catalogue_at(stocked) as kept:
+        record, sections = kept.record("derby-43"), kept.sections("derby-43")
+    assert sections is not None
+    assert sections.toes_outline_mm is not None
+    outline = sections.toes_outline_mm[:stations] if stations else None
+    short = toe_box.LastToes(record, replace(sections, toes_outline_mm=outline))
+    whole = toe_box.LastToes(record, sections)
+    heels = heels_of(AS_SCANNED, [record, record])
+    answer = toe_box.toe_boxes(right, {0: short, 1: whole}, heels, np.array([14.0, 14.0]), 0.0)
+    assert answer[0] == "the last: the scan is open at the toes"
+    assert not isinstance(answer[1], str)
 
 
 def test_nothing_is_read_of_a_last_that_another_zone_rejects(

@@ -15,7 +15,7 @@ import numpy as np
 from footfit.catalogue.store import open_catalogue
 from footfit.errors import CatalogueDamaged, UnknownLast
 from footfit.geometry.fit import toe_walls
-from footfit.geometry.fit.named_sections import toes_outline_mm
+from footfit.geometry.fit.named_sections import NAMED_SECTIONS, toes_outline_mm
 from footfit.geometry.fit.stations import STATIONS
 from footfit.geometry.measures.heights import HEIGHTS
 from footfit.geometry.measures.measure_value import OPEN
@@ -169,8 +169,9 @@ def _foot_plan(foot: Profiled) -> toe_walls.ToesPlan | str:
         return f"the foot: {reason or 'not measured'}"
     shape = foot.aligned.prepared.shape
     outline_mm = toes_outline_mm(shape)
-    if outline_mm is None:
+    if not _is_whole(outline_mm):
         return f"the foot: {OPEN.format(place='toes')}"
+    assert outline_mm is not None
     middle_mm = foot.flare.centre_line * foot.aligned.alignment.extent_mm
     return toe_walls.foot_plan(outline_mm, middle_mm - np.array([shape.x_mm(0.0), 0.0]))
 
@@ -179,7 +180,14 @@ def _lacking(last: LastToes) -> str | None:
     """Why the toes of a last are not known; None if they are."""
     if isinstance(last.kept, str):
         return last.kept
-    return f"the last: {OPEN.format(place='toes')}" if last.kept.toes_outline_mm is None else None
+    return (
+        None if _is_whole(last.kept.toes_outline_mm) else f"the last: {OPEN.format(place='toes')}"
+    )
+
+
+def _is_whole(outline_mm: Floats | None) -> bool:
+    """Whether an outline of toes has all its stations, up to the tip."""
+    return outline_mm is not None and len(outline_mm) == NAMED_SECTIONS.toe_stations
 
 
 def _last_plan(last: LastToes) -> toe_walls.ToesPlan:
