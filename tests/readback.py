@@ -240,7 +240,7 @@ def _pressed(surface: ZoneClearance, side: str | None, zones: Sequence[ZoneFit])
         "medial": ("ball_girth", "ball_width"),
         "lateral": ("ball_girth", "ball_width"),
         "dorsal": ("ball_girth", "waist_girth", "instep_girth"),
-        "toe": ("toes", "toe_height"),
+        "toe": ("length", "toes", "toe_height"),
     }.get(surface.zone, ())
     judged = [zone for zone in zones if zone.zone in around and zone.verdict is not None]
     tight = [zone for zone in judged if zone.verdict != "good" and (zone.score or 0.0) < 0.0]

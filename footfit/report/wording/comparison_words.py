@@ -33,7 +33,7 @@ JUDGED_BY = {
     "medial": ("ball_girth", "ball_width"),
     "lateral": ("ball_girth", "ball_width"),
     "dorsal": ("ball_girth", "waist_girth", "instep_girth"),
-    "toe": ("toes", "toe_height"),
+    "toe": ("length", "toes", "toe_height"),
 }
 """The judged zones that go around a zone of the surface."""
 
