@@ -97,8 +97,20 @@ def flare_facts(shape: Profiled) -> Iterator[Fact]:
             yield fact(f"station {index + 1} {column}", text, CSV)
 
 
+MARKED = {
+    "side_contradicted": "S",
+    "low_side_confidence": "U",
+    "looks_like_a_foot": "F",
+    "size_contradicted": "L",
+    "suspect_flare": "O",
+    "stance_label_contradicted": "H",
+}
+"""The letter that ``footfit list-lasts`` shows for a warning; any other is W."""
+
+
 def library_facts(records: Sequence[LastRecord], reference: str | None) -> Iterator[Fact]:
     """Everything that ``footfit list-lasts`` shows."""
+    marked: dict[str, list[str]] = {}
     for record in records:
         labels, flare, name = record.labels, record.flare, record.labels.name
         system = labels.size_system.upper() if labels.size_system else None
@@ -111,7 +123,11 @@ def library_facts(records: Sequence[LastRecord], reference: str | None) -> Itera
         yield fact(f"{name} length", plain(record.length_mm), TERMINAL)
         yield fact(f"{name} flare", signed(flare.angle_deg), TERMINAL)
         yield fact(f"{name} class", flare.flare_class, TERMINAL)
-        yield fact(f"{name} heel", plain(labels.heel_height_mm, 0), TERMINAL)
+        measured = {row.name: row.measured.value for row in record.measures}
+        ball, heel = measured.get("ball_girth"), labels.heel_height_mm
+        heel = measured.get("heel_height") if heel is None else heel
+        yield fact(f"{name} ball", "-" if ball is None else plain(ball, 0), TERMINAL)
+        yield fact(f"{name} heel", "-" if heel is None else plain(heel, 0), TERMINAL)
         cells = {
             "style": labels.style,
             "size": labels.size,
@@ -125,16 +141,23 @@ def library_facts(records: Sequence[LastRecord], reference: str | None) -> Itera
             "flare_angle_deg": csv_number(flare.angle_deg, 3),
             "class": flare.flare_class,
             "reference": str(name == reference).lower(),
+            "ball_girth_mm": mm(ball),
         }
         check = label_check(labels.size, labels.size_system, record.length_mm)
         cells["size_by_length"] = "" if check is None else csv_number(check.by_length, 6)
         cells["label_flagged"] = "" if check is None else str(check.flagged).lower()
-        if check is not None and check.flagged:
-            by_length = f"{system} {round(check.by_length)}"  # a system of whole sizes
-            said = [name, plain(abs(check.off)), by_length]
-            yield fact(f"{SAID} label of {name}", said, TERMINAL)
+        flagged = check is not None and check.flagged
+        codes = [notice.code for notice in record.warnings] + ["size_contradicted"] * flagged
+        cells["warnings"] = " ".join(codes)
+        marks = {MARKED.get(code, "W") for code in codes}
+        letters = "".join(letter for letter in (*MARKED.values(), "W") if letter in marks)
+        yield fact(f"{name} marks", letters or "-", TERMINAL)
+        for letter in marks:
+            marked.setdefault(letter, []).append(name)
         for column, text in cells.items():
             yield fact(f"{name} {column}", text or "", CSV)
+    for letter, names in marked.items():
+        yield fact(f"{SAID} mark {letter}", [letter, *names[:3]], TERMINAL)
     yield fact(f"{SAID} count", [len(records), reference], TERMINAL)
 
 

@@ -380,7 +380,10 @@ def read_terms(text: str, *, titled: bool = True) -> Reading:
 def read_lasts_terminal(text: str) -> Reading:
     """The library's table: a line per last."""
     reading = Reading()
-    columns = ("last", "style", "size", "side", "length", "flare", "class", "heel")
+    columns = (
+        *("last", "marks", "style", "size", "side"),
+        *("length", "ball", "flare", "class", "heel"),
+    )
     for line in text.splitlines():
         cells = re.split(r"\s{2,}", line.strip())
         if len(cells) == len(columns) and cells[0] != "last":

@@ -92,7 +92,7 @@ def list_lasts_table(library: results.Library) -> RenderableType:
         star = " *" if labels.name == reference else ""
         table.add_row(
             cell(labels.name, "bold").append(star),
-            Text("".join(mark.letter for mark in marks), "bold yellow"),
+            cell("".join(mark.letter for mark in marks), "bold yellow"),
             cell(labels.style),
             cell(size_text(labels)),
             record.side.side or "undecided",
