@@ -144,11 +144,19 @@ def test_every_zone_compares_the_foot_as_it_is_in_the_heel(drop_mm: float, share
 
 def test_the_ball_line_is_that_of_the_shorter_foot() -> None:
     """Foot and ball shorten together, and what the length explains is no fault of the ball."""
-    found = the_last(heeled("a", 80.0))
-    room_mm, ball_mm = 13.0 + 0.015 * 260.0, 0.015 * 188.0
+    found = the_last(heeled("a", 40.0))
+    room_mm, ball_mm = 13.0 + 0.0075 * 260.0, 0.0075 * 188.0
     explained = min(ball_mm, 0.72 * (room_mm - 13.0))
     percent = 100.0 * (ball_mm - explained) / (260.0 + answers.NOISE_MM)
     assert zone(found, "ball_line").clearance.value == pytest.approx(percent, abs=ROUNDING)
+
+
+def test_the_ball_line_of_a_high_heel_is_not_judged() -> None:
+    """Along X the ball of one last moves by up to 23 mm as the last is bent."""
+    found = the_last(heeled("a", 41.0))
+    reason = "over 40 mm of heel the ball's place along the bottom is unknown"
+    assert zone(found, "ball_line").clearance.reason == reason
+    assert (found.verdict, zone(found, "ball_line").verdict) == ("good", None)
 
 
 def test_a_low_last_hardly_changes_and_an_unknown_heel_not_at_all() -> None:
@@ -178,6 +186,9 @@ def test_as_scanned_is_what_was_measured(by: str) -> None:
     found = the_last(heeled("a", 60.0), heel=AS_SCANNED, by=by)
     flat = the_last(heeled("a", None), heel=AS_SCANNED, by=by)
     for here, there in zip(found.fits[0].zones, flat.fits[0].zones, strict=True):
+        if here.zone == "ball_line":  # it is not judged on a high heel
+            assert here.clearance.value is None
+            continue
         if there.clearance.value is None:
             assert here.clearance == there.clearance
             continue
@@ -280,7 +291,7 @@ def test_a_high_heel_is_judged_by_the_foot_that_stands_in_it() -> None:
     lasts = [high, heeled("low", 5.0), heeled("low-wide", 5.0, ball_girth=250.0)]
     found = {candidate.last: candidate for candidate in answer(*lasts).candidates}
     assert found["high"].verdict == "good"
-    assert found["high"].distance < 0.05
+    assert found["high"].distance < 0.2  # its ball line is not judged and counts as 1
     assert found["low-wide"].rank == 3
     assert found["high"].distance_sd > 2.0 * found["low"].distance_sd, "the model is unsure"
     as_scanned = {c.last: c for c in answer(*lasts, heel=AS_SCANNED).candidates}

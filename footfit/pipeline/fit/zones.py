@@ -262,7 +262,7 @@ def _clearance(foot: ZoneShape, last: ZoneShape, zone: str) -> Clearance:
     """The clearance in a zone, as both were measured; of the ball line that of the balls, in mm."""
     if zone in _SPECIAL:
         return _SPECIAL[zone](foot, last)
-    return measure_difference(foot, last, "ball_length" if zone == "ball_line" else zone)
+    return measure_difference(foot, last, zone)
 
 
 def missing(reason: str) -> Clearance:
@@ -327,6 +327,18 @@ def bottom_gain(last: ZoneShape) -> Clearance:
     return Clearance(along_mm - level_mm, last_sd=sd_mm)
 
 
+def _ball_line(foot: ZoneShape, last: ZoneShape) -> Clearance:
+    """How much further forward the last's ball is, in mm along X.
+
+    On a high heel that is not its place along the bottom: one last, bent from 0 to 80 mm of heel,
+    moved it by up to 23 mm (decision 0210).
+    """
+    high_mm = ALONG_BOTTOM.raised_mm
+    if any((shape.heel_height_mm or 0.0) > high_mm for shape in (foot, last)):
+        return missing(f"over {high_mm:g} mm of heel the ball's place along the bottom is unknown")
+    return measure_difference(foot, last, "ball_length")
+
+
 def ball_line_mm(ball_mm: Floats, room_mm: Floats, asked_mm: float) -> Floats:
     """How much further forward the last's ball is than the foot's, as far as the length does not
     explain it.
@@ -359,6 +371,7 @@ def _plan(foot: ZoneShape, last: ZoneShape) -> Clearance:
 
 _SPECIAL: dict[str, Callable[[ZoneShape, ZoneShape], Clearance]] = {
     "length": _length,
+    "ball_line": _ball_line,
     "flare": _flare,
     "plan": _plan,
     TOE_HEIGHT: lambda _foot, _last: missing(NOT_READ),
