@@ -7,9 +7,11 @@ from typing import NamedTuple
 
 import numpy as np
 
-from footfit.geometry.measures.landmarks import AXES, Shape
+from footfit.geometry.measures.landmarks import AXES, LANDMARKS, Shape
 from footfit.geometry.measures.tape import hull_girth
+from footfit.geometry.mesh.outermost_point import Tip, tip
 from footfit.geometry.mesh.outlines import Outline
+from footfit.geometry.mesh.surface import cross
 from footfit.geometry.numeric.arrays import Floats
 
 
@@ -21,6 +23,10 @@ class HeelSettings:
     step_deg: float = 3.0
     beyond: float = 2.0  # the girth may turn so many steps after the last whole section
     flat: float = 0.003  # of the length: the last whole girth serves if the girth falls less
+    ball: float = 0.70  # over the length: the line from the cone's top to here passes any cone
+    cone_end: float = 0.55  # a cone's front edge lies behind this place; a boot has none
+    turn_deg: float = 6.0  # the plane that touches a low cone's edge is turned so far both ways
+    apart: tuple[float, float] = (0.015, 0.025)  # of the length: a cone is low, see cone_edge
 
 
 HEEL = HeelSettings()
@@ -49,7 +55,7 @@ def shortest_around_heel(shape: Shape, settings: HeelSettings = HEEL) -> Outline
     """
     edge_deg = settings.steepest_deg
     if shape.kind == "last":
-        edge_deg = angle_to_deg(shape, shape.cone_edge)
+        edge_deg = angle_to_deg(shape, cone_edge(shape))
     angles, girths = _whole_girths(shape, edge_deg, settings.step_deg)
     turn = _turn(angles, girths)
     if shape.kind == "last":
@@ -62,6 +68,40 @@ def shortest_around_heel(shape: Shape, settings: HeelSettings = HEEL) -> Outline
         return section
     flat = turn.fall_mm <= settings.flat * shape.length_mm
     return around_heel(shape, angles[-1]) if flat else None
+
+
+def cone_edge(shape: Shape, settings: HeelSettings = HEEL) -> Floats:
+    """A last's upper front edge, (3,): what is farthest over a line down from the cone's top.
+
+    It is the middle of what lies near a plane along the line to the instep. On a low cone that is
+    the middle of its top, which is nearly parallel to the line. There the edge is where a plane
+    along the line to the ball touches. If that plane's normal is n and its distance h, it touches
+    at h n + h' n', as it turns. Between ``apart`` the edge goes from one to the other.
+    """
+    usual = _over_cone(shape, LANDMARKS.instep, LANDMARKS.instep)[1].place
+    turns = np.radians(settings.turn_deg) * np.array([-1.0, 0.0, 1.0])
+    planes = [_over_cone(shape, settings.ball, settings.cone_end, turn) for turn in turns]
+    (_, before), (normal, at), (_, after) = planes
+    change = (after.reach - before.reach) / (2.0 * np.sin(turns[2]))
+    touched = at.reach * normal + change * cross(AXES[1], normal) + at.place * AXES[1]
+    low, lower = (share * shape.length_mm for share in settings.apart)
+    share = np.clip((abs(touched[0] - usual[0]) - low) / (lower - low), 0.0, 1.0)
+    return np.asarray(usual + share * (touched - usual))
+
+
+def _over_cone(
+    shape: Shape, end: float, window_end: float, turn: float = 0.0
+) -> tuple[Floats, Tip]:
+    """The normal (3,) of the plane along the line from the cone's top to the top of the section at
+    ``end``, turned forward by an angle, and what lies farthest over it.
+    """
+    start_mm, end_mm = shape.x_mm(LANDMARKS.cone), shape.x_mm(end)
+    tops_mm = [shape.across(share).points[:, 1].max() for share in (LANDMARKS.cone, end)]
+    lean = np.arctan2(tops_mm[0] - tops_mm[1], end_mm - start_mm) + turn
+    normal = np.array([np.sin(lean), 0.0, np.cos(lean)])
+    x = shape.vertices_mm[:, 0]
+    a, b, c = ((x > start_mm) & (x < shape.x_mm(window_end)))[shape.faces.T]
+    return normal, tip(shape.vertices_mm, shape.faces[a & b & c], normal, shape.length_mm)
 
 
 def _whole_girths(

@@ -39,9 +39,6 @@ class LandmarkSettings:
     joint_edge: float = 0.008  # a joint this close to the edge of its search window is rejected
     instep: float = 0.50
     cone: float = 0.15  # a place on a last's cone
-    cone_line: tuple[float, float] = (0.15, 0.70)  # over this line the cone's front edge stands out
-    cone_end: float = 0.55  # the edge lies behind this place, and the shaft of a boot has none
-    cone_turn_deg: float = 6.0  # the plane that touches the edge is turned so far both ways
     top_crossed: float = 0.05  # a section that runs farther over the top cut is not measured
     gap: float = 0.03  # a section with a wider gap is not measured
     ground: float = 0.006  # a flat sole lies so near to the ground
@@ -270,29 +267,6 @@ class Shape:
         """The top of the section at half the length, (3,)."""
         points = self.at_instep.points
         return np.array([self.x_mm(LANDMARKS.instep), *points[np.argmax(points[:, 1])]])
-
-    @cached_property
-    def cone_edge(self) -> Floats:
-        """A last's upper front edge: the place (3,) that is farthest over the line from the cone's
-        top to the top of the ball.
-
-        A plane with the normal n that touches it is at the distance h. As the plane turns, h
-        changes by h' and n by n': it touches at h n + h' n'. The middle of what lies near to the
-        plane would lie far back on the top of a low cone.
-        """
-        ends = [(self.x_mm(share), self.across(share)) for share in LANDMARKS.cone_line]
-        (start_mm, start), (end_mm, end) = ends
-        fall = float(start.points[:, 1].max() - end.points[:, 1].max())
-        lean, turn = np.arctan2(fall, end_mm - start_mm), np.radians(LANDMARKS.cone_turn_deg)
-        x = self.vertices_mm[:, 0]
-        faces = self._faces_of((x > start_mm) & (x < self.x_mm(LANDMARKS.cone_end)))
-        normals = [
-            np.array([np.sin(at), 0.0, np.cos(at)]) for at in (lean - turn, lean, lean + turn)
-        ]
-        before, over, after = (tip(self.vertices_mm, faces, n, self.length_mm) for n in normals)
-        change = (after.reach - before.reach) / (2.0 * np.sin(turn))
-        along = np.array([np.cos(lean), 0.0, -np.sin(lean)])
-        return np.asarray(over.reach * normals[1] + change * along + over.place * AXES[1])
 
     # ------------------------------------------------------------ where a tape lies
 

@@ -157,7 +157,7 @@ MEASURES: tuple[MeasureDefinition, ...] = (
         2,
         0.6,
         foot=off(-0.35, 0.00),
-        last=off(0.07, 1.18, 0.60, 0.60, 1.94),
+        last=off(-0.29, 2.65, 1.61, 1.44, 1.89),
         usual_share=(1.12, 1.47),
     ),
     MeasureDefinition(
