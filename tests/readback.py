@@ -335,10 +335,10 @@ def width_facts(match: Match, foot: Profiled, name: str) -> Iterator[Fact]:
     shares = []
     for share in width.shares:
         if share.percent is None:
-            shares.append(share.reason)
             continue
         percent = min(max(10 * int(round(share.percent, 6) / 10 + 0.5), 5), 95)
         shares += [percent if percent >= 50 else 100 - percent, share.people]
+    shares += dict.fromkeys(share.reason for share in width.shares if share.percent is None)
     yield fact(f"{name} among people", shares, PAGE)
     yield fact(f"{SAID} width of {name}", [*at_size, *shares], TERMINAL)
 
