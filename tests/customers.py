@@ -224,7 +224,7 @@ def match_problems(match: Match, text: str, rows: Path, known_length: str | None
         zones = [zone for fit in candidate.fits for zone in fit.zones]
         (room,) = (zone for zone in zones if zone.zone == "length" and zone.counts)
         value = room.clearance.value
-        if value is not None and value >= 0.0:
+        if match.candidates and value is not None and value >= 0.0:
             said = plain(value, max(room.digits, 1))
             if not candidate.why.startswith(f"{said} mm toe room"):
                 yield f"the toe room is {said} mm, and the sentence is {candidate.why!r}"

@@ -7,7 +7,6 @@ from dataclasses import dataclass
 from datetime import date
 
 from footfit.number_words import plain, rounded
-from footfit.report.wording.fit_words import toe_room_text
 from footfit.report.wording.text import size_text
 from footfit.results import Candidate, FootFit, Measured, SideName, Verdict, ZoneFit
 
@@ -87,7 +86,7 @@ def fit_words(candidate: Candidate) -> str:
     room = dict(candidate.clearance_mm).get("length", Measured(None)).value
     parts = []
     if room is not None:
-        size = toe_room_text(candidate, spread=False).lstrip("+-")
+        size = plain(abs(room))
         where = "of room in front of the toes" if room >= 0.0 else "shorter than the foot"
         parts.append(f"about {size} mm {where}")
     parts += faults or ["good everywhere else"]
