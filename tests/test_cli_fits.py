@@ -42,7 +42,7 @@ def test_a_recorded_entry_teaches_its_zones(footfit: Footfit, catalogue: Path, f
     assert footfit("record-fit", "derby-41", foot, *GIVEN, "--catalogue", catalogue).code == 0
     with open_catalogue(catalogue) as opened:
         entries = opened.fit_log.entries()
-        log = log_ratings(entries, "walking", definitions(opened.record("derby-41")))
+        log = log_ratings(entries, "walking", definitions())
     assert set(log.zones) >= {"length", "ball_girth", "ball_width"}
     assert log.left_out == {}
 

@@ -141,10 +141,10 @@ def test_enough_ratings_move_target_and_ranges() -> None:
     assert zone.status == "applied"
     assert zone.reason is None
     assert zone.target_interval_mm[0] < 5.0 < zone.target_interval_mm[1]
-    assert zone.rule.target == pytest.approx(zone.target_mm, abs=0.06)
-    move = zone.rule.target - BALL.target
-    assert zone.rule.acceptable[1] == pytest.approx(BALL.acceptable[1] + move, abs=0.11)
-    assert zone.rule.good[0] < zone.rule.target < zone.rule.good[1]
+    assert zone.after.target == pytest.approx(zone.target_mm, abs=0.06)
+    move = zone.after.target - BALL.target
+    assert zone.after.acceptable[1] == pytest.approx(BALL.acceptable[1] + move, abs=0.11)
+    assert zone.after.good[0] < zone.after.target < zone.after.good[1]
     assert zone.losses[1] < zone.losses[0]
 
 
@@ -153,7 +153,7 @@ def test_enough_ratings_move_target_and_ranges() -> None:
 )
 def test_few_wearers_change_nothing(wearers: int, status: str, words: str) -> None:
     zone = evidence(spread_out(5, wearers, 5.0))
-    assert (zone.status, zone.rule) == (status, BALL)
+    assert (zone.status, zone.after) == (status, BALL)
     assert words in zone.reason
 
 
@@ -167,14 +167,14 @@ def test_many_ratings_of_few_wearers_are_few() -> None:
 def test_one_sided_ratings_change_nothing(least: int, most: int, words: str) -> None:
     said = spread_out(6, 60, 0.0)
     zone = evidence(replace(said, rating=np.clip(said.rating, least, most)))
-    assert (zone.status, zone.rule) == ("shown", BALL)
+    assert (zone.status, zone.after) == ("shown", BALL)
     assert words in zone.reason
 
 
 def test_ratings_that_fall_with_the_clearance_change_nothing() -> None:
     said = spread_out(7, 80, 1.0)
     zone = evidence(replace(said, rating=-said.rating))
-    assert zone.rule == BALL
+    assert zone.after == BALL
     assert zone.status == "shown"
 
 
@@ -185,7 +185,7 @@ def test_ratings_that_bend_away_from_the_model_change_nothing() -> None:
     ones = np.ones(80)
     steep = Ratings(clearance, ones, said, np.arange(80), MODEL.slips * ones)
     assert largest_bend(steep, posterior(steep, PRIOR)) > 0.5
-    assert evidence(steep).rule == BALL
+    assert evidence(steep).after == BALL
 
 
 def test_ratings_of_the_model_do_not_bend() -> None:
@@ -196,7 +196,7 @@ def test_ratings_of_the_model_do_not_bend() -> None:
 
 
 def test_ratings_that_agree_with_the_profile_leave_it_or_move_it_little() -> None:
-    moved = [evidence(spread_out(seed, 100, 0.0)).rule.target for seed in range(5)]
+    moved = [evidence(spread_out(seed, 100, 0.0)).after.target for seed in range(5)]
     assert np.abs(moved).max() < 2.5
 
 
@@ -204,7 +204,7 @@ def test_a_target_moves_by_two_prior_sds_at_most() -> None:
     said = spread_out(8, 200, 1.0)
     far = replace(said, clearance_mm=said.clearance_mm + 25.0)
     zone = evidence(far)
-    assert abs(zone.rule.target) <= 2.0 * PRIOR.target_sd_mm + 0.05
+    assert abs(zone.after.target) <= 2.0 * PRIOR.target_sd_mm + 0.05
 
 
 DEFINITIONS = {name: f"{name}/1" for name in fits.ZONES}

@@ -9,7 +9,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from footfit.errors import BadOption, BadProfile, FootfitError, UnreadableFile
-from footfit.pipeline.fit.fit_profile import FOLDER, fit_profile, profile_of, shipped
+from footfit.pipeline.fit.fit_profile import FOLDER, NO_SOURCE, fit_profile, profile_of, shipped
+from footfit.results.fit import GRADES
 
 PLAIN = """
 schema = "footfit.fit-profile/1"
@@ -33,27 +34,52 @@ weight = 0.5
 """
 
 
-@pytest.mark.parametrize("name", ["walking", "dress", "sport", "child", "safety"])
-def test_every_shipped_profile_reads_and_asks_for_the_published_allowances(name: str) -> None:
+PUBLISHED = {  # target, good, acceptable: heel width and short heel are wider where people differ
+    "pump": {"length": (10, (7, 15), (5, 20)), "ball_girth": (-3, (-6, 0), (-9, 4))},
+    "dress": {"length": (13, (10, 17), (8, 22)), "instep_girth": (1, (-3, 4), (-6, 7))},
+    "walking": {"length": (14, (10, 20), (8, 26)), "ball_width": (1, (-2, 4), (-5, 7))},
+    "sport": {"length": (14, (10, 18), (8, 22)), "ball_girth": (1, (-4, 5), (-8, 9))},
+    "safety": {"length": (15, (12, 20), (10, 25)), "instep_girth": (3, (0, 7), (-4, 11))},
+    "boot": {"length": (14, (11, 18), (9, 23)), "ball_width": (0, (-2, 3), (-4, 5))},
+    "sandal": {"length": (6, (3, 11), (1, 15)), "ball_girth": (0, (-5, 6), (-9, 11))},
+    "child": {"length": (14, (12, 17), (9, 20)), "ball_width": (2, (0, 6), (-3, 10))},
+    "depth": {"length": (15, (10, 20), (9, 25)), "ball_girth": (4, (0, 9), (-3, 14))},
+}
+HEELS = {"pump": (-3, (-4, -1)), "walking": (-2, (-4, 1)), "depth": (0, (-2, 3))}
+
+
+@pytest.mark.parametrize("name", PUBLISHED)
+def test_every_shipped_profile_asks_for_the_published_allowances(name: str) -> None:
     profile = fit_profile(name)
     assert profile.name == name
     rules = {rule.zone: rule for rule in profile.zones}
-    assert {"length", "ball_line", "ball_girth", "ball_width", "heel_width", "flare"} <= set(rules)
-    low, high = rules["length"].poor or (0, 0)
-    assert 8 <= low < rules["length"].target < high <= 25, "a last 60 mm off never ranks"
-    if name == "walking":
-        assert rules["length"].good == (10, 17)
-        assert rules["length"].acceptable == (8, 20)
-    if name == "dress":
-        assert rules["ball_girth"].target == -2
-        assert rules["ball_girth"].good == (-5, 0)
-    assert rules["ball_line"].good[1] == pytest.approx(2, abs=0.5)
+    for zone, asked in PUBLISHED[name].items():
+        assert (rules[zone].target, rules[zone].good, rules[zone].acceptable) == asked, zone
+    if name in HEELS:
+        assert (rules["heel_width"].target, rules["heel_width"].good) == HEELS[name]
+    assert rules["length"].poor == rules["length"].acceptable, "a last 60 mm off never ranks"
     assert rules["ball_line"].poor is not None
+    assert {"flare", "plan"} <= set(rules)
+    assert ("toes" in rules) == (name != "sandal")
+    assert ("instep_girth" in rules) == (name not in ("pump", "sandal"))
 
 
-def test_five_profiles_are_shipped_each_with_another_hash() -> None:
-    assert set(shipped()) == {"walking", "dress", "sport", "child", "safety"}
-    assert len({fit_profile(name).sha256 for name in shipped()}) == 5
+def test_nine_profiles_are_shipped_each_with_another_hash() -> None:
+    assert set(shipped()) == set(PUBLISHED)
+    assert len({fit_profile(name).sha256 for name in shipped()}) == 9
+
+
+@pytest.mark.parametrize("name", PUBLISHED)
+def test_every_range_of_a_shipped_profile_has_a_source(name: str) -> None:
+    for rule in fit_profile(name).zones:
+        assert rule.grade in GRADES
+        assert len(rule.source) > 8, rule.zone
+        assert rule.source != NO_SOURCE
+
+
+def test_a_grade_that_is_none_is_refused() -> None:
+    with pytest.raises(BadProfile, match="trade rule"):
+        profile_of(PLAIN.replace("required = true", 'required = true\ngrade = "D"'))
 
 
 def test_the_users_own_profile_is_read_from_its_file(tmp_path: Path) -> None:
@@ -111,7 +137,7 @@ def test_what_is_wrong_is_said_in_one_line(old: str, new: str, words: str) -> No
 
 
 def test_a_name_that_is_not_there_lists_those_that_are() -> None:
-    with pytest.raises(BadOption, match="child, dress, safety, sport, walking"):
+    with pytest.raises(BadOption, match="boot, child, depth, dress, pump"):
         fit_profile("disco")
 
 

@@ -21,8 +21,10 @@ from footfit.api.inputs import (
     heel_options,
     reading_options,
     stance_keywords,
+    worn_options,
 )
 from footfit.api.scans import aligned_shape, profiled_shape, sources
+from footfit.api.wearers import FitLog
 from footfit.catalogue import store
 from footfit.catalogue.file.opening import FIRST_STEPS
 from footfit.errors import BadOption, NoReference
@@ -32,7 +34,6 @@ from footfit.pipeline.customers.customer import Customer, alone, one_pair
 from footfit.pipeline.library import lasts
 
 if TYPE_CHECKING:
-    from footfit.pipeline.evidence.recording import Said
     from footfit.pipeline.fit.match import Question
     from footfit.pipeline.library.ingest import Entry, HoldSignals, KeepMesh
 
@@ -148,61 +149,10 @@ class Catalogue(CatalogueFile):
         around = stored_last(self.path, last)
         return compared(profiled_shape(foot, reading), around, heel_options(reading))
 
-    # ------------------------------------------------------------ the fit log
-
-    def record_fit(
-        self,
-        last: str,
-        foot: Shape,
-        said: Said,
-        *,
-        consent: bool = False,
-        profile: str = "walking",
-        **reading: Unpack[CompareKeywords],
-    ) -> results.RecordOutcome:
-        """Store what a wearer said of a shoe, with the clearances of the foot in its last.
-
-        No mesh, no file name and no name is stored. ``consent``: the wearer agrees that ratings and
-        clearances are kept.
-
-        Raises
-        ------
-        BadOption
-            There is no consent, or no such profile; nothing is stored.
-        UnknownLast, InputError, GeometryRefused
-            As `compare`; HalfScan if the length of the foot is not known.
-        """
-        from footfit.pipeline.evidence.recording import NO_CONSENT, fit_entry
-        from footfit.pipeline.fit.fit_profile import fit_profile
-
-        if not consent:
-            raise BadOption(NO_CONSENT)
-        asked = fit_profile(profile)
-        with store.open_catalogue(self.path) as catalogue:
-            record = catalogue.record(catalogue.name(last))
-        shape = profiled_shape(foot, reading)
-        entry = fit_entry(shape, record, asked, heel_options(reading), said, self.path)
-        with self._written() as catalogue:
-            catalogue.fit_log.add(entry)
-        return results.RecordOutcome(entry)
-
-    def fits(self) -> results.FitList:
-        """Every entry of the fit log, oldest first."""
-        with store.open_catalogue(self.path) as catalogue:
-            return results.FitList(catalogue.fit_log.entries())
-
-    def forget_fits(self, asked: str) -> results.ForgetOutcome:
-        """Remove the entries of a wearer's code, or one entry by its id, for good.
-
-        Raises
-        ------
-        UnknownFit
-            There is no such code or id.
-        """
-        with self._written() as catalogue:
-            return catalogue.fit_log.forget(asked)
-
-    # ------------------------------------------------------------ the question
+    @property
+    def fit_log(self) -> FitLog:
+        """What wearers said of shoes on these lasts."""
+        return FitLog(self.path)
 
     def _question(self, question: MatchKeywords) -> Question:
         from footfit.pipeline.fit.fit_profile import fit_profile
@@ -215,15 +165,17 @@ class Catalogue(CatalogueFile):
             size_system=question.get("size_system"),
             surfaces_in=self.path if question.get("clearance") else None,
             heel=heel_options(question),
+            worn=worn_options(question),
         )
 
     def _choice(self, question: MatchKeywords) -> results.Library:
-        from footfit.pipeline.fit.candidates import choice
+        from footfit.pipeline.fit.candidates import choice, in_stock
 
         filters = question.get("style"), question.get("size_system")
         if filters not in self._chosen:
             self._chosen[filters] = choice(self.path, *filters)
-        return self._chosen[filters]
+        stock, chosen = question.get("stock"), self._chosen[filters]
+        return chosen if stock is None else in_stock(chosen, Path(stock))
 
     @contextmanager
     def _written(self) -> Iterator[store.Catalogue]:

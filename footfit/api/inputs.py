@@ -7,7 +7,7 @@ from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any, Literal, Protocol, TypedDict, Union, runtime_checkable
 
 from footfit.pipeline.batch.sources import ReadingOptions, Source
-from footfit.results import AlignedScan, HeelQuestion, Profiled, Scan, SearchBy
+from footfit.results import AlignedScan, HeelQuestion, Profiled, Scan, SearchBy, Worn
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike
@@ -71,11 +71,29 @@ class CompareKeywords(ReadingKeywords, HeelKeywords, total=False):
     """
 
 
-class MatchKeywords(CompareKeywords, total=False):
+class WornKeywords(TypedDict, total=False):
+    """What is worn with the shoes, in mm, and how the foot was scanned; without these as the fit
+    profile has it.
+    """
+
+    sock_mm: float | None
+    insole_mm: float | None
+    heel_lift_mm: float | None
+    load: Literal["air", "sitting", "half", "full"] | None
+    time: Literal["morning", "evening"] | None
+    scanned_in_sock_mm: float | None
+
+
+class RecordKeywords(CompareKeywords, WornKeywords, total=False):
+    """How a foot is to be understood, and what was worn with the shoe."""
+
+
+class MatchKeywords(CompareKeywords, WornKeywords, total=False):
     """What is asked of a catalogue, and how the feet are to be understood.
 
     ``profile`` is the name or the file of a fit profile, ``top`` how many lasts to show (0: all).
-    ``style`` and ``size_system`` filter the lasts; ``clearance`` puts the feet into those shown.
+    ``style`` and ``size_system`` filter the lasts, and so does ``stock``, a CSV file of what a shop
+    has; ``clearance`` puts the feet into those shown.
     """
 
     by: SearchBy
@@ -84,6 +102,7 @@ class MatchKeywords(CompareKeywords, total=False):
     style: str | None
     size_system: str | None
     clearance: bool
+    stock: FilePath | None
 
 
 class LabelKeywords(TypedDict, total=False):
@@ -166,6 +185,22 @@ def stance_keywords(options: Mapping[str, Any]) -> dict[str, Any]:
     from footfit.pipeline.scan.standing import LABELLED_MM
 
     return {name: options[name] for name in LABELLED_MM if options.get(name) is not None}
+
+
+def worn_options(options: Mapping[str, Any]) -> Worn:
+    """The keywords of `WornKeywords`, without any others.
+
+    Raises
+    ------
+    BadOption
+        A thickness is negative or too large.
+    """
+    from footfit.pipeline.fit.worn_shifts import check_worn
+
+    names = Worn.__dataclass_fields__
+    worn = Worn(**{name: options[name] for name in names if name in options})
+    check_worn(worn)
+    return worn
 
 
 def reading_options(options: Mapping[str, Any]) -> ReadingOptions:

@@ -15,6 +15,7 @@ from footfit.report.terminal import (
     comparison_tables,
     evidence_tables,
     match_tables,
+    profile_tables,
     scan_tables,
 )
 from footfit.results import Alignment, IngestOutcome, Match, MeshInfo, Notice
@@ -123,5 +124,9 @@ FORMS: dict[type, Form] = {
     results.RecordOutcome: Form(evidence_tables.record_fit_line),
     results.FitList: Form(evidence_tables.list_fits_table),
     results.ForgetOutcome: Form(evidence_tables.forget_fits_line),
+    results.Calibration: Form(profile_tables.calibration_table),
+    results.ProfileList: Form(profile_tables.list_profiles_table),
+    results.ShownProfile: Form(profile_tables.show_profile_table),
+    results.CheckedProfile: Form(profile_tables.check_profile_line),
     results.DemoOutcome: Form(catalogue_tables.demo_table),
 }

@@ -18,6 +18,7 @@ HEADINGS = {
     "Start here": "demo",
     "The paper's commands": "ingest-last set-reference align flare curvature measure match",
     "Fit": "compare",
+    "Fit profiles": "list-profiles show-profile check-profile calibrate-profile",
     "What wearers say": "record-fit list-fits forget-fits",
     "The library of lasts": (
         "list-lasts show-last edit-last rename-last remove-last export-last catalogue-info"

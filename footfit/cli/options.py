@@ -17,6 +17,8 @@ if TYPE_CHECKING:
 UnitName = Literal["auto", "mm", "cm", "m", "in"]
 SideChoice = Literal["auto", "left", "right"]
 ScannerName = Literal["laser", "handheld", "phone", "photos"]
+LoadName = Literal["air", "sitting", "half", "full"]
+TimeName = Literal["morning", "evening"]
 FormatName = Literal["stl", "obj", "ply", "off", "glb", "3mf"]
 
 STDOUT = Path("-")
@@ -26,6 +28,7 @@ ANSWER = "Answer"
 READING = "Reading the scan"
 OUTPUT = "Files written"
 STANDING = "How the last stands"
+WORN = "What is worn"
 SWITCH: dict[str, Any] = {"metavar": "", "default": False}
 """An option without a value; the help shows no type, which a reader would try to give."""
 
@@ -228,6 +231,47 @@ class FootReading(Reading):
         """The options as the functions of `footfit.api` take them."""
         heel = {"as_scanned": self.as_scanned, "scanned_at_drop_mm": self.scanned_at_drop}
         return {**Reading.keywords(self), **heel}
+
+
+@dataclass(frozen=True, slots=True)
+class WornWith:
+    """What is worn with the shoes, and how the foot was scanned; without it the profile decides."""
+
+    sock: float | None = member(
+        "--sock", "Set the thickness of the sock in mm; nylon .5, dress 1, sport 2, wool 3.", "MM",
+        panel=WORN, min=0, max=10,
+    )  # fmt: skip
+    insole: float | None = member(
+        "--insole", "Set the thickness in mm of an insole under the whole foot.", "MM",
+        panel=WORN, min=0, max=15,
+    )  # fmt: skip
+    heel_lift: float | None = member(
+        "--heel-lift", "Set how many mm lie under the heel alone; they add to the drop.", "MM",
+        panel=WORN, min=0, max=40,
+    )  # fmt: skip
+    load: LoadName | None = member(
+        "--load",
+        "Say how the foot was loaded in the scanner: air, sitting, half (on both feet), full.",
+        panel=WORN,
+    )
+    time: TimeName | None = member(
+        "--time", "Say when the foot was scanned: feet swell until the evening.", panel=WORN
+    )
+    scanned_in_sock: float | None = member(
+        "--scanned-in-sock", "Set the thickness in mm of the sock that the scan holds.", "MM",
+        panel=WORN, min=0, max=10,
+    )  # fmt: skip
+
+    def keywords(self) -> dict[str, Any]:
+        """The options as the functions of `footfit.api` take them."""
+        return {
+            "sock_mm": self.sock,
+            "insole_mm": self.insole,
+            "heel_lift_mm": self.heel_lift,
+            "load": self.load,
+            "time": self.time,
+            "scanned_in_sock_mm": self.scanned_in_sock,
+        }
 
 
 @dataclass(frozen=True, slots=True)

@@ -28,6 +28,9 @@ from footfit.results.fit_entries import FitList as FitList
 from footfit.results.fit_entries import ForgetOutcome as ForgetOutcome
 from footfit.results.fit_entries import RatedZone as RatedZone
 from footfit.results.fit_entries import RecordOutcome as RecordOutcome
+from footfit.results.fit_evidence import Calibration as Calibration
+from footfit.results.fit_evidence import RatedClearances as RatedClearances
+from footfit.results.fit_evidence import ZoneEvidence as ZoneEvidence
 from footfit.results.heel import HeelChange as HeelChange
 from footfit.results.heel import HeelModel as HeelModel
 from footfit.results.heel import HeelQuestion as HeelQuestion
@@ -55,6 +58,7 @@ from footfit.results.match import Candidate as Candidate
 from footfit.results.match import FailedMatch as FailedMatch
 from footfit.results.match import FlareDifference as FlareDifference
 from footfit.results.match import Match as Match
+from footfit.results.match import NotInStock as NotInStock
 from footfit.results.meshes import MeshCopy as MeshCopy
 from footfit.results.meshes import MeshInfo as MeshInfo
 from footfit.results.meshes import Scan as Scan
@@ -63,6 +67,9 @@ from footfit.results.profile import MeasuredScan as MeasuredScan
 from footfit.results.profile import Profiled as Profiled
 from footfit.results.profile import SurfaceCurvature as SurfaceCurvature
 from footfit.results.profile import WideMeasures as WideMeasures
+from footfit.results.profiles import CheckedProfile as CheckedProfile
+from footfit.results.profiles import ProfileList as ProfileList
+from footfit.results.profiles import ShownProfile as ShownProfile
 from footfit.results.values import Confidence as Confidence
 from footfit.results.values import Measure as Measure
 from footfit.results.values import Measured as Measured
@@ -73,3 +80,4 @@ from footfit.results.values import SideName as SideName
 from footfit.results.values import Verdict as Verdict
 from footfit.results.width import FootWidth as FootWidth
 from footfit.results.width import WidthShare as WidthShare
+from footfit.results.worn import Worn as Worn

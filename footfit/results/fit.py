@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Literal
 
 from footfit.results.heel import HeelChange
 from footfit.results.values import Json, Measured, Part, SideName, Verdict, exact, fields, part
+from footfit.results.worn import BAREFOOT, Worn
 
 if TYPE_CHECKING:
     from footfit.geometry.numeric.arrays import Floats, Ints
@@ -22,6 +23,16 @@ ZONE_ENDS = {
 """Every zone that a profile can name, and what the name of a column ends in by its unit."""
 
 
+Grade = Literal["A", "M", "B", "C"]
+GRADES: dict[Grade, str] = {
+    "A": "measured with wearers who judged comfort",
+    "M": "measured on feet or lasts",
+    "B": "trade rule",
+    "C": "opinion",
+}
+"""How well a range is founded, in words."""
+
+
 @dataclass(frozen=True, slots=True)
 class ZoneRule:
     """What a fit profile asks of one zone, in the unit of the zone.
@@ -30,7 +41,7 @@ class ZoneRule:
     ``acceptable``. Outside of ``poor`` the last is rejected; if ``poor`` is None it never is.
     ``weight`` counts in the distance; a zone of weight 0 is shown and judges nothing. Without a
     ``required`` zone no last is good. ``cavity`` is the space that lining, insole and counter take;
-    it is subtracted first.
+    it is subtracted first. ``grade`` says how well the ranges are founded, and ``source`` by what.
     """
 
     zone: str
@@ -41,6 +52,8 @@ class ZoneRule:
     weight: float
     required: bool
     cavity: float
+    grade: Grade = "C"
+    source: str = ""
 
     def to_dict(self) -> Json:
         """The rule without its zone's name, which is its key."""
@@ -53,7 +66,8 @@ class FitProfile:
 
     ``sha256`` is of the values, not of the file, so a comment does not change it. Two distances
     that differ by at most ``tie_sds`` standard deviations of their difference are a tie.
-    ``usual_length_mm`` are the lengths of the feet that it is for; None stands for adults.
+    ``usual_length_mm`` are the lengths of the feet that it is for; None stands for adults. ``worn``
+    is what is worn with such shoes, if nothing else is said.
     """
 
     name: str
@@ -63,11 +77,13 @@ class FitProfile:
     zones: tuple[ZoneRule, ...]
     sha256: str
     usual_length_mm: tuple[float, float] | None = None
+    worn: Worn = BAREFOOT
 
     def to_dict(self) -> Json:
         """The whole profile, its rules by zone."""
         rules = {rule.zone: rule.to_dict() for rule in self.zones}
-        return exact(fields(self, "zones", "usual_length_mm")) | {"zones": rules}
+        keys = exact(fields(self, "zones", "usual_length_mm", "worn"))
+        return keys | {"worn": self.worn.to_dict(), "zones": rules}
 
 
 @dataclass(frozen=True, slots=True)
@@ -79,7 +95,8 @@ class ZoneFit(Part):
     if the clearance is not measured. ``counts`` is False if the other foot of the pair governs this
     zone, or if its weight is 0; ``not_counted`` then says which. ``label`` names the zone in words.
     ``digits`` are the decimals that the clearance is shown with: more where they decide a verdict.
-    ``place`` is where in the zone that is: "big toe, inner wall".
+    ``place`` is where in the zone that is: "big toe, inner wall". ``grade`` says how well
+    founded the zone's ranges are (``GRADES``).
     """
 
     zone: str
@@ -93,6 +110,7 @@ class ZoneFit(Part):
     label: str = ""
     not_counted: str | None = None
     digits: int = 1
+    grade: Grade = "C"
 
     not_written = ("zone", "digits")
 

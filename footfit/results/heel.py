@@ -72,11 +72,13 @@ class HeelQuestion:
     """How feet are compared with lasts that have a heel.
 
     ``model`` is None for feet that are compared as scanned. ``scanned_at_drop_mm`` is the drop of
-    what the foot stood on in the scanner: 0 is a flat floor.
+    what the foot stood on in the scanner: 0 is a flat floor. ``heel_lift_mm`` is put under the heel
+    in the shoe, and adds to each last's drop.
     """
 
     model: HeelModel | None = None
     scanned_at_drop_mm: float = 0.0
+    heel_lift_mm: float = 0.0
 
 
 AS_SCANNED = HeelQuestion()

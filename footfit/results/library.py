@@ -270,7 +270,7 @@ class Library(Document):
 
     ``sort`` names the order in which they are listed, one of `SORTS`. ``filters`` are the labels
     that they were chosen by. ``file`` is the catalogue that their sections are read from, None if
-    there is none.
+    there is none. ``out_of_stock`` are lasts that a shop does not have; they are not in ``lasts``.
     """
 
     lasts: tuple[LastRecord, ...]
@@ -281,6 +281,7 @@ class Library(Document):
     file: Path | None = None
     sort: str = "name"
     filters: tuple[tuple[str, str], ...] = ()
+    out_of_stock: tuple[LastRecord, ...] = ()
 
     columns = (
         *("last", *LABELS, "heel_height_mm", "family", "parent", "side"),

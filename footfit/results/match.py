@@ -24,6 +24,7 @@ from footfit.results.values import (
     part,
     rows,
 )
+from footfit.results.worn import BAREFOOT, Worn
 
 if TYPE_CHECKING:
     from footfit.results.compare import SurfaceClearance, TightPlace
@@ -118,6 +119,14 @@ class Candidate(Part):
 
 
 @dataclass(frozen=True, slots=True)
+class NotInStock(Part):
+    """The best last that the shop does not have, and its verdict."""
+
+    last: str
+    verdict: Verdict
+
+
+@dataclass(frozen=True, slots=True)
 class Match(Document):
     """One customer's answer: one foot, or two with ``--pair``.
 
@@ -142,6 +151,8 @@ class Match(Document):
     heel: HeelQuestion = AS_SCANNED
     widths: tuple[FootWidth, ...] = ()
     customer: str | None = None
+    worn: Worn = BAREFOOT
+    not_in_stock: NotInStock | None = None
 
     @property
     def customer_length_mm(self) -> float | None:

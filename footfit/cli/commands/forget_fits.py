@@ -17,4 +17,4 @@ def forget_fits(
 
     Example: footfit forget-fits W17
     """
-    return lasts.open().forget_fits(code)
+    return lasts.open().fit_log.forget(code)

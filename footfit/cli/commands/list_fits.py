@@ -24,4 +24,4 @@ def list_fits(
 
     outputs = Outputs(table=FitList, csv=csv, force=force)
     outputs.refuse(as_json=mode.json)
-    answer_result(lasts.open().fits(), mode, outputs)
+    answer_result(lasts.open().fit_log.entries(), mode, outputs)

@@ -58,6 +58,12 @@ def match(
         "labelled in this system, rank only those.",
         "S",
     ),
+    stock: Path | None = options.option(
+        "--stock",
+        "Rank only what is in stock: a CSV with last, or style, size, size_system and width_label, "
+        "and quantity.",
+        "FILE.csv",
+    ),
     clearance: bool = options.switch(
         "--clearance",
         "Put the feet into each shown last, and say in mm where it is tight or loose.",
@@ -86,6 +92,7 @@ def match(
     lasts: options.Lasts,
     force: bool = options.FORCE,
     reading: options.FootReading,
+    worn: options.WornWith,
     batch: options.Batch,
     mode: options.OutputMode,
 ) -> None:
@@ -144,7 +151,9 @@ def match(
         style=style,
         size_system=size_system,
         clearance=clearance,
+        stock=stock,
         **reading.keywords(),
+        **worn.keywords(),
     )
     mode = replace(mode, total=len(customers))
     summary = Summary(fail_under)

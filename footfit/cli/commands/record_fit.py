@@ -37,6 +37,7 @@ def record_fit(
     *,
     lasts: options.Lasts,
     reading: options.FootReading,
+    worn: options.WornWith,
     mode: options.OutputMode,
 ) -> object:
     """Record how a shoe fitted: the ratings and the clearances, no scan and no name.
@@ -63,11 +64,12 @@ def record_fit(
     sources = sources_of([foot], reading, quiet=mode.quiet)
     if len(sources) != 1:
         raise BadOption(f"holds {len(sources)} meshes; name one foot", foot)
-    return lasts.open().record_fit(
+    return lasts.open().fit_log.record(
         last,
         sources[0],
         said,
         consent=consent,
         profile=profile,
         **reading.keywords(),
+        **worn.keywords(),
     )

@@ -9,7 +9,6 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
-from typing import Literal
 
 import numpy as np
 
@@ -24,9 +23,7 @@ from footfit.pipeline.evidence.ratings_model import (
     rating_probabilities,
     zone_posteriors,
 )
-from footfit.results import ZoneRule
-
-Status = Literal["applied", "shown", "too_few"]
+from footfit.results import RatedClearances, ZoneEvidence, ZoneRule
 
 
 @dataclass(frozen=True, slots=True)
@@ -51,28 +48,7 @@ CAUTION = Caution()
 
 SPREAD_MM = {"length": 4.0, "girth": 5.0, "other": 3.0}
 """The spread of ratings beforehand: of the toe room, of girths, of widths and heights."""
-
-
-@dataclass(frozen=True, slots=True)
-class ZoneEvidence:
-    """What ratings say of one zone, in mm.
-
-    ``rule`` is the zone's rule after the ratings; it is the profile's own unless ``status`` is
-    "applied". ``losses`` are the mean log losses of ratings held out: by the profile, and by what
-    the others taught. ``reason`` says why a zone keeps its rule.
-    """
-
-    before: ZoneRule
-    rule: ZoneRule
-    status: Status
-    reason: str | None
-    ratings: int
-    wearers: int
-    target_mm: float | None = None
-    target_interval_mm: tuple[float, float] | None = None
-    spread_mm: float | None = None
-    spread_interval_mm: tuple[float, float] | None = None
-    losses: tuple[float, float] | None = None
+CURVE_PLACES = 81
 
 
 def prior_of(rule: ZoneRule) -> Prior:
@@ -113,7 +89,7 @@ def _zone(
     objection = _objection(ratings, held, losses, caution)
     return ZoneEvidence(
         before=rule,
-        rule=rule if objection else _learned(rule, ratings, held, caution),
+        after=rule if objection else _learned(rule, ratings, held, caution),
         status="shown" if objection else "applied",
         reason=objection,
         ratings=count,
@@ -123,7 +99,23 @@ def _zone(
         spread_mm=held.spread(),
         spread_interval_mm=held.spread_interval(),
         losses=losses,
+        shown=_shown(rule, ratings, held),
     )
+
+
+def _shown(rule: ZoneRule, ratings: Ratings, held: Posterior) -> RatedClearances:
+    """The ratings of a zone, with the curves before and after."""
+    low, high = ratings.clearance_mm.min(), ratings.clearance_mm.max()
+    places = np.linspace(min(low, rule.acceptable[0]), max(high, rule.acceptable[1]), CURVE_PLACES)
+    prior, said = prior_of(rule), np.array(RATINGS, dtype=float)
+    curves = [
+        rating_probabilities(places, target, spread) @ said
+        for target, spread in (
+            (prior.target_mm, prior.spread_mm),
+            (held.target()[0], held.spread()),
+        )
+    ]
+    return RatedClearances(ratings.clearance_mm, ratings.rating, np.column_stack([places, *curves]))
 
 
 def _objection(

@@ -4,16 +4,27 @@ from __future__ import annotations
 
 import re
 import secrets
-from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
+from collections.abc import Sequence
+from dataclasses import dataclass
 from datetime import UTC, datetime
 from pathlib import Path
 
 from footfit.errors import BadOption, HalfScan
+from footfit.geometry.flare.definition import FlareDefinition
+from footfit.geometry.measures.measure_table import MEASURES
 from footfit.pipeline.evidence.zone_ratings import place_ratings
 from footfit.pipeline.fit.ranking import foot_fits, judged_lasts
-from footfit.results import FitEntry, FitProfile, HeelQuestion, LastRecord, Profiled, RatedZone
+from footfit.results import (
+    FitEntry,
+    FitProfile,
+    HeelQuestion,
+    LastRecord,
+    Profiled,
+    RatedZone,
+    Worn,
+)
 from footfit.results.fit_entries import Outcome
+from footfit.results.worn import BAREFOOT
 from footfit.version import __version__
 
 CODE = re.compile(r"[A-Za-z0-9._-]{1,40}")
@@ -43,7 +54,6 @@ class Said:
     hours: float | None = None
     days: float | None = None
     wearer: str | None = None
-    worn: Mapping[str, object] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
         place_ratings(self.zones)
@@ -71,6 +81,7 @@ def fit_entry(
     profile: FitProfile,
     heel: HeelQuestion,
     said: Said,
+    worn: Worn = BAREFOOT,
     file: Path | None = None,
 ) -> FitEntry:
     """The entry for a foot that wore a shoe on this last, with the clearances of a match.
@@ -86,8 +97,8 @@ def fit_entry(
     if alignment.length.value is None:
         words = f"{alignment.length.reason}; its clearances are not known: scan again"
         raise HalfScan(words, alignment.info.path)
-    (fit,) = foot_fits(judged_lasts([foot], [last], profile, "fit", heel, file), 0)
-    known = definitions(last)
+    (fit,) = foot_fits(judged_lasts([foot], [last], profile, "fit", heel, file, worn), 0)
+    known = definitions()
     zones = [
         RatedZone(
             zone=zone.zone,
@@ -110,7 +121,7 @@ def fit_entry(
         profile=profile.name,
         profile_version=profile.version,
         profile_sha256=profile.sha256,
-        worn={"drop_mm": last.drop_mm, **said.worn},
+        worn={"drop_mm": last.drop_mm} | worn.to_dict(),
         zones=tuple(zones),
         ratings=place_ratings(said.zones),
         comfort=said.comfort,
@@ -122,12 +133,11 @@ def fit_entry(
     )
 
 
-def definitions(last: LastRecord) -> dict[str, str]:
-    """The definition of each zone's measure on a last; the toe room has that of its length."""
-    by_name = {measure.name: measure.definition for measure in last.measures}
-    length = by_name.get("functional_length", by_name.get("length", ""))
-    ball = by_name.get("ball_length", "")
-    flare = last.flare.definition.version
+def definitions() -> dict[str, str]:
+    """The definition of each zone's measure: only lasts that have it are judged in the zone."""
+    by_name = {measure.name: measure.definition_id for measure in MEASURES}
+    length, ball = by_name["functional_length"], by_name["ball_length"]
+    flare = FlareDefinition().version
     return by_name | {
         "length": length,
         "ball_line": ball,

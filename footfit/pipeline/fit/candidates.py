@@ -5,9 +5,10 @@ from __future__ import annotations
 from dataclasses import replace
 from pathlib import Path
 
-from footfit.errors import BadOption
+from footfit.errors import BadOption, NoCandidate
 from footfit.geometry.fit.sizes import SYSTEMS, system_named
 from footfit.pipeline.library.lasts import library
+from footfit.pipeline.library.stock import stock
 from footfit.results import Library, Notice
 
 
@@ -39,3 +40,31 @@ def choice(path: Path, style: str | None, size_system: str | None) -> Library:
     words = f"no last is labelled in {system.title} sizes: lasts of all systems are ranked"
     other = Notice("other_systems", words, str(path))
     return replace(everything, warnings=(*everything.warnings, other))
+
+
+def in_stock(chosen: Library, file: Path) -> Library:
+    """The lasts that a stock file has; the others are counted, and kept beside them.
+
+    Raises
+    ------
+    BadManifest
+        The stock file is not understood.
+    NoCandidate
+        It has none of the lasts.
+    """
+    there = stock(file, chosen.lasts)
+    lasts = tuple(r for r in chosen.lasts if r.labels.name in there.names)
+    if chosen.lasts and not lasts:
+        raise NoCandidate("has none of these lasts in stock; see footfit list-lasts", str(file))
+    out = tuple(r for r in chosen.lasts if r.labels.name not in there.names)
+    unknown: tuple[Notice, ...] = ()
+    if there.unknown:
+        words = f"{len(there.unknown)} rows name no last of the catalogue, first {there.unknown[0]}"
+        unknown = (Notice("unknown_stock", words, str(file)),)
+    return replace(
+        chosen,
+        lasts=lasts,
+        out_of_stock=out,
+        rejected=(*chosen.rejected, *((("not_in_stock", len(out)),) if out else ())),
+        warnings=(*chosen.warnings, *unknown),
+    )

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import asdict, replace
 from pathlib import Path
-from typing import Any
+from typing import Any, get_args
 
 from footfit.errors import BadOption, BadProfile
 from footfit.pipeline.fit.toml_tables import (
@@ -18,13 +18,19 @@ from footfit.pipeline.fit.toml_tables import (
     whole_number,
     words,
 )
+from footfit.pipeline.fit.worn_shifts import LARGEST_MM
 from footfit.pipeline.fit.zones import UNIT_KEYS, ZONES
-from footfit.results import FitProfile, ZoneRule
+from footfit.results import FitProfile, Worn, ZoneRule
+from footfit.results.fit import GRADES, Grade
+from footfit.results.worn import Load, TimeOfDay
 
-SCHEMA = "footfit.fit-profile/1"
+SCHEMAS = ("footfit.fit-profile/2", "footfit.fit-profile/1")
+"""The newest schema, and an older one that has neither grades nor sources."""
 FOLDER = Path(__file__).parent / "profiles"
 TIE_SDS = 1.0
-TOP_KEYS = {"schema", "name", "version", "summary", "tie_sds", "usual_length_mm", "zones"}
+NO_SOURCE = "no source is given"
+TOP_KEYS = {"schema", "name", "version", "summary", "tie_sds", "usual_length_mm", "zones", "worn"}
+WORN_KEYS = {"sock_mm", "insole_mm", "heel_lift_mm", "load", "time"}
 RANGES = ("good", "acceptable", "poor")
 
 
@@ -70,7 +76,7 @@ def profile_of(text: str, path: str | None = None) -> FitProfile:
 def _profile(table: Mapping[str, Any]) -> FitProfile:
     """The profile of a TOML table; raises BadProfile without a path."""
     check_keys(table, TOP_KEYS, "the profile")
-    check_schema(table, SCHEMA)
+    check_schema(table, *SCHEMAS)
     zones = table.get("zones")
     if not isinstance(zones, dict) or not zones:
         raise BadProfile("has no [zones.NAME] table; copy a shipped profile and change it")
@@ -86,6 +92,7 @@ def _profile(table: Mapping[str, Any]) -> FitProfile:
         zones=tuple(rules[name] for name in ZONES if name in rules),
         sha256="",
         usual_length_mm=None if usual is None else _range(usual, "usual_length_mm"),
+        worn=_worn(table.get("worn", {})),
     )
     rules_only = {key: value for key, value in asdict(profile).items() if key != "usual_length_mm"}
     return replace(profile, sha256=values_sha256(rules_only))
@@ -99,7 +106,7 @@ def _rule(name: str, asked: object) -> ZoneRule:
     if not isinstance(asked, dict):
         raise BadProfile(f"{where} must be a table")
     keys = {key: f"{key}{UNIT_KEYS[ZONES[name].unit]}" for key in ("target", "cavity", *RANGES)}
-    check_keys(asked, {*keys.values(), "weight", "required"}, where)
+    check_keys(asked, {*keys.values(), "weight", "required", "grade", "source"}, where)
     for key in ("target", "good", "acceptable"):
         if keys[key] not in asked:
             raise BadProfile(f"{where} lacks {keys[key]}")
@@ -126,7 +133,32 @@ def _rule(name: str, asked: object) -> ZoneRule:
         weight=weight,
         required=required,
         cavity=number(asked.get(keys["cavity"], 0.0), f"{where} {keys['cavity']}"),
+        grade=_grade(asked.get("grade", "C"), where),
+        source=words(asked.get("source", NO_SOURCE), f"{where} source"),
     )
+
+
+def _worn(asked: object) -> Worn:
+    """What is worn with such shoes."""
+    if not isinstance(asked, dict):
+        raise BadProfile("[worn] must be a table")
+    check_keys(asked, WORN_KEYS, "[worn]")
+    for key, choices in (("load", get_args(Load)), ("time", get_args(TimeOfDay))):
+        if key in asked and asked[key] not in choices:
+            raise BadProfile(f"[worn] {key} must be one of {', '.join(choices)}")
+    lengths = {
+        key: number(value, f"[worn] {key}", 0.0, LARGEST_MM[key])
+        for key, value in asked.items()
+        if key in LARGEST_MM
+    }
+    return Worn(**{**asked, **lengths})
+
+
+def _grade(value: object, where: str) -> Grade:
+    if value not in GRADES:
+        kinds = ", ".join(f"{grade} ({meaning})" for grade, meaning in GRADES.items())
+        raise BadProfile(f"{where} grade must be one of {kinds}")
+    return value
 
 
 def _check_nested(where: str, target: float, ranges: Mapping[str, tuple[float, float]]) -> None:

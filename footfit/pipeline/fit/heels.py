@@ -45,6 +45,7 @@ def heels_of(question: HeelQuestion, lasts: Sequence[LastRecord]) -> Heels:
     that the foot was scanned at. It is 0 where the drop is not known.
     """
     drop_mm = np.array([np.nan if mm is None else mm for mm in (last.drop_mm for last in lasts)])
+    drop_mm += question.heel_lift_mm
     model = question.model
     if model is None:
         nothing = np.zeros(len(lasts))

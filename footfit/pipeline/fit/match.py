@@ -18,11 +18,13 @@ from footfit.pipeline.fit.fit_profile import fit_profile
 from footfit.pipeline.fit.heel_model import heel_question
 from footfit.pipeline.fit.scoring import UNKNOWN_SCORE, VERDICTS
 from footfit.pipeline.fit.toe_box import NOT_STORED
+from footfit.pipeline.fit.worn_shifts import worn_with
 from footfit.pipeline.fit.zones import NOT_READ, TOE_BOX
 from footfit.pipeline.scan.measure import unusual_measures, usual_alignment
 from footfit.pipeline.width.foot_width import foot_widths
 from footfit.results.heel import FLARE, heel_words
 from footfit.results.values import notices_about
+from footfit.results.worn import BAREFOOT
 
 NEAREST_NAMED = 3
 """How many lasts are shown if none fits."""
@@ -40,7 +42,8 @@ WORSE_VERDICT = 1e6
 class Question:
     """What is asked of the catalogue. ``top`` 0 asks for all lasts; the default ``profile`` is
     walking. ``surfaces_in`` is the catalogue whose meshes the feet are placed in, if that is asked.
-    ``heel`` says how the feet are compared with lasts that have a heel.
+    ``heel`` says how the feet are compared with lasts that have a heel, and ``worn`` what is worn
+    with the shoes, beyond what the profile has.
     """
 
     by: results.SearchBy = "fit"
@@ -49,6 +52,7 @@ class Question:
     size_system: str | None = None
     surfaces_in: Path | None = None
     heel: results.HeelQuestion = field(default_factory=heel_question)
+    worn: results.Worn = BAREFOOT
 
 
 def matched(
@@ -76,10 +80,12 @@ def matched(
     profile = question.profile or fit_profile()
     usual_mm = profile.usual_length_mm
     feet = feet if usual_mm is None else [_usual_foot(foot, usual_mm) for foot in feet]
+    worn = worn_with(profile, question.worn)
     judged = ranking.judged_lasts(
-        feet, library.lasts, profile, question.by, question.heel, library.file
+        feet, library.lasts, profile, question.by, question.heel, library.file, worn
     )
     ranked = ranking.ranking(judged, profile.tie_sds)
+    missing = _best_out_of_stock(feet, library, profile, question, worn)
     shown = range(len(ranked.rows))[: question.top or None]
     best = (_ranked(judged, ranked, place) for place in shown)
     near = [] if ranked.rows else ranking.nearest(judged, NEAREST_NAMED)
@@ -93,13 +99,20 @@ def matched(
         reference=library.reference,
         candidates=tuple(_with_size(candidate, question) for candidate in best),
         rejected=tuple(sorted((*library.rejected, *rejected.items()))),
-        warnings=library.warnings + _notices(judged, missed, question.size_system, usual_mm),
+        warnings=(
+            *library.warnings,
+            *_worn_notice(worn),
+            *_stock_notice(missing),
+            *_notices(judged, missed, question.size_system, usual_mm),
+        ),
         fit_profile=profile,
         nearest=tuple(_with_size(candidate, question) for candidate in missed),
         size_system=question.size_system,
         best_verdict=_best_verdict(judged, ranked),
         heel=judged.heels.question,
         widths=foot_widths(feet, profile.usual_length_mm),
+        worn=worn,
+        not_in_stock=missing,
     )
 
 
@@ -258,6 +271,40 @@ def _costs(judged: ranking.JudgedLasts, row: int, first: int) -> list[float]:
 
 
 # ---------------------------------------------------------------- notices
+
+
+def _best_out_of_stock(
+    feet: Sequence[results.Profiled],
+    library: results.Library,
+    profile: results.FitProfile,
+    question: Question,
+    worn: results.Worn,
+) -> results.NotInStock | None:
+    """The best of the lasts that are not in stock, if one fits."""
+    if not library.out_of_stock or question.by == "shape":
+        return None
+    judged = ranking.judged_lasts(
+        feet, library.out_of_stock, profile, question.by, question.heel, library.file, worn
+    )
+    rows = ranking.ranking(judged, profile.tie_sds).rows
+    if not rows:
+        return None
+    return results.NotInStock(judged.lasts[rows[0]].labels.name, VERDICTS[judged.level[rows[0]]])
+
+
+def _stock_notice(missing: results.NotInStock | None) -> tuple[results.Notice, ...]:
+    """The best last that the shop does not have."""
+    if missing is None:
+        return ()
+    words = f"the best last that is not in stock is {missing.last} ({missing.verdict})"
+    return (results.Notice("not_in_stock", words),)
+
+
+def _worn_notice(worn: results.Worn) -> tuple[results.Notice, ...]:
+    """What was worn, in one line: it shifts what is asked."""
+    if worn.words is None:
+        return ()
+    return (results.Notice("worn_with", f"what is asked counts with {worn.words}"),)
 
 
 def _notices(

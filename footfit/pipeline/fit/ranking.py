@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 import numpy as np
@@ -28,6 +28,7 @@ from footfit.pipeline.fit.scoring import (
     worst_levels,
 )
 from footfit.pipeline.fit.toe_box import last_toes, with_toe_boxes
+from footfit.pipeline.fit.worn_shifts import Shift, shifted_rule, shifts_of, with_total
 from footfit.pipeline.fit.zones import (
     LENGTH_SD_MM,
     TOE_BOX,
@@ -49,6 +50,7 @@ from footfit.results import (
     ZoneFit,
 )
 from footfit.results.heel import AS_SCANNED, FLARE
+from footfit.results.worn import BAREFOOT, Worn
 
 TWIN_LENGTH_MM = 2.0
 """Two lasts with the same labels and opposite sides are one pair if their lengths differ less."""
@@ -79,6 +81,7 @@ class JudgedLasts:
     distance: Floats
     spread: Spread
     toe_boxes: tuple[Mapping[int, ToeBox], ...]
+    shifts: tuple[Mapping[str, Shift], ...] = ()
 
     @property
     def longer(self) -> int:
@@ -134,19 +137,27 @@ def judged_lasts(
     by: SearchBy,
     heel: HeelQuestion = AS_SCANNED,
     file: Path | None = None,
+    worn: Worn = BAREFOOT,
 ) -> JudgedLasts:
     """Every last, judged for one customer; of two feet the longer governs the length.
 
-    ``file`` is the catalogue that the lasts' sections are read from.
+    ``file`` is the catalogue that the lasts' sections are read from. What is ``worn`` shifts what
+    is asked of each foot.
     """
     longer = governing(feet)
     chosen = own_side(lasts, feet[longer].aligned.alignment.side.side)
+    shifts = tuple(shifts_of(foot, profile, worn) for foot in feet)
     columns = tuple(
-        Column(index, rule, rule.weight > 0 and (index == longer or rule.zone not in GOVERNED))
+        Column(
+            index,
+            shifted_rule(rule, shifts[index][rule.zone]),
+            rule.weight > 0 and (index == longer or rule.zone not in GOVERNED),
+        )
         for index in range(len(feet))
         for rule in profile.zones
     )
-    heels = heels_of(AS_SCANNED if by == "shape" else heel, chosen)
+    lifted = replace(heel, heel_lift_mm=worn.heel_lift_mm or 0.0)
+    heels = heels_of(AS_SCANNED if by == "shape" else lifted, chosen)
     room = clearances(feet, chosen, columns, heels)
     boxes: tuple[Mapping[int, ToeBox], ...] = tuple({} for _ in feet)
     if by != "shape" and any(rule.zone in TOE_BOX for rule in profile.zones):
@@ -168,6 +179,7 @@ def judged_lasts(
         distance=_distance(by, judged, flare, feet[longer], chosen),
         spread=distance_spread(judged) if by == "fit" else rescan_spread(len(chosen)),
         toe_boxes=boxes,
+        shifts=shifts,
     )
 
 
@@ -348,6 +360,9 @@ def _zone_fit(judged: JudgedLasts, row: int, place: int) -> ZoneFit:
     column, level = judged.columns[place], judged.scores.level[row, place]
     toes = judged.toe_boxes[column.foot].get(row) if column.rule.zone == TOES else None
     zone, clearance = ZONES[column.rule.zone], judged.clearances.measured(row, place)
+    shift = judged.shifts[column.foot][zone.name]
+    foot, last = judged.feet[column.foot], judged.lasts[row]
+    clearance = with_total(clearance, zone.name, (foot.measures, last.measures), shift.sd)
     known = clearance.value is not None
     return ZoneFit(
         zone=zone.name,
@@ -360,6 +375,7 @@ def _zone_fit(judged: JudgedLasts, row: int, place: int) -> ZoneFit:
         place=None if toes is None else toes.tightest.place,
         label=zone.label,
         not_counted=None if column.counts else _not_counted(judged, column),
+        grade=column.rule.grade,
         digits=shown_digits(clearance.value or 0.0, column.rule, zone.unit) if known else 1,
     )
 

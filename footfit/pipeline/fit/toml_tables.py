@@ -57,10 +57,10 @@ def value_of(text: str, path: str | None, of_table: Callable[[Mapping[str, Any]]
         raise error.at(path) from error
 
 
-def check_schema(table: Mapping[str, Any], schema: str) -> None:
-    """Refuse a table of another schema."""
-    if table.get("schema") != schema:
-        raise BadProfile(f"schema must be {schema!r}; another version may read it")
+def check_schema(table: Mapping[str, Any], *schemas: str) -> None:
+    """Refuse a table of another schema; the first one is named."""
+    if table.get("schema") not in schemas:
+        raise BadProfile(f"schema must be {schemas[0]!r}; another version may read it")
 
 
 def check_keys(table: Mapping[str, Any], keys: set[str], where: str) -> None:

@@ -1,0 +1,91 @@
+"""What a shop has in stock: a CSV file, as a spreadsheet writes it, against the lasts."""
+
+from __future__ import annotations
+
+from collections import defaultdict
+from collections.abc import Iterable
+from dataclasses import dataclass
+from pathlib import Path
+
+from footfit.errors import BadManifest
+from footfit.geometry.fit.sizes import label_number
+from footfit.pipeline.batch.csv_rows import CsvRow, csv_rows
+from footfit.results import LastLabels, LastRecord
+
+LABELS = ("style", "size", "size_system", "width_label")
+COLUMNS = ("last", *LABELS, "quantity")
+Key = tuple[str, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class Stock:
+    """The lasts of a library that are in stock, by name, and the rows that name none of them."""
+
+    names: frozenset[str]
+    unknown: tuple[str, ...]
+
+
+def stock(path: Path, lasts: Iterable[LastRecord]) -> Stock:
+    """What a stock file says of lasts.
+
+    A row names a last, or gives labels: then it means every last that has all of them. Without a
+    quantity a row means that there is at least one; 0 means that there is none.
+
+    Raises
+    ------
+    BadManifest
+        The file cannot be read, names no last and no labels in a row, or a quantity is no number.
+    """
+    rows = csv_rows(path, COLUMNS, ())
+    if not rows:
+        raise BadManifest("has no row; its columns are last, or labels, and quantity", str(path))
+    known = tuple(lasts)
+    by_name = {_plain(record.labels.name): record.labels.name for record in known}
+    indexes: dict[tuple[str, ...], dict[Key, list[str]]] = {}
+    there: set[str] = set()
+    unknown = []
+    for row in rows:
+        given = tuple(name for name in LABELS if name in row.values)
+        if "last" in row.values:
+            name = by_name.get(_plain(row.values["last"]))
+            names = [] if name is None else [name]
+        elif given:
+            index = indexes.setdefault(given, _index(known, given))
+            names = index.get(tuple(_label(name, row.values[name]) for name in given), [])
+        else:
+            raise BadManifest("names no last and gives no style, size or width", row.where)
+        if not names:
+            unknown.append(row.where)
+        elif _quantity(row) > 0.0:
+            there.update(names)
+    return Stock(frozenset(there), tuple(unknown))
+
+
+def _index(lasts: Iterable[LastRecord], given: tuple[str, ...]) -> dict[Key, list[str]]:
+    """The names of lasts by some of their labels."""
+    index: dict[Key, list[str]] = defaultdict(list)
+    for record in lasts:
+        index[_labels(record.labels, given)].append(record.labels.name)
+    return index
+
+
+def _labels(labels: LastLabels, given: tuple[str, ...]) -> Key:
+    return tuple(_label(name, getattr(labels, name) or "") for name in given)
+
+
+def _label(name: str, text: str) -> str:
+    """A label for comparing: without regard to case, and a size as its number."""
+    number = label_number(text) if name == "size" else None
+    return _plain(text) if number is None else str(number[0])
+
+
+def _plain(text: str) -> str:
+    return " ".join(text.casefold().split())
+
+
+def _quantity(row: CsvRow) -> float:
+    text = row.values.get("quantity", "1").replace(",", ".")
+    try:
+        return float(text)
+    except ValueError as error:
+        raise BadManifest(f"quantity is {text!r}; it must be a number", row.where) from error

@@ -1,0 +1,88 @@
+"""Answers about fit profiles as rich renderables."""
+
+from __future__ import annotations
+
+from rich.console import Group, RenderableType
+from rich.text import Text
+
+from footfit import results
+from footfit.number_words import signed
+from footfit.report.terminal.scan_tables import cell, lined_table
+from footfit.report.wording.text import visible
+from footfit.results.fit import GRADES
+
+UNIT_WORDS = {"percent": "%", "ratio": ""}
+
+
+def list_profiles_table(listed: results.ProfileList) -> RenderableType:
+    """One line for each profile."""
+    table = lined_table("profile", "version", "for", right=frozenset({"version"}))
+    for profile in listed.profiles:
+        table.add_row(cell(profile.name, "bold"), str(profile.version), cell(profile.summary))
+    return Group(table, Text("footfit show-profile NAME shows one with its sources", "dim"))
+
+
+def show_profile_table(shown: results.ShownProfile) -> RenderableType:
+    """What a profile asks of each zone, last minus foot, and how well that is founded."""
+    profile = shown.profile
+    heads = ("zone", "target", "good", "acceptable", "weight", "grade", "source")
+    table = lined_table(*heads, right=frozenset({"target", "weight"}))
+    for rule in profile.zones:
+        unit = shown.units[rule.zone]
+        table.add_row(
+            cell(rule.zone.replace("_", " "), "bold"),
+            f"{rule.target:g} {UNIT_WORDS.get(unit, unit)}".strip(),
+            range_words(rule.good),
+            range_words(rule.acceptable),
+            f"{rule.weight:g}",
+            rule.grade,
+            cell(rule.source),
+        )
+    title = f"{visible(profile.name)}, version {profile.version}: {visible(profile.summary)}"
+    used = sorted({rule.grade for rule in profile.zones})
+    grades = "; ".join(f"{grade} {GRADES[grade]}" for grade in used)
+    return Group(Text(title, "bold"), table, Text(f"last minus foot; grades: {grades}", "dim"))
+
+
+def calibration_table(learned: results.Calibration) -> RenderableType:
+    """What the ratings say of each zone, and what became of its rule."""
+    heads = ("zone", "wearers", "ratings", "target", "learned, 95 %", "good", "outcome")
+    table = lined_table(*heads, right=frozenset({"wearers", "ratings", "target"}))
+    for zone in learned.zones:
+        learnt = "-"
+        if zone.target_mm is not None and zone.target_interval_mm is not None:
+            low, high = (signed(end) for end in zone.target_interval_mm)
+            learnt = f"{signed(zone.target_mm)} ({low} to {high})"
+        good = range_words(zone.before.good)
+        changed = zone.status == "applied"
+        table.add_row(
+            cell(zone.zone.replace("_", " "), "bold"),
+            str(zone.wearers),
+            str(zone.ratings),
+            signed(zone.before.target),
+            learnt,
+            f"{good}, now {range_words(zone.after.good)}" if changed else good,
+            f"target is now {signed(zone.after.target)}" if changed else f"kept: {zone.reason}",
+        )
+    notes = [f"{count} entries {why} are left out" for why, count in learned.left_out.items()]
+    closing = "all in mm, last minus foot; the interval holds the target with 95 %"
+    return Group(table, *(Text(note, "yellow") for note in notes), Text(closing, "dim"))
+
+
+def range_words(ends: tuple[float, float]) -> str:
+    """A range in words.
+
+    Examples
+    --------
+    >>> range_words((-4.0, 5.5))
+    '-4 to 5.5'
+    """
+    return f"{ends[0]:g} to {ends[1]:g}"
+
+
+def check_profile_line(checked: results.CheckedProfile) -> RenderableType:
+    """The profile is sound, and which zones name no source."""
+    count = len(checked.zones)
+    words = f"{visible(checked.path)}: a sound fit profile {visible(checked.name)!r}, {count} zones"
+    lacking = ", ".join(zone.replace("_", " ") for zone in checked.without_source)
+    return Text(f"{words}; no source is given for {lacking}" if lacking else words)

@@ -1,0 +1,54 @@
+"""How long a child's shoe will last, with the grounds of that."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Literal
+
+from footfit.number_words import plain
+from footfit.results.values import Part
+
+Sex = Literal["female", "male"]
+
+
+@dataclass(frozen=True, slots=True)
+class GrowthQuestion:
+    """That growth is asked for, and what is known of the child: age in years, and sex."""
+
+    age_years: float | None = None
+    sex: Sex | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class Growth(Part):
+    """For how many months the room of a shoe will do.
+
+    ``room_mm`` is the toe room of the last ``last``, of which ``kept_mm`` must stay. ``months`` is
+    the range from one standard deviation below to one above; None if feet of this age hardly grow.
+    ``check_months`` is when to measure again. ``age_years`` is the range of ages that was taken, and
+    ``grounds`` says from what. ``rate_mm_per_month`` is the range of growth.
+    """
+
+    last: str
+    room_mm: float
+    kept_mm: float
+    months: tuple[float, float] | None
+    check_months: float | None
+    rate_mm_per_month: tuple[float, float]
+    age_years: tuple[float, float]
+    sex: Sex | None
+    grounds: str
+
+    @property
+    def words(self) -> str:
+        """One sentence for people."""
+        start = f"{self.last} has {plain(self.room_mm)} mm of room"
+        if self.months is None:
+            return f"{start}; feet of this age hardly grow any more"
+        low, high = (round(month) for month in self.months)
+        if high <= 0:
+            return f"{start}: that leaves none to grow; a child's shoe needs {plain(self.kept_mm)}"
+        many = f"{low} to {high} months" if low < high else f"about {high} months"
+        again = max(round(self.check_months or 0.0), 1)
+        noun = "month" if again == 1 else "months"
+        return f"{start}: it will do for {many}, by {self.grounds}; measure again in {again} {noun}"

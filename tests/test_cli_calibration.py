@@ -1,0 +1,129 @@
+"""``calibrate-profile``: a profile learns from the log or from a CSV, or is refused in words."""
+
+from __future__ import annotations
+
+import json
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import footfit as library
+from footfit.catalogue.store import open_catalogue
+from footfit.pipeline.evidence.learned_profile import entries_of_csv, profile_text
+from footfit.pipeline.evidence.recording import definitions
+from footfit.pipeline.fit.fit_profile import fit_profile, profile_of, shipped
+from footfit.results import FitEntry, RatedZone
+from tests import fits
+from tests.conftest import Footfit
+
+TARGET_MM = 5.0
+
+
+def entries(count: int, target_mm: float = TARGET_MM, seed: int = 1) -> list[FitEntry]:
+    """Entries of wearers whose target at the ball is known."""
+    rng = np.random.default_rng(seed)
+    made = []
+    for number in range(count):
+        clearance = float(rng.uniform(-8.0, 14.0))
+        felt = (clearance - target_mm - rng.normal(0.0, 3.0)) / 5.0 + rng.normal()
+        rating = int(np.digitize(felt, [-2.0, -1.0, 1.0, 2.0])) - 2
+        zone = RatedZone("ball_girth", "mm", clearance, 1.0, definitions()["ball_girth"])
+        made.append(fits.entry(number, zones=(zone,), ratings={"ball": rating}))
+    return made
+
+
+@pytest.fixture
+def log(catalogue: Path) -> Path:
+    """A catalogue whose log says that the ball should be looser."""
+    with open_catalogue(catalogue, write=True) as opened:
+        for entry in entries(60):
+            opened.fit_log.add(entry)
+    return catalogue
+
+
+def test_a_profile_learns_and_is_read_again(footfit: Footfit, log: Path, tmp_path: Path) -> None:
+    output = tmp_path / "mine.toml"
+    run = footfit("calibrate-profile", "walking", "-o", output, "--catalogue", log, "--json")
+    assert run.code == 0, run.err
+    answer = json.loads(run.out)
+    assert answer["applied"] == ["ball_girth"]
+    learned = fit_profile(str(output))
+    assert learned.version == fit_profile("walking").version + 1
+    rules = {rule.zone: rule for rule in learned.zones}
+    low, high = answer["zones"]["ball_girth"]["target_interval_mm"]
+    assert low < TARGET_MM < high
+    assert low < rules["ball_girth"].target < high
+    assert rules["ball_girth"].grade == "A"
+    assert "60 ratings of 60 wearers" in rules["ball_girth"].source
+    assert rules["length"] == fit_profile("walking").zones[0]
+
+
+def test_the_csv_of_the_log_teaches_the_same(footfit: Footfit, log: Path, tmp_path: Path) -> None:
+    table, first, second = (tmp_path / name for name in ("fits.csv", "a.toml", "b.toml"))
+    assert footfit("list-fits", "--csv", table, "--catalogue", log).code == 0
+    assert footfit("calibrate-profile", "walking", "-o", first, "--catalogue", log).code == 0
+    run = footfit("calibrate-profile", "walking", "--fits", table, "-o", second)
+    assert run.code == 0, run.err
+    assert first.read_bytes() == second.read_bytes()
+
+
+def test_a_spreadsheets_csv_is_read(footfit: Footfit, log: Path, tmp_path: Path) -> None:
+    table = tmp_path / "fits.csv"
+    assert footfit("list-fits", "--csv", table, "--catalogue", log).code == 0
+    read = entries_of_csv(table)
+    text = table.read_text(encoding="utf-8").replace(".", "§").replace(",", ";").replace("§", ",")
+    other = tmp_path / "excel.csv"
+    other.write_text("\ufeff" + text, encoding="utf-8")
+    again = entries_of_csv(other)
+    assert [entry.zones for entry in again] == [
+        tuple(replace(z, definition=z.definition.replace(".", ",")) for z in entry.zones)
+        for entry in read
+    ]
+
+
+def test_what_cannot_tell_is_refused_in_words(
+    footfit: Footfit, catalogue: Path, tmp_path: Path
+) -> None:
+    with open_catalogue(catalogue, write=True) as opened:
+        for entry in entries(12):
+            opened.fit_log.add(entry)
+    output = tmp_path / "mine.toml"
+    run = footfit("calibrate-profile", "walking", "-o", output, "--catalogue", catalogue)
+    assert run.code == 7
+    assert "20 are needed" in " ".join(run.out.split())
+    assert "the profile stays as it is" in run.err
+    assert not output.exists()
+    with library.open_catalogue(catalogue) as opened:
+        answer = opened.fit_log.calibrate_profile("walking")
+    assert answer.after == answer.before == fit_profile("walking")
+
+
+def test_an_empty_log_is_refused_in_words(footfit: Footfit, catalogue: Path) -> None:
+    run = footfit("calibrate-profile", "walking", "--catalogue", catalogue)
+    assert run.code == 7
+    assert "0 entries" in run.err
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "words"),
+    [("ball,", "ball,x", "rating"), ("rating,", "rated,", "rated"), (",mm,", ",mm,x", "clearance")],
+)
+def test_a_bad_csv_is_named(
+    footfit: Footfit, log: Path, tmp_path: Path, old: str, new: str, words: str
+) -> None:
+    table = tmp_path / "fits.csv"
+    footfit("list-fits", "--csv", table, "--catalogue", log)
+    table.write_text(table.read_text(encoding="utf-8").replace(old, new), encoding="utf-8")
+    run = footfit("calibrate-profile", "walking", "--fits", table)
+    assert run.code == 3
+    assert words in run.err
+    assert str(table) in run.err
+    assert len(run.err.splitlines()) == 1
+
+
+@pytest.mark.parametrize("name", shipped())
+def test_a_written_profile_has_the_same_values(name: str) -> None:
+    profile = fit_profile(name)
+    assert profile_of(profile_text(profile)) == profile
