@@ -71,7 +71,9 @@ def growth_of(match: Match, asked: GrowthQuestion) -> Growth | None:
     ages = age_range(length_mm, asked)
     fast, slow = growth_rate(ages[0], asked.sex), growth_rate(ages[1], asked.sex)
     months = month_range(room.value, slow, fast) if fast > 0.0 else None
-    known = f"its age of {asked.age_years:g}" if asked.age_years is not None else "its foot's length"
+    known = (
+        f"its age of {asked.age_years:g}" if asked.age_years is not None else "its foot's length"
+    )
     return Growth(
         last=first.last,
         room_mm=room.value,
