@@ -18,6 +18,7 @@ from footfit.api.inputs import (
     MatchKeywords,
     Meshes,
     Shape,
+    growth_options,
     heel_options,
     reading_options,
     stance_keywords,
@@ -87,6 +88,7 @@ class Catalogue(CatalogueFile):
         InputError, GeometryRefused
             As `flare`; HalfScan if the length of a foot is not known.
         """
+        from footfit.pipeline.customers.growth import with_growth
         from footfit.pipeline.customers.pair_sides import pair_of_feet
         from footfit.pipeline.fit.compare import with_surface_clearance
         from footfit.pipeline.fit.match import matched
@@ -96,7 +98,7 @@ class Catalogue(CatalogueFile):
         if len(given) not in (1, 2):
             raise BadOption(f"a match takes one foot, or the two of one customer, not {len(given)}")
         shapes = pair_of_feet([aligned_shape(foot, question) for foot in given])
-        answer = matched(shapes, self._choice(question), asked)
+        answer = with_growth(matched(shapes, self._choice(question), asked), asked.growth)
         if asked.surfaces_in is None:
             return answer
         return with_surface_clearance(answer, asked.surfaces_in)
@@ -166,6 +168,7 @@ class Catalogue(CatalogueFile):
             surfaces_in=self.path if question.get("clearance") else None,
             heel=heel_options(question),
             worn=worn_options(question),
+            growth=growth_options(question),
         )
 
     def _choice(self, question: MatchKeywords) -> results.Library:

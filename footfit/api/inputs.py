@@ -7,7 +7,15 @@ from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any, Literal, Protocol, TypedDict, Union, runtime_checkable
 
 from footfit.pipeline.batch.sources import ReadingOptions, Source
-from footfit.results import AlignedScan, HeelQuestion, Profiled, Scan, SearchBy, Worn
+from footfit.results import (
+    AlignedScan,
+    GrowthQuestion,
+    HeelQuestion,
+    Profiled,
+    Scan,
+    SearchBy,
+    Worn,
+)
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike
@@ -93,7 +101,8 @@ class MatchKeywords(CompareKeywords, WornKeywords, total=False):
 
     ``profile`` is the name or the file of a fit profile, ``top`` how many lasts to show (0: all).
     ``style`` and ``size_system`` filter the lasts, and so does ``stock``, a CSV file of what a shop
-    has; ``clearance`` puts the feet into those shown.
+    has; ``clearance`` puts the feet into those shown. ``growth`` asks how long a child's shoe will
+    do, with ``age_years`` and ``sex`` if they are known.
     """
 
     by: SearchBy
@@ -103,6 +112,9 @@ class MatchKeywords(CompareKeywords, WornKeywords, total=False):
     size_system: str | None
     clearance: bool
     stock: FilePath | None
+    growth: bool
+    age_years: float | None
+    sex: Literal["female", "male"] | None
 
 
 class LabelKeywords(TypedDict, total=False):
@@ -201,6 +213,20 @@ def worn_options(options: Mapping[str, Any]) -> Worn:
     worn = Worn(**{name: options[name] for name in names if name in options})
     check_worn(worn)
     return worn
+
+
+def growth_options(options: Mapping[str, Any]) -> GrowthQuestion | None:
+    """What is asked of growth, or None.
+
+    Raises
+    ------
+    BadOption
+        Age or sex is given without growth, or the age is not a child's.
+    """
+    from footfit.pipeline.customers.growth import growth_question
+
+    names = ("growth", "age_years", "sex")
+    return growth_question(**{"growth": False} | {n: options[n] for n in names if n in options})
 
 
 def reading_options(options: Mapping[str, Any]) -> ReadingOptions:

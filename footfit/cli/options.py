@@ -18,6 +18,7 @@ UnitName = Literal["auto", "mm", "cm", "m", "in"]
 SideChoice = Literal["auto", "left", "right"]
 ScannerName = Literal["laser", "handheld", "phone", "photos"]
 LoadName = Literal["air", "sitting", "half", "full"]
+SexName = Literal["female", "male"]
 TimeName = Literal["morning", "evening"]
 FormatName = Literal["stl", "obj", "ply", "off", "glb", "3mf"]
 
@@ -272,6 +273,24 @@ class WornWith:
             "time": self.time,
             "scanned_in_sock_mm": self.scanned_in_sock,
         }
+
+
+@dataclass(frozen=True, slots=True)
+class Growing:
+    """A child, who grows."""
+
+    growth: bool = member(
+        "--growth", "Say for how many months a child's shoe will do.", **SWITCH, panel=WORN
+    )
+    age: float | None = member(
+        "--age", "Set the child's age in years; without it the foot's length tells.", "YEARS",
+        panel=WORN, min=0.5, max=18,
+    )  # fmt: skip
+    sex: SexName | None = member("--sex", "Set the child's sex: girls stop earlier.", panel=WORN)
+
+    def keywords(self) -> dict[str, Any]:
+        """The options as the functions of `footfit.api` take them."""
+        return {"growth": self.growth, "age_years": self.age, "sex": self.sex}
 
 
 @dataclass(frozen=True, slots=True)

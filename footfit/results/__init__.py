@@ -31,6 +31,8 @@ from footfit.results.fit_entries import RecordOutcome as RecordOutcome
 from footfit.results.fit_evidence import Calibration as Calibration
 from footfit.results.fit_evidence import RatedClearances as RatedClearances
 from footfit.results.fit_evidence import ZoneEvidence as ZoneEvidence
+from footfit.results.growth import Growth as Growth
+from footfit.results.growth import GrowthQuestion as GrowthQuestion
 from footfit.results.heel import HeelChange as HeelChange
 from footfit.results.heel import HeelModel as HeelModel
 from footfit.results.heel import HeelQuestion as HeelQuestion

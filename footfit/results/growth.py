@@ -25,8 +25,8 @@ class Growth(Part):
 
     ``room_mm`` is the toe room of the last ``last``, of which ``kept_mm`` must stay. ``months`` is
     the range from one standard deviation below to one above; None if feet of this age hardly grow.
-    ``check_months`` is when to measure again. ``age_years`` is the range of ages that was taken, and
-    ``grounds`` says from what. ``rate_mm_per_month`` is the range of growth.
+    ``check_months`` is when to measure again. ``age_years`` is the range of ages that was taken,
+    and ``grounds`` says from what. ``rate_mm_per_month`` is the range of growth.
     """
 
     last: str

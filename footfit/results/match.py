@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 from footfit.geometry.fit.sizes import SYSTEMS, foot_size, foot_sizes, system_named
 from footfit.results.compare import tightest_place
 from footfit.results.fit import ZONE_ENDS
+from footfit.results.growth import Growth
 from footfit.results.heel import AS_SCANNED, FLARE, HeelChange, HeelQuestion
 from footfit.results.profile import flare_part
 from footfit.results.values import (
@@ -153,6 +154,7 @@ class Match(Document):
     customer: str | None = None
     worn: Worn = BAREFOOT
     not_in_stock: NotInStock | None = None
+    growth: Growth | None = None
 
     @property
     def customer_length_mm(self) -> float | None:

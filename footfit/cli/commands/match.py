@@ -93,6 +93,7 @@ def match(
     force: bool = options.FORCE,
     reading: options.FootReading,
     worn: options.WornWith,
+    growing: options.Growing,
     batch: options.Batch,
     mode: options.OutputMode,
 ) -> None:
@@ -154,6 +155,7 @@ def match(
         stock=stock,
         **reading.keywords(),
         **worn.keywords(),
+        **growing.keywords(),
     )
     mode = replace(mode, total=len(customers))
     summary = Summary(fail_under)

@@ -8,11 +8,10 @@ third.
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from footfit.errors import BadOption
-from footfit.results import Match
+from footfit.results import Match, Notice
 from footfit.results.growth import Growth, GrowthQuestion, Sex
 
 
@@ -71,9 +70,8 @@ def growth_of(match: Match, asked: GrowthQuestion) -> Growth | None:
     ages = age_range(length_mm, asked)
     fast, slow = growth_rate(ages[0], asked.sex), growth_rate(ages[1], asked.sex)
     months = month_range(room.value, slow, fast) if fast > 0.0 else None
-    known = (
-        f"its age of {asked.age_years:g}" if asked.age_years is not None else "its foot's length"
-    )
+    by_length = asked.age_years is None
+    known = "the length of the foot" if by_length else f"an age of {asked.age_years:g}"
     return Growth(
         last=first.last,
         room_mm=room.value,
@@ -140,12 +138,8 @@ def _months(room_mm: float, rate: float) -> tuple[float, float]:
 
 def with_growth(match: Match, asked: GrowthQuestion | None) -> Match:
     """The answer with its forecast of growth, if that is asked for."""
-    from dataclasses import replace
-
-    from footfit.results import Notice
-
     growth = None if asked is None else growth_of(match, asked)
     if growth is None:
         return match
-    notices: Sequence[Notice] = (*match.warnings, Notice("growth", growth.words))
-    return replace(match, growth=growth, warnings=tuple(notices))
+    notice = Notice("growth", growth.words)
+    return replace(match, growth=growth, warnings=(*match.warnings, notice))

@@ -13,6 +13,7 @@ from footfit.pipeline.batch.phases import begin
 from footfit.pipeline.batch.runs import HERE, Outcome, outcomes
 from footfit.pipeline.batch.sources import ReadingOptions
 from footfit.pipeline.customers.customer import Customer, CustomerFoot
+from footfit.pipeline.customers.growth import with_growth
 from footfit.pipeline.customers.pair_sides import Foot, pair_of_feet, with_named_side
 from footfit.pipeline.fit.match import Question, matched
 from footfit.pipeline.scan.flare import profiled_scan
@@ -65,6 +66,7 @@ def _answered(
         shapes = pair_of_feet([foot.value for foot in feet if foot.value is not None])
         begin("match")
         answer = replace(matched(shapes, library, question), customer=customer.name)
+        answer = with_growth(answer, question.growth)
     except (BadOption, GeometryRefused, SameSide) as error:
         return Outcome(customer, None, error.at(customer.path))
     if question.surfaces_in is not None:

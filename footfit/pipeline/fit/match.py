@@ -43,7 +43,7 @@ class Question:
     """What is asked of the catalogue. ``top`` 0 asks for all lasts; the default ``profile`` is
     walking. ``surfaces_in`` is the catalogue whose meshes the feet are placed in, if that is asked.
     ``heel`` says how the feet are compared with lasts that have a heel, and ``worn`` what is worn
-    with the shoes, beyond what the profile has.
+    with the shoes, beyond what the profile has. ``growth`` asks how long a child's shoe will do.
     """
 
     by: results.SearchBy = "fit"
@@ -53,6 +53,7 @@ class Question:
     surfaces_in: Path | None = None
     heel: results.HeelQuestion = field(default_factory=heel_question)
     worn: results.Worn = BAREFOOT
+    growth: results.GrowthQuestion | None = None
 
 
 def matched(
