@@ -32,6 +32,12 @@ class FitLog:
         with self.file.reading() as connection:
             return tuple(fit_entry_of(self._intact(row)) for row in rows(connection, FIT))
 
+    def counts(self) -> tuple[tuple[str, int], ...]:
+        """How many entries each fit profile has, by its name."""
+        with self.file.reading() as connection:
+            select = "SELECT profile, count(*) FROM fit GROUP BY profile ORDER BY profile"
+            return tuple((str(name), int(count)) for name, count in connection.execute(select))
+
     def add(self, entry: FitEntry) -> None:
         """Store an entry.
 

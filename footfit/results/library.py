@@ -271,6 +271,7 @@ class Library(Document):
     ``sort`` names the order in which they are listed, one of `SORTS`. ``filters`` are the labels
     that they were chosen by. ``file`` is the catalogue that their sections are read from, None if
     there is none. ``out_of_stock`` are lasts that a shop does not have; they are not in ``lasts``.
+    ``rated`` counts the shoes that wearers rated, by the name of the fit profile.
     """
 
     lasts: tuple[LastRecord, ...]
@@ -282,6 +283,7 @@ class Library(Document):
     sort: str = "name"
     filters: tuple[tuple[str, str], ...] = ()
     out_of_stock: tuple[LastRecord, ...] = ()
+    rated: tuple[tuple[str, int], ...] = ()
 
     columns = (
         *("last", *LABELS, "heel_height_mm", "family", "parent", "side"),

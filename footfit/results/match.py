@@ -119,6 +119,16 @@ class Candidate(Part):
         }
 
 
+VERDICT_ORDER = (None, "good", "acceptable", "poor", "reject")
+FOUNDED = {
+    "A": "its range was measured with wearers who judged comfort",
+    "M": "its range was measured on feet or lasts",
+    "B": "its range is a trade rule",
+    "C": "its range is an opinion",
+}
+"""How well a range is founded, as a sentence says it."""
+
+
 @dataclass(frozen=True, slots=True)
 class NotInStock(Part):
     """The best last that the shop does not have, and its verdict."""
@@ -155,6 +165,26 @@ class Match(Document):
     worn: Worn = BAREFOOT
     not_in_stock: NotInStock | None = None
     growth: Growth | None = None
+    rated: int = 0
+
+    @property
+    def founded(self) -> str | None:
+        """How well founded the verdict of the first last is, in one sentence; None by shape."""
+        if not self.candidates or not self.candidates[0].fits:
+            return None
+        judged = [
+            zone
+            for fit in self.candidates[0].fits
+            for zone in fit.zones
+            if zone.counts and zone.verdict is not None and zone.score is not None
+        ]
+        if not judged:
+            return None
+        decided = max(judged, key=lambda z: (VERDICT_ORDER.index(z.verdict), abs(z.score or 0.0)))
+        words = f"The verdict rests most on the {decided.label}: {FOUNDED[decided.grade]}"
+        if not self.rated:
+            return words
+        return f"{words}; wearers here rated {self.rated} shoes of this profile"
 
     @property
     def customer_length_mm(self) -> float | None:
@@ -191,6 +221,7 @@ class Match(Document):
                 for foot, width in zip_longest(self.feet, self.widths)
             ],
             "sizes": _sizes_part(self.customer_length_mm),
+            "founded": self.founded,
             "catalogue": {"lasts": self.catalogue_lasts, "reference": self.reference},
             "rejected": {"count": count, "by_reason": dict(self.rejected)},
         }

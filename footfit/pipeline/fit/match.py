@@ -114,6 +114,7 @@ def matched(
         widths=foot_widths(feet, profile.usual_length_mm),
         worn=worn,
         not_in_stock=missing,
+        rated=dict(library.rated).get(profile.name, 0),
     )
 
 

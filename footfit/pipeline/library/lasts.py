@@ -85,6 +85,7 @@ def library(path: Path, style: str | None = None, size_system: str | None = None
             catalogue.lasts(style=style, size_system=size_system),
             _reference(catalogue),
         )
+        rated = catalogue.fit_log.counts()
     current = tuple(r for r in stored.records if r.labels.name not in stored.outdated)
     return Library(
         lasts=current,
@@ -100,6 +101,7 @@ def library(path: Path, style: str | None = None, size_system: str | None = None
             ),
         ),
         file=path,
+        rated=rated,
     )
 
 
