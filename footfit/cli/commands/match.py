@@ -39,7 +39,7 @@ def match(
     ),
     profile: str = options.option(
         "--profile",
-        "Choose the fit profile: walking, dress, ...; list-profiles shows all. Or give your own file.",
+        "Choose the fit profile: list-profiles shows their names. Or give your own file.",
         "NAME|FILE.toml",
         default="walking",
     ),
