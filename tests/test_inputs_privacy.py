@@ -81,11 +81,7 @@ def test_a_match_leaves_the_catalogue_as_it_was(footfit: Footfit, foot: Path, ca
     assert kept["feet_kept"] == 0
     of_lasts = {"last", "frame", "flare", "measure", "notice", "mesh_copy", "section", "reference"}
     assert set(kept["kept"]) == of_lasts | {"fit"}
-<<<<<<< HEAD
     assert kept["kept"]["fit"] == 0, "the fit log, which only record-fit writes, with consent"
-=======
-    assert kept["kept"]["fit"] == 0
->>>>>>> 5a3e137 (List the keys of what is worn, growth and grades)
     with sqlite3.connect(catalogue) as connection:
         names = {name for (name,) in connection.execute("SELECT name FROM sqlite_schema")}
     assert not {name for name in names if "foot" in name or "feet" in name or "customer" in name}
