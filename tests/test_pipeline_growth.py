@@ -10,7 +10,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from footfit.errors import BadOption
-from footfit.pipeline.customers.growth import (
+from footfit.pipeline.customers.growth_forecast import (
     RULE,
     age_range,
     growth_question,

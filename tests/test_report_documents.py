@@ -18,6 +18,7 @@ from hypothesis import strategies as st
 from footfit import __version__
 from footfit.errors import SeveralFeet
 from footfit.geometry.pose.paper_frame import paper_frame_angle_deg
+from footfit.pipeline.fit.fit_profile import fit_profile
 from footfit.pipeline.fit.match import matched
 from footfit.report.json import json_line
 from footfit.results import (
@@ -37,7 +38,9 @@ from footfit.results import (
     StoredLast,
     UpgradeOutcome,
 )
-from footfit.results.fit_entries import FitList, ForgetOutcome, RecordOutcome
+from footfit.results.evidence.fit_entries import FitList, ForgetOutcome, RecordOutcome
+from footfit.results.evidence.fit_evidence import Calibration
+from footfit.results.evidence.profiles import CheckedProfile, ProfileList, ShownProfile
 from footfit.results.values import exact, json_number, part
 from tests import answers, fits
 from tests.bounds import ROUNDING, printed
@@ -74,6 +77,10 @@ def every_document():
         RecordOutcome(fits.entry(footfit_version=__version__)),
         FitList((fits.entry(),)),
         ForgetOutcome("w-1", 1),
+        ProfileList((fit_profile(),)),
+        ShownProfile(fit_profile(), {"length": "mm"}),
+        CheckedProfile("a.toml", "a", 1, "0" * 64, ("length",), ()),
+        Calibration(fit_profile(), fit_profile(), (), 0, {}),
         ExportOutcome("a", "a.stl", 10, 0.1),
         answers.facts(),
         upgrade,

@@ -88,7 +88,7 @@ class Catalogue(CatalogueFile):
         InputError, GeometryRefused
             As `flare`; HalfScan if the length of a foot is not known.
         """
-        from footfit.pipeline.customers.growth import with_growth
+        from footfit.pipeline.customers.growth_forecast import with_growth
         from footfit.pipeline.customers.pair_sides import pair_of_feet
         from footfit.pipeline.fit.compare import with_surface_clearance
         from footfit.pipeline.fit.match import matched

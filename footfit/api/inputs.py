@@ -223,7 +223,7 @@ def growth_options(options: Mapping[str, Any]) -> GrowthQuestion | None:
     BadOption
         Age or sex is given without growth, or the age is not a child's.
     """
-    from footfit.pipeline.customers.growth import growth_question
+    from footfit.pipeline.customers.growth_forecast import growth_question
 
     names = ("growth", "age_years", "sex")
     return growth_question(**{"growth": False} | {n: options[n] for n in names if n in options})

@@ -8,8 +8,8 @@ from typing import TYPE_CHECKING
 
 from footfit.geometry.fit.sizes import SYSTEMS, foot_size, foot_sizes, system_named
 from footfit.results.compare import tightest_place
+from footfit.results.evidence.child_growth import Growth
 from footfit.results.fit import ZONE_ENDS
-from footfit.results.growth import Growth
 from footfit.results.heel import AS_SCANNED, FLARE, HeelChange, HeelQuestion
 from footfit.results.profile import flare_part
 from footfit.results.values import (

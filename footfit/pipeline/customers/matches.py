@@ -13,7 +13,7 @@ from footfit.pipeline.batch.phases import begin
 from footfit.pipeline.batch.runs import HERE, Outcome, outcomes
 from footfit.pipeline.batch.sources import ReadingOptions
 from footfit.pipeline.customers.customer import Customer, CustomerFoot
-from footfit.pipeline.customers.growth import with_growth
+from footfit.pipeline.customers.growth_forecast import with_growth
 from footfit.pipeline.customers.pair_sides import Foot, pair_of_feet, with_named_side
 from footfit.pipeline.fit.match import Question, matched
 from footfit.pipeline.scan.flare import profiled_scan

@@ -24,7 +24,7 @@ from footfit.results import (
     ZoneEvidence,
     ZoneRule,
 )
-from footfit.results.fit_entries import OF_ENTRY
+from footfit.results.evidence.fit_entries import OF_ENTRY
 
 NEEDED = ("id", "profile", "place", "rating", "zone", "clearance", "sd", "definition")
 

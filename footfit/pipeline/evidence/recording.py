@@ -23,7 +23,7 @@ from footfit.results import (
     RatedZone,
     Worn,
 )
-from footfit.results.fit_entries import Outcome
+from footfit.results.evidence.fit_entries import Outcome
 from footfit.results.worn import BAREFOOT
 from footfit.version import __version__
 

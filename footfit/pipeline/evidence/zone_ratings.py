@@ -11,7 +11,7 @@ import numpy as np
 from footfit.errors import BadOption
 from footfit.pipeline.evidence.ratings_model import MODEL, RATINGS, Ratings
 from footfit.results import FitEntry
-from footfit.results.fit_entries import PLACES
+from footfit.results.evidence.fit_entries import PLACES
 
 
 @dataclass(frozen=True, slots=True)

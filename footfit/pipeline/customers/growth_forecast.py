@@ -12,7 +12,7 @@ from dataclasses import dataclass, replace
 
 from footfit.errors import BadOption
 from footfit.results import Match, Notice
-from footfit.results.growth import Growth, GrowthQuestion, Sex
+from footfit.results.evidence.child_growth import Growth, GrowthQuestion, Sex
 
 
 @dataclass(frozen=True, slots=True)
