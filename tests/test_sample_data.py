@@ -163,6 +163,7 @@ def test_a_foot_lies_in_every_last_that_is_good_for_it(name, feet, stocked):
             ).candidates
         ]
         for profile in shipped()
+        if profile != "sandal"  # it has no wall in front of the toes
     }
     assert {"good", "poor"} <= {verdict for verdict, _ in by_verdict["walking"]}
     good = {last for each in by_verdict.values() for verdict, last in each if verdict == "good"}
