@@ -60,6 +60,17 @@ def test_a_profile_learns_and_is_read_again(footfit: Footfit, log: Path, tmp_pat
     assert rules["length"] == fit_profile("walking").zones[0]
 
 
+def test_the_picture_shows_the_ratings_before_and_after(
+    footfit: Footfit, log: Path, tmp_path: Path
+) -> None:
+    svg, png = tmp_path / "fit.svg", tmp_path / "fit.png"
+    for plot in (svg, png):
+        run = footfit("calibrate-profile", "walking", "--plot", plot, "--catalogue", log)
+        assert run.code == 0, run.err
+    assert svg.read_text(encoding="utf-8").startswith("<?xml")
+    assert png.read_bytes().startswith(b"\x89PNG")
+
+
 def test_the_csv_of_the_log_teaches_the_same(footfit: Footfit, log: Path, tmp_path: Path) -> None:
     table, first, second = (tmp_path / name for name in ("fits.csv", "a.toml", "b.toml"))
     assert footfit("list-fits", "--csv", table, "--catalogue", log).code == 0

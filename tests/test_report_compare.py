@@ -16,12 +16,12 @@ from footfit.report.json import json_line
 from footfit.report.page.compare_page import compare_page
 from footfit.report.page.rendering import picture_data
 from footfit.report.pictures import figures
+from footfit.report.pictures.drawn_outlines import own_side
 from footfit.report.pictures.figures import svg_text
 from footfit.report.pictures.heat import heat_colours
 from footfit.report.pictures.heat_figure import heat_bytes, heat_figure, heat_image
 from footfit.report.pictures.section_figure import ACROSS, STRIP, section_figure
 from footfit.report.pictures.shading import VIEWS, Frame
-from footfit.report.pictures.sides import own_side
 from footfit.report.terminal.comparison_tables import compare_table
 from footfit.report.terminal.scan_tables import terminal_text
 from footfit.results import Comparison, Notice

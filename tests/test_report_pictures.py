@@ -13,14 +13,13 @@ from footfit.errors import BadOption
 from footfit.report.pictures import curvature_figure as curvature_module
 from footfit.report.pictures import frames_figure as frames_module
 from footfit.report.pictures.curvature_figure import UNDEFINED, colour_reach, curvature_figure
-from footfit.report.pictures.drawn_outlines import SHADOW, side_outline, sole_outline
+from footfit.report.pictures.drawn_outlines import SHADOW, on_side, side_outline, sole_outline
 from footfit.report.pictures.figures import picture_bytes, svg_text
 from footfit.report.pictures.flare_figure import centre_line_mm, flare_figure, mean_heading_deg
 from footfit.report.pictures.frames_figure import frames_figure
 from footfit.report.pictures.judged_figure import COLOURS, WIDTHS, judged_figure, zone_style
 from footfit.report.pictures.overlay_figure import drawn_lasts, overlay_figure
 from footfit.report.pictures.shading import VIEWS, Frame, axonometric_view, fragments, shaded_image
-from footfit.report.pictures.sides import on_side
 from footfit.report.wording.zone_words import MARKS, zone_text
 from footfit.results import FootFit, Measured, SideVerdict, ToeBox, ToeFit, ZoneFit
 from tests import answers

@@ -18,7 +18,7 @@ MOST_LETTERS = 80
 
 
 def picture(result: Any, kind: str = "svg") -> bytes:
-    """A result of `align`, `flare`, `curvature` or `compare` as a picture, "svg" or "png".
+    """A result of `align`, `flare`, `curvature`, `compare` or a calibration as "svg" or "png".
 
     Raises
     ------
@@ -31,6 +31,7 @@ def picture(result: Any, kind: str = "svg") -> bytes:
     from footfit.report.pictures.figures import picture_bytes
     from footfit.report.pictures.flare_figure import flare_figure
     from footfit.report.pictures.frames_figure import frames_figure
+    from footfit.report.pictures.ratings_figure import ratings_figure
     from footfit.report.pictures.section_figure import section_figure
 
     export.require_kind(kind, export.PICTURE_KINDS)
@@ -43,6 +44,8 @@ def picture(result: Any, kind: str = "svg") -> bytes:
             figure = curvature_figure(result, canonical_view(result))
         case results.Comparison():
             figure = section_figure(result)
+        case results.Calibration():
+            figure = ratings_figure(result)
         case _:
             raise BadOption(f"there is no picture of a {type(result).__name__}")
     return picture_bytes(figure, kind)

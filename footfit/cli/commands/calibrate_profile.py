@@ -17,6 +17,9 @@ def calibrate_profile(
     output: Path | None = options.output_file(
         "--output", "Write the profile that was learned (.toml).", "-o"
     ),
+    plot: Path | None = options.output_file(
+        "--plot", "Draw ratings over clearance, with curve and bands before and after (.svg, .png)."
+    ),
     *,
     lasts: options.Lasts,
     force: bool = options.FORCE,
@@ -28,14 +31,17 @@ def calibrate_profile(
 
     Example: footfit calibrate-profile walking -o mine.toml
     """
+    from footfit.api import files
     from footfit.cli.answers import answer_result, tell
     from footfit.cli.outputs import OutputFile, Outputs
     from footfit.errors import CheckFailed
     from footfit.pipeline.evidence.learned_profile import profile_text
+    from footfit.pipeline.export import PICTURE_KINDS
     from footfit.results import Calibration
 
     file = OutputFile(output, ("toml",), lambda learned, _: profile_text(learned.after))
-    outputs = Outputs((file,), force=force)
+    drawn = OutputFile(plot, PICTURE_KINDS, files.picture)
+    outputs = Outputs((file, drawn), force=force)
     outputs.refuse(as_json=mode.json)
     learned: Calibration = lasts.open().fit_log.calibrate_profile(profile, fits)
     if learned.applied:

@@ -5,10 +5,10 @@ from __future__ import annotations
 from footfit.geometry.fit.clearance import CLEARANCE
 from footfit.report.page.rendering import html_page, picture_data
 from footfit.report.page.scene import scene_of
+from footfit.report.pictures.drawn_outlines import own_side
 from footfit.report.pictures.heat_figure import heat_figure
 from footfit.report.pictures.overlay_figure import DrawnLast, overlay_figure
 from footfit.report.pictures.section_figure import section_figure
-from footfit.report.pictures.sides import own_side
 from footfit.report.wording.comparison_words import SIZE_HEADS, comparison_names
 from footfit.results import Comparison
 

@@ -16,9 +16,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from footfit.geometry.numeric.arrays import Floats, Ints
+from footfit.report.pictures.drawn_outlines import Mesh, is_left, own_side
 from footfit.report.pictures.heat import BREAKS_MM, COLOURS, NOT_COMPARED, SHADE, step_words
 from footfit.report.pictures.shading import light_direction
-from footfit.report.pictures.sides import Mesh, is_left, own_side
 from footfit.results import Comparison
 
 STEPS = 65_535

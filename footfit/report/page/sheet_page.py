@@ -8,8 +8,8 @@ from datetime import date
 from footfit.geometry.fit.sizes import EQUALLY_LONG_MM, SYSTEMS, foot_sizes, system_named
 from footfit.number_words import rounded
 from footfit.report.page.rendering import html_page, picture_data
+from footfit.report.pictures.drawn_outlines import Mesh
 from footfit.report.pictures.feet_figure import DrawnFoot, feet_figure
-from footfit.report.pictures.sides import Mesh
 from footfit.report.wording import sheet_words, width_words
 from footfit.report.wording.text import SHOWN_SYSTEMS
 from footfit.results import Match, Measured

@@ -1,4 +1,4 @@
-"""The outlines of a shape as they are drawn: the sole in plan, and the profile from the side."""
+"""Shapes as they are drawn: on their own side, the sole in plan, the profile from the side."""
 
 from __future__ import annotations
 
@@ -8,6 +8,10 @@ import numpy as np
 
 from footfit.geometry.mesh.sections import extremes_below, highest, lowest, sections_across
 from footfit.geometry.numeric.arrays import Floats, Ints
+from footfit.results import Comparison, Profiled, SideName
+
+Mesh = tuple[Floats, Ints]
+"""Vertices (n, 3) in canonical mm, and faces (m, 3)."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -87,3 +91,24 @@ def _stations(vertices_mm: Floats) -> Floats:
     share = 0.5 - 0.5 * np.cos(np.linspace(0.0, np.pi, DRAWING.stations))
     inset = DRAWING.inset * (high - low)
     return low + inset + share * (high - low - 2 * inset)
+
+
+def is_left(shape: Profiled) -> bool:
+    """Whether a foot or last is a left one; where nobody knows it counts as right."""
+    return shape.aligned.alignment.side.side == "left"
+
+
+def on_side(mesh: Mesh, own: SideName | None, wanted: SideName | None) -> Mesh:
+    """A mesh of one side as the other's: mirrored in y, its faces turned over."""
+    vertices, faces = mesh
+    if own == wanted or own is None or wanted is None:
+        return mesh
+    return vertices * np.array([1.0, -1.0, 1.0]), faces[:, ::-1]
+
+
+def own_side(comparison: Comparison) -> tuple[Mesh, Mesh]:
+    """Foot and last on the foot's own side: the comparison holds right shapes."""
+    side = comparison.foot.aligned.alignment.side.side
+    foot = comparison.vertices_mm, comparison.faces
+    last = comparison.last_vertices_mm, comparison.last_faces
+    return on_side(foot, "right", side), on_side(last, "right", side)

@@ -11,6 +11,7 @@ import numpy as np
 from footfit.geometry.numeric.arrays import Floats, Ints
 from footfit.number_words import plain
 from footfit.report.pictures import shading
+from footfit.report.pictures.drawn_outlines import Mesh
 from footfit.report.pictures.figures import (
     INK,
     QUIET,
@@ -20,7 +21,6 @@ from footfit.report.pictures.figures import (
     show_image,
     write_beside,
 )
-from footfit.report.pictures.sides import Mesh
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

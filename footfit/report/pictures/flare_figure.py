@@ -10,7 +10,7 @@ from footfit.geometry.flare.definition import CHANNELS
 from footfit.geometry.flare.profile_distance import DISTANCE
 from footfit.geometry.numeric.arrays import Floats
 from footfit.number_words import signed
-from footfit.report.pictures.drawn_outlines import SHADOW, Outline, ring, sole_outline
+from footfit.report.pictures.drawn_outlines import SHADOW, Outline, is_left, ring, sole_outline
 from footfit.report.pictures.figures import (
     DASHES,
     DIVERGING,
@@ -28,7 +28,6 @@ from footfit.report.pictures.figures import (
     write_beside,
     write_title,
 )
-from footfit.report.pictures.sides import is_left
 from footfit.report.wording.text import angle_text, class_words, length_text, shape_words
 
 if TYPE_CHECKING:

@@ -8,7 +8,15 @@ import numpy as np
 
 from footfit.geometry.numeric.arrays import Floats, Ints
 from footfit.report.pictures import shading
-from footfit.report.pictures.drawn_outlines import SHADOW, ring, side_outline, sole_outline
+from footfit.report.pictures.drawn_outlines import (
+    SHADOW,
+    Mesh,
+    is_left,
+    own_side,
+    ring,
+    side_outline,
+    sole_outline,
+)
 from footfit.report.pictures.figures import (
     INK,
     draw_scale_bar,
@@ -18,7 +26,6 @@ from footfit.report.pictures.figures import (
     write_title,
 )
 from footfit.report.pictures.heat import BREAKS_MM, COLOURS, NOT_COMPARED, SHADE, heat_colours
-from footfit.report.pictures.sides import Mesh, is_left, own_side
 from footfit.report.wording.comparison_words import comparison_names
 
 if TYPE_CHECKING:

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from footfit.number_words import signed
-from footfit.report.pictures.drawn_outlines import side_outline
+from footfit.report.pictures.drawn_outlines import is_left, side_outline
 from footfit.report.pictures.figures import (
     FILL,
     INK,
@@ -22,7 +22,6 @@ from footfit.report.pictures.figures import (
     hide_axes,
     new_figure,
 )
-from footfit.report.pictures.sides import is_left
 from footfit.report.wording.zone_words import mark, zone_text
 
 if TYPE_CHECKING:

@@ -7,7 +7,14 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 from footfit.number_words import signed
-from footfit.report.pictures.drawn_outlines import ring, side_outline, sole_outline
+from footfit.report.pictures.drawn_outlines import (
+    Mesh,
+    is_left,
+    on_side,
+    ring,
+    side_outline,
+    sole_outline,
+)
 from footfit.report.pictures.figures import (
     DASHES,
     FILL,
@@ -24,7 +31,6 @@ from footfit.report.pictures.flare_figure import (
     set_up_curves,
     toe_up,
 )
-from footfit.report.pictures.sides import Mesh, is_left, on_side
 from footfit.report.wording.text import angle_text, file_name, visible
 
 if TYPE_CHECKING:

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from footfit.number_words import plain, signed
-from footfit.report.pictures.drawn_outlines import ring
+from footfit.report.pictures.drawn_outlines import is_left, ring
 from footfit.report.pictures.figures import (
     FILL,
     INK,
@@ -18,7 +18,6 @@ from footfit.report.pictures.figures import (
     new_figure,
     write_title,
 )
-from footfit.report.pictures.sides import is_left
 from footfit.report.wording.comparison_words import comparison_names
 
 if TYPE_CHECKING:
