@@ -41,12 +41,13 @@ def ratings_figure(calibration: Calibration) -> Figure:
     zones = [zone for zone in calibration.zones if zone.shown is not None]
     if not zones:
         raise BadOption("no zone was rated often enough for a picture; leave out --plot")
-    rows = math.ceil(len(zones) / COLUMNS)
-    with new_figure(10.5, 0.6 + 3.0 * rows) as figure:
-        panels = figure.subplots(rows, COLUMNS, squeeze=False).flat
+    columns = min(COLUMNS, len(zones))
+    rows = math.ceil(len(zones) / columns)
+    with new_figure(0.5 + 5.5 * columns, 0.6 + 3.2 * rows) as figure:
+        panels = list(figure.subplots(rows, columns, squeeze=False).flat)
         for axes, zone in zip(panels, zones, strict=False):
             _draw_zone(axes, zone)
-        for axes in list(panels)[len(zones) :]:
+        for axes in panels[len(zones) :]:
             axes.set_visible(False)
         name = calibration.before.name
         write_title(figure, f"What wearers said of shoes of the profile {name}")
