@@ -14,7 +14,7 @@ from footfit.catalogue.store import open_catalogue
 from footfit.pipeline.evidence.learned_profile import entries_of_csv, profile_text
 from footfit.pipeline.evidence.recording import definitions
 from footfit.pipeline.fit.fit_profile import fit_profile, profile_of, shipped
-from footfit.results import FitEntry, RatedZone
+from footfit.results import FitEntry, RatedZone, Worn
 from tests import fits
 from tests.conftest import Footfit
 
@@ -132,6 +132,11 @@ def test_a_bad_csv_is_named(
     assert words in run.err
     assert str(table) in run.err
     assert len(run.err.splitlines()) == 1
+
+
+def test_a_written_profile_says_what_is_worn() -> None:
+    profile = replace(fit_profile("walking"), worn=Worn(sock_mm=2.0, load="half"))
+    assert profile_of(profile_text(profile)).worn == profile.worn
 
 
 @pytest.mark.parametrize("name", shipped())

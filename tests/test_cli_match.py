@@ -88,7 +88,11 @@ def test_the_first_last_of_a_real_pair_has_the_best_verdict(
 @pytest.mark.parametrize(
     ("options", "code", "words"),
     [
-        (("--profile", "disco"), 2, "child, dress, safety, sport, walking"),
+        (
+            ("--profile", "disco"),
+            2,
+            "boot, child, depth, dress, pump, safety, sandal, sport, walking",
+        ),
         (("--profile", "none.toml"), 3, "give a fit profile"),
         (("--by", "shape", "--fail-under", "good"), 2, "judges no fit"),
         (("--fail-under", "superb"), 2, "superb"),

@@ -285,7 +285,7 @@ def test_what_is_no_foot_is_refused(make):
 
 
 def test_a_cube_is_no_foot():
-    with pytest.raises(NotAFoot, match="one whole foot or last"):
+    with pytest.raises(NotAFoot, match="neither a foot nor a last"):
         aligned(scan_of(*shapes.cube(250.0, 8)))
 
 

@@ -211,6 +211,9 @@ def test_a_heel_that_is_too_high_is_judged_by_length_alone(
 @pytest.mark.parametrize("name", shipped())
 def test_every_shipped_profile_judges_the_toe_box(name: str) -> None:
     rules = {rule.zone: rule for rule in fit_profile(name).zones}
+    if name == "sandal":  # it has no wall around the toes
+        assert not {TOES, TOE_HEIGHT} & set(rules)
+        return
     assert {TOES, TOE_HEIGHT} <= set(rules)
     for zone_name in (TOES, TOE_HEIGHT):
         rule = rules[zone_name]

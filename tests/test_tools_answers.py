@@ -51,7 +51,7 @@ def test_equal_answers_do_not_differ() -> None:
         ({"sd": 0.0}, "value", "match.sd"),
         ({"mirrored": 1}, "value", "match.mirrored"),
         ({"verdict": "poor"}, "verdict", "match.verdict"),
-        ({"schema": "footfit.match/2"}, "value", "match.schema"),
+        ({"schema": "footfit.match/3"}, "value", "match.schema"),
         ({"schema": "footfit.error/1", "code": "no_sole"}, "outcome", "match.schema"),
         ({"candidates": []}, "list length", "match.candidates"),
         ({"warnings": ANSWER["warnings"][:1]}, "code", "match.warnings.non_manifold"),

@@ -38,9 +38,9 @@ class Trueness(NamedTuple):
 
         Examples
         --------
-        >>> known = Trueness(-0.3, (0.2, 0.4, 0.4, 0.9))
+        >>> known = Trueness(-0.3, (0.2, 0.5, 0.5, 0.9))
         >>> known.sd_at(30.0), known.sd_at(120.0), known.sd_at(None)
-        (0.3, 0.9, 0.9)
+        (0.35, 0.9, 0.9)
         """
         if heel_mm is None or len(self.sd) == 1:
             return max(self.sd)

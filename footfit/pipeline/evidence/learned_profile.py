@@ -65,6 +65,12 @@ def profile_text(profile: FitProfile) -> str:
         f"summary = {_quoted(profile.summary)}",
         f"tie_sds = {profile.tie_sds}",
     ]
+    if profile.usual_length_mm is not None:
+        low, high = profile.usual_length_mm
+        lines.append(f"usual_length_mm = [{low}, {high}]")
+    worn = {key: value for key, value in asdict(profile.worn).items() if value is not None}
+    if worn:
+        lines += ["", "[worn]", *(f"{key} = {_value(value)}" for key, value in worn.items())]
     for rule in profile.zones:
         end = UNIT_KEYS[ZONES[rule.zone].unit]
         lines += ["", f"[zones.{rule.zone}]", f"target{end} = {rule.target}"]
@@ -77,6 +83,10 @@ def profile_text(profile: FitProfile) -> str:
         lines += [f"cavity{end} = {rule.cavity}"] if rule.cavity else []
         lines += [f'grade = "{rule.grade}"', f"source = {_quoted(rule.source)}"]
     return "\n".join(lines) + "\n"
+
+
+def _value(value: object) -> str:
+    return _quoted(value) if isinstance(value, str) else str(value)
 
 
 def _quoted(text: str) -> str:

@@ -21,6 +21,7 @@ from footfit.number_words import plain
 from footfit.pipeline.batch.sources import ReadingOptions, Source
 from footfit.pipeline.fit.heel_model import heel_question
 from footfit.pipeline.fit.heels import Heels, heel_change, heels_of, share_sd, surface_change
+from footfit.pipeline.fit.worn_shifts import with_unknown_load
 from footfit.pipeline.fit.zones import measured_clearances, toe_room
 from footfit.pipeline.scan.measure import last_record
 from footfit.pipeline.scan.preparation import stored_shape
@@ -129,7 +130,8 @@ def compared(
     with errors_at(foot.aligned.alignment.info.path):
         inside = placed_foot(foot, last, heels)
     pairs = section_pairs(inside.foot, last.shape)
-    room = toe_room(foot, last.record, heels)
+    measures = foot.measures, last.record.measures
+    room = with_unknown_load(toe_room(foot, last.record, heels), "length", measures)
     return results.Comparison(
         foot=foot,
         last=last.record,
@@ -144,7 +146,10 @@ def compared(
         sections=tuple(_section(pair, heels) for pair in pairs),
         warnings=_warnings(foot, last.record, room),
         toe_room=room,
-        measured_clearance=measured_clearances(foot, last.record, heels),
+        measured_clearance=tuple(
+            (name, with_unknown_load(clearance, name, measures))
+            for name, clearance in measured_clearances(foot, last.record, heels)
+        ),
         heel=heel_change(heels, 0, foot),
     )
 

@@ -145,6 +145,15 @@ def with_total(
     return replace(clearance, total_sd=total)
 
 
+def with_unknown_load(
+    clearance: Measured, zone: str, measures: tuple[Sequence[Measure], Sequence[Measure]]
+) -> Measured:
+    """A clearance with its ``total_sd``, if nobody says how the foot was loaded, and when."""
+    name = "functional_length" if zone == "length" else zone
+    own = next((m.measured.value for m in measures[0] if m.name == name), None)
+    return with_total(clearance, zone, measures, zone_shift(zone, own, BAREFOOT).sd)
+
+
 def shifts_of(foot: Profiled, profile: FitProfile, worn: Worn) -> dict[str, Shift]:
     """The shift of each zone of a profile for one foot."""
     measures = {measure.name: measure.measured.value for measure in foot.measures}
