@@ -71,7 +71,9 @@ class Progress:
             took_s = time.monotonic() - self.started
             left_s = took_s * (self.total - self.done) / self.done if self.done else None
             left = "" if left_s is None else left_words(left_s)
-            self.bar.update(self.task, completed=self.done, description=words, left=left)
+            shown = {"description": words, "left": left}
+            # A phase may be over before the next regular drawing, so it is drawn at once.
+            self.bar.update(self.task, completed=self.done, refresh=not self.counts, **shown)
 
 
 @contextmanager

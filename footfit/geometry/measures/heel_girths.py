@@ -26,7 +26,7 @@ class HeelSettings:
     ball: float = 0.70  # over the length: the line from the cone's top to here passes any cone
     cone_end: float = 0.55  # a cone's front edge lies behind this place; a boot has none
     turn_deg: float = 6.0  # the plane that touches a low cone's edge is turned so far both ways
-    apart: tuple[float, float] = (0.015, 0.025)  # of the length: a cone is low, see cone_edge
+    apart: tuple[float, float] = (0.015, 0.035)  # of the length: a cone is low, see cone_edge
 
 
 HEEL = HeelSettings()
