@@ -35,7 +35,7 @@ def test_girls_stop_a_year_before_boys() -> None:
 
 @given(room=st.floats(0.0, 30.0), rate=st.floats(0.4, 2.2))
 def test_months_are_the_room_beyond_nine_millimetres(room: float, rate: float) -> None:
-    low, high = month_range(room, rate, rate)
+    low, high = month_range(room - RULE.kept_mm, rate, rate)
     assert 0.0 <= low <= high
     middle = (room - RULE.kept_mm) / rate
     if middle > 0.0:
@@ -48,6 +48,7 @@ def test_months_are_the_room_beyond_nine_millimetres(room: float, rate: float) -
 def test_a_known_age_gives_a_narrower_range(room: float, length: float) -> None:
     low, high = age_range(length, GrowthQuestion())
     middle = 0.5 * (low + high)
+    room -= RULE.kept_mm
     wide = month_range(room, growth_rate(high, None), growth_rate(low, None))
     narrow = month_range(room, growth_rate(middle, None), growth_rate(middle, None))
     assert wide[0] <= narrow[0] + 1e-9
@@ -82,7 +83,16 @@ def test_the_answer_says_for_how_long(footfit: Footfit, foot: Path, catalogue: P
     assert growth["room_mm"] == first["clearance_mm"]["length"]["value"]
     low, high = growth["months"]
     assert low < (growth["room_mm"] - 9.0) / 1.05 < high
+    assert growth["kept_mm"] == 9.0
     run = footfit("match", foot, *asked)
     assert "months" in run.out + run.err
     run = footfit("match", foot, "--age", 5, "--catalogue", catalogue)
     assert run.code == 2
+
+
+def test_a_sock_takes_room_to_grow(footfit: Footfit, foot: Path, catalogue: Path) -> None:
+    asked = ("--growth", "--age", 5, "--sock", 2, "--load", "half", "--catalogue", catalogue)
+    growth = json.loads(footfit("match", foot, "--json", *asked).out)["growth"]
+    assert growth["kept_mm"] == pytest.approx(9.0 + 2 * 2.0)
+    low, high = growth["months"]
+    assert low <= max((growth["room_mm"] - 13.0) / 1.05, 0.0) <= high

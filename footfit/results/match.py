@@ -184,7 +184,8 @@ class Match(Document):
         words = f"The verdict rests most on the {decided.label}: {FOUNDED[decided.grade]}"
         if not self.rated:
             return words
-        return f"{words}; wearers here rated {self.rated} shoes of this profile"
+        shoes = "1 shoe" if self.rated == 1 else f"{self.rated} shoes"
+        return f"{words}; wearers here rated {shoes} of this profile"
 
     @property
     def customer_length_mm(self) -> float | None:

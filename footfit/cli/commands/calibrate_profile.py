@@ -49,4 +49,5 @@ def calibrate_profile(
         return
     tell(learned, mode)
     words = "no zone may change yet, so the profile stays as it is"
-    raise CheckFailed(f"{words}; {learned.entries} entries were read", profile)
+    read = "1 entry was" if learned.entries == 1 else f"{learned.entries} entries were"
+    raise CheckFailed(f"{words}; {read} read", profile)

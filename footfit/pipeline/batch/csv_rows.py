@@ -36,6 +36,8 @@ def csv_rows(path: Path, columns: Sequence[str], required: Sequence[str]) -> lis
         It is not a file, not text or too large, or its content is not understood.
     """
     try:
+        if not path.exists():
+            raise BadManifest("there is no such file: check the path", str(path))
         if not path.is_file():
             raise BadManifest("is not a file; name a CSV file", str(path))
         if path.stat().st_size > LARGEST_BYTES:

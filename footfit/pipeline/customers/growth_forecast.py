@@ -1,7 +1,7 @@
 """How long a child's shoe will last: the room beyond what must stay, over the rate of growth.
 
 Rates: Gould 1990 (107 children followed), an Austrian survey 2001-03, Cheng 1997 (2,829 children)
-for the length by age; docs/evidence.md lists them. Feet grow in spurts, so a rate is sure to a
+for the length by age; docs/references.md lists them. Feet grow in spurts, so a rate is sure to a
 third.
 """
 
@@ -69,13 +69,14 @@ def growth_of(match: Match, asked: GrowthQuestion) -> Growth | None:
         return None
     ages = age_range(length_mm, asked)
     fast, slow = growth_rate(ages[0], asked.sex), growth_rate(ages[1], asked.sex)
-    months = month_range(room.value, slow, fast) if fast > 0.0 else None
+    kept = RULE.kept_mm + _worn_mm(match)
+    months = month_range(room.value - kept, slow, fast) if fast > 0.0 else None
     by_length = asked.age_years is None
     known = "the length of the foot" if by_length else f"an age of {asked.age_years:g}"
     return Growth(
         last=first.last,
         room_mm=room.value,
-        kept_mm=RULE.kept_mm,
+        kept_mm=kept,
         months=months,
         check_months=None if months is None else 0.5 * months[0],
         rate_mm_per_month=(slow, fast),
@@ -83,6 +84,16 @@ def growth_of(match: Match, asked: GrowthQuestion) -> Growth | None:
         sex=asked.sex,
         grounds=f"{known} and how fast children's feet grow",
     )
+
+
+def _worn_mm(match: Match) -> float:
+    """By how many mm sock, insole and load shift the toe room that the first last is asked for."""
+    rules = () if match.fit_profile is None else match.fit_profile.zones
+    asked = next((rule.target for rule in rules if rule.zone == "length"), None)
+    if asked is None:
+        return 0.0
+    zones = (zone for fit in match.candidates[0].fits for zone in fit.zones if zone.counts)
+    return next((zone.target - asked for zone in zones if zone.zone == "length"), 0.0)
 
 
 def age_range(length_mm: float, asked: GrowthQuestion) -> tuple[float, float]:
@@ -117,22 +128,22 @@ def growth_rate(age_years: float, sex: Sex | None) -> float:
     return next((rate for years, rate in RULE.rates if age_years <= years), RULE.last_rate)
 
 
-def month_range(room_mm: float, slow: float, fast: float) -> tuple[float, float]:
-    """For how many months the room will do: one standard deviation to either side.
+def month_range(spare_mm: float, slow: float, fast: float) -> tuple[float, float]:
+    """For how many months the room to grow will do: one standard deviation to either side.
 
     Examples
     --------
-    >>> [round(month, 1) for month in month_range(14.0, 1.05, 1.05)]
+    >>> [round(month, 1) for month in month_range(5.0, 1.05, 1.05)]
     [2.2, 7.3]
     """
-    ends = [_months(room_mm, rate) for rate in (fast, slow) if rate > 0.0]
+    ends = [_months(spare_mm, rate) for rate in (fast, slow) if rate > 0.0]
     low, high = ends[0], ends[-1]
     return max(low[0] - low[1], 0.0), max(high[0] + high[1], 0.0) if high[0] > 0.0 else 0.0
 
 
-def _months(room_mm: float, rate: float) -> tuple[float, float]:
+def _months(spare_mm: float, rate: float) -> tuple[float, float]:
     """The months at a rate, and their standard deviation."""
-    months = (room_mm - RULE.kept_mm) / rate
+    months = spare_mm / rate
     return months, math.hypot(RULE.room_sd_mm / rate, RULE.rate_sd_share * months)
 
 

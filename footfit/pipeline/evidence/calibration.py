@@ -84,7 +84,8 @@ def _zone(
     """The evidence of one zone; ``held`` is None where too few wearers rated."""
     count, wearers = len(ratings.rating), ratings.wearers
     if held is None:
-        reason = f"{wearers} wearers rated it; from {caution.shown_from} on it is computed"
+        noun = "wearer" if wearers == 1 else "wearers"
+        reason = f"{wearers} {noun} rated it; footfit learns from {caution.shown_from} on"
         return ZoneEvidence(rule, rule, "too_few", reason, count, wearers)
     objection = _objection(ratings, held, losses, caution)
     return ZoneEvidence(

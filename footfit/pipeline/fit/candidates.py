@@ -59,7 +59,9 @@ def in_stock(chosen: Library, file: Path) -> Library:
     out = tuple(r for r in chosen.lasts if r.labels.name not in there.names)
     unknown: tuple[Notice, ...] = ()
     if there.unknown:
-        words = f"{len(there.unknown)} rows name no last of the catalogue, first {there.unknown[0]}"
+        many = len(there.unknown)
+        rows = "1 row names" if many == 1 else f"{many} rows name"
+        words = f"{rows} no last of the catalogue, first {there.unknown[0]}"
         unknown = (Notice("unknown_stock", words, str(file)),)
     return replace(
         chosen,

@@ -69,8 +69,8 @@ WIDTH_PLACES = {
     "ball_width_orthogonal": Place(0.61, 0.77, (0.16, -2.9 * LINE)),
 }
 """Zones under the foot: a line along it."""
-WORDS_MM, TOES_HALF_MM = 6.0, 105.0
-"""How far from a toe's tip its words end, and how much of the toes' picture is on either side."""
+WORDS_MM, WORDS_HALF_MM, TOES_HALF_MM = 4.0, 4.0, 105.0
+"""How far behind a toe's front its words end, half of their height, and half of the picture."""
 
 
 def judged_figure(foot: Profiled, fit: FootFit) -> Figure:
@@ -159,11 +159,18 @@ def _draw_toes(axes: Axes, box: ToeBox, zone: ZoneFit, mirror: float) -> None:
         axes.plot(*own.T, solid_capstyle="butt", **style)
         number_mm = "-" if toe.clearance.value is None else signed(toe.clearance.value)
         words = f"{mark(zone)} {toe.toe} {number_mm}" if tightest else f"{toe.toe} {number_mm}"
-        beside = (
-            float(own[:, 0].max()) - WORDS_MM,
-            float(0.5 * (own[:, 1].min() + own[:, 1].max())),
+        height = 0.5 * float(own[:, 1].min() + own[:, 1].max())
+        off = np.abs(own[:, 1] - height)
+        front = own[off <= max(WORDS_HALF_MM, float(off.min())), 0]
+        axes.text(
+            float(front.min()) - WORDS_MM,
+            height,
+            words,
+            ha="right",
+            va="center",
+            fontsize=9,
+            color=style["color"],
         )
-        axes.text(*beside, words, ha="right", va="center", fontsize=9, color=style["color"])
     middle = 0.5 * float(x[0] + x[-1])
     axes.set_xlim(middle - TOES_HALF_MM, middle + TOES_HALF_MM)
     draw_scale_bar(axes, 20.0, place=(0.0, 0.02))

@@ -23,7 +23,8 @@ class GrowthQuestion:
 class Growth(Part):
     """For how many months the room of a shoe will do.
 
-    ``room_mm`` is the toe room of the last ``last``, of which ``kept_mm`` must stay. ``months`` is
+    ``room_mm`` is the toe room of the last ``last``, of which ``kept_mm`` must stay; what is worn
+    and how the foot was loaded count there. ``months`` is
     the range from one standard deviation below to one above; None if feet of this age hardly grow.
     ``check_months`` is when to measure again. ``age_years`` is the range of ages that was taken,
     and ``grounds`` says from what. ``rate_mm_per_month`` is the range of growth.
@@ -43,12 +44,15 @@ class Growth(Part):
     def words(self) -> str:
         """One sentence for people."""
         start = f"{self.last} has {plain(self.room_mm)} mm of room"
+        stays = f"{start}, of which {plain(self.kept_mm)} mm must stay"
         if self.months is None:
             return f"{start}; feet of this age hardly grow any more"
         low, high = (round(month) for month in self.months)
         if high <= 0:
-            return f"{start}: that leaves none to grow; a child's shoe needs {plain(self.kept_mm)}"
+            return (
+                f"{start}: that leaves none to grow; a child's shoe needs {plain(self.kept_mm)} mm"
+            )
         many = f"{low} to {high} months" if low < high else f"about {high} months"
         again = max(round(self.check_months or 0.0), 1)
         noun = "month" if again == 1 else "months"
-        return f"{start}: it will do for {many}, by {self.grounds}; measure again in {again} {noun}"
+        return f"{stays}: it will do for {many}, by {self.grounds}; measure again in {again} {noun}"
