@@ -74,7 +74,14 @@ def test_rows_of_other_files_are_said_and_stop_nothing() -> None:
     assert [one.labels.style for one in batch] == ["derby"]
     (notice,) = unused_rows(batch, rows)
     assert "c.stl" in notice.message
+    assert "no labels" not in notice.message
     assert unused_rows(batch, rows[:1]) == ()
+
+
+def test_a_manifest_whose_paths_miss_every_file_is_said() -> None:
+    rows = manifest_rows("path,style\nlasts/a.stl,derby\n", Path("lasts"), "m.csv")
+    (notice,) = unused_rows(entries([Source("lasts/a.stl")], rows, NOTHING, PLAIN), rows)
+    assert "no labels" in notice.message
 
 
 def test_a_known_length_is_another_reading_unless_it_is_the_stored_one() -> None:

@@ -15,6 +15,7 @@ from hypothesis import strategies as st
 from footfit.catalogue.store import open_catalogue
 from footfit.errors import BadOption, NoCandidate
 from footfit.geometry.measures.measure_table import measure_named
+from footfit.number_words import signed
 from footfit.pipeline.batch.sources import ReadingOptions, Source
 from footfit.pipeline.fit.candidates import choice
 from footfit.pipeline.fit.compare import best_comparison
@@ -317,6 +318,9 @@ def test_by_shape_finds_length_and_width_and_judges_no_fit() -> None:
     found = answer(*widths, by="shape")
     assert found.candidates[0].last == "w98"
     assert {c.verdict for c in found.candidates} == {None}
+    for candidate in answer(*lasts, by="shape").candidates:
+        shown = signed(dict(candidate.clearance_mm)["length"].value)
+        assert candidate.why.startswith(f"length differs by {shown} mm")
 
 
 def test_the_flare_difference_is_the_last_minus_the_foot() -> None:

@@ -189,7 +189,7 @@ def test_the_list_marks_the_reference() -> None:
 
 
 def test_the_catalogue_keeps_no_feet_and_says_so() -> None:
-    assert "a scan is read, matched and forgotten" in terminal_text(
+    assert "no scan: it is read, matched and forgotten" in terminal_text(
         catalogue_tables.catalogue_info_table(answers.facts())
     )
 

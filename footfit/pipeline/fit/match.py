@@ -240,10 +240,10 @@ def _why(
         sds = [z.clearance.sd or 0.0 for z in zones if z.zone == "flare" and z.counts]
         return reasons.flare_words(delta_deg, sds[0] if sds else 0.0)
     if judged.by == "shape":
-        ours, theirs = judged.feet[judged.longer].length_mm, judged.lasts[row].length_mm
-        if ours is None or theirs is None:
+        more = next((z.clearance.value for z in zones if z.zone == "length"), None)
+        if more is None:
             return f"flare differs by {signed(delta_deg)} deg; one of the lengths is not known"
-        return f"length differs by {signed(theirs - ours)} mm, flare by {signed(delta_deg)} deg"
+        return f"length differs by {signed(more)} mm, flare by {signed(delta_deg)} deg"
     required = [column.rule.required for column in judged.columns]
     unknown = reasons.unknown_words(zones, required)
     if ranked.tier[place] == ranked.tier[0]:

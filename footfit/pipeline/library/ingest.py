@@ -87,11 +87,14 @@ def entries(
 def unused_rows(batch: Sequence[Entry], manifest: Sequence[ManifestRow]) -> tuple[Notice, ...]:
     """A notice if the manifest has rows of files that were not given: a path may be mistyped."""
     given = {_resolved(entry.path) for entry in batch if entry.path}
+    named = {_resolved(row.path) for row in manifest}
     unused = [row.path for row in manifest if _resolved(row.path) not in given]
     if not unused:
         return ()
     more = f" and {len(unused) - 1} more" if len(unused) > 1 else ""
     words = f"the manifest also names {unused[0]}{more}, not among the files given"
+    if not given & named:
+        words += "; it names none of those, so they get no labels: its paths start at its folder"
     return (Notice("manifest_rows_unused", words),)
 
 

@@ -204,7 +204,7 @@ def catalogue_info_table(info: results.CatalogueFacts) -> RenderableType:
         ("definitions", _count_words(info.definitions)),
         ("mesh copies", f"{info.mesh_copies}, {size} MB{worst}"),
         ("rows kept", _count_words(info.kept)),
-        ("feet", "none: a scan is read, matched and forgotten"),
+        ("feet", "no scan: it is read, matched and forgotten"),
     )
 
 

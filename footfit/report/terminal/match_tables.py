@@ -42,7 +42,8 @@ LIKENESS = {
     "from what the profile asks (0 = the target, 1 = the edge of good); lasts that are tied are "
     "not told apart by the measures",
     "flare": "distance: how far the flare profile is from the foot's (0 = the same), at any size",
-    "shape": "distance: how far measures and flare profile are from the mesh's (0 = the same)",
+    "shape": "length: the last's minus the mesh's, along the bottom of both; distance: how far "
+    "measures and flare profile are from the mesh's (0 = the same)",
 }
 VERDICT_STYLES = {"good": "green", "acceptable": "yellow", "poor": "red", "reject": "bold red"}
 COLUMNS = {"": 2, "last": 20, "style, size": 16, "verdict": 10}
@@ -105,7 +106,8 @@ def _candidates(candidates: Sequence[Candidate]) -> list[RenderableType]:
     """The lasts, each a row of numbers and a sentence."""
     judged = any(candidate.verdict for candidate in candidates)
     shown = [place for place in range(len(COLUMNS)) if place != VERDICT or judged]
-    table = [[Text(head, "bold") for head in COLUMNS], *(_cells(last) for last in candidates)]
+    heads = [head if judged else head.replace("toe room", "length") for head in COLUMNS]
+    table = [[Text(head, "bold") for head in heads], *(_cells(last) for last in candidates)]
     widths = list(COLUMNS.values())
     longest = [max(row[place].cell_len for row in table) for place in (1, 2)]
     widths[1] = min(widths[1], longest[0])  # names and labels are short, most often
