@@ -711,7 +711,7 @@ def room_facts(comparison: Comparison, name: str, *, area: bool, where: str) -> 
     """The room by zone as a table; the area only where there is place for it."""
     swing, turn = comparison.placement.swing_mm, comparison.flare_delta_deg
     way = "inner side" if swing > 0 else "outer side"
-    if (swing > 0) == (turn < 0):
+    if plain(abs(turn)) != plain(0.0) and (swing > 0) == (turn < 0):
         way = f"turns {'less' if swing > 0 else 'more'} inward"
     yield fact(f"{SAID} swing of {name}", [way, plain(abs(swing))], where)
     for zone in comparison.zones:

@@ -114,7 +114,12 @@ def test_what_cannot_tell_is_refused_in_words(
 def test_an_empty_log_is_refused_in_words(footfit: Footfit, catalogue: Path) -> None:
     run = footfit("calibrate-profile", "walking", "--catalogue", catalogue)
     assert run.code == 7
-    assert "0 entries" in run.err
+    assert "0 entries were read" in run.err
+    with open_catalogue(catalogue, write=True) as opened:
+        opened.fit_log.add(entries(1)[0])
+    run = footfit("calibrate-profile", "walking", "--catalogue", catalogue)
+    assert "1 entry was read" in run.err
+    assert "1 wearer rated" in " ".join(run.out.split())
 
 
 @pytest.mark.parametrize(

@@ -37,6 +37,19 @@ def test_a_new_catalogue_is_said_once_with_its_path(footfit: Footfit, tmp_path: 
     assert "is now the reference" in empty.out
 
 
+def test_no_catalogue_is_made_if_no_last_is_stored(footfit: Footfit, tmp_path: Path) -> None:
+    place, junk = tmp_path / "typo.footfit", tmp_path / "junk.stl"
+    junk.write_bytes(b"no mesh")
+    for refused in (junk, tmp_path / "missing.stl"):
+        run = footfit("ingest-last", refused, "--catalogue", place)
+        assert run.code == 3, run.err
+        assert "new catalogue" not in run.err
+        assert not place.exists()
+    run = footfit("ingest-last", junk, LAST, "--catalogue", place)
+    assert run.err.count(f"new catalogue: {place}") == 1
+    assert "is now the reference" in run.out
+
+
 @pytest.mark.parametrize("by", ["option", "environment", "settings"])
 @pytest.mark.parametrize("command", ["ingest", "dry run", "restore"])
 def test_a_missing_folder_is_refused_and_nothing_is_made(

@@ -78,6 +78,8 @@ def test_only_what_is_in_stock_is_ranked(
     assert answer["not_in_stock"]["verdict"] == everything["candidates"][0]["verdict"]
     codes = [warning["code"] for warning in answer["warnings"]]
     assert {"not_in_stock", "unknown_stock"} <= set(codes)
+    unknown = answer["warnings"][codes.index("unknown_stock")]["message"]
+    assert unknown.startswith("1 row names no last")
     run = footfit("match", foot, "--stock", file, "--catalogue", catalogue)
     assert f"best last that is not in stock is {best}" in " ".join((run.out + run.err).split())
 

@@ -69,6 +69,10 @@ def test_nine_profiles_are_shipped_each_with_another_hash() -> None:
     assert len({fit_profile(name).sha256 for name in shipped()}) == 9
 
 
+def test_a_name_is_known_in_any_case() -> None:
+    assert fit_profile("Walking") == fit_profile("WALKING") == fit_profile("walking")
+
+
 @pytest.mark.parametrize("name", PUBLISHED)
 def test_every_range_of_a_shipped_profile_has_a_source(name: str) -> None:
     for rule in fit_profile(name).zones:

@@ -24,6 +24,7 @@ from footfit.report.pictures.section_figure import ACROSS, STRIP, section_figure
 from footfit.report.pictures.shading import VIEWS, Frame
 from footfit.report.terminal.comparison_tables import compare_table
 from footfit.report.terminal.scan_tables import terminal_text
+from footfit.report.wording.comparison_words import swing_words
 from footfit.results import Comparison, Notice
 from tests import browsing, shapes
 from tests.bounds import ROUNDING
@@ -59,6 +60,15 @@ def test_the_terminal_says_what_the_json_says_within_80_columns():
             value = size["difference"]["value"]
             assert (f"{value:+.1f}" if value is not None else "-") in line
     assert json_line(document)
+
+
+def test_lasts_whose_flare_reads_the_same_turn_alike():
+    shown = comparison()
+    placement = replace(shown.placement, swing_mm=-0.3)
+    alike = replace(shown, placement=placement, flare_delta_deg=0.04)
+    assert "turns" not in swing_words(alike)
+    assert "outer side" in swing_words(alike)
+    assert "turns more inward" in swing_words(replace(alike, flare_delta_deg=0.06))
 
 
 def test_the_csv_has_a_row_for_every_size_and_every_zones_figure():

@@ -40,7 +40,7 @@ def shipped() -> tuple[str, ...]:
 
 
 def fit_profile(name_or_path: str = "walking") -> FitProfile:
-    """A shipped profile by its name, or one of the user's by its path (``x.toml``).
+    """A shipped profile by its name in any case, or one of the user's by its path (``x.toml``).
 
     Raises
     ------
@@ -51,13 +51,13 @@ def fit_profile(name_or_path: str = "walking") -> FitProfile:
     """
     path = Path(name_or_path)
     if path.suffix != ".toml":
-        names = shipped()
-        if name_or_path not in names:
+        names, name = shipped(), name_or_path.casefold()
+        if name not in names:
             known = ", ".join(names)
             raise BadOption(
                 f"no fit profile is named {name_or_path!r}; there are {known}, or give a .toml file"
             )
-        path = FOLDER / f"{name_or_path}.toml"
+        path = FOLDER / f"{name}.toml"
     return profile_of(text_of(path, "fit profile"), str(path))
 
 

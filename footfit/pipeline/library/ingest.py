@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import dataclasses
 from collections.abc import Callable, Iterable, Iterator, Sequence
-from contextlib import AbstractContextManager, nullcontext
+from contextlib import AbstractContextManager, ExitStack, nullcontext
 from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
@@ -21,6 +21,7 @@ from footfit.pipeline.scan.kept_sections import kept_sections
 from footfit.pipeline.scan.measure import last_record
 from footfit.pipeline.scan.reading import content_hash, profiled_source
 from footfit.results import IngestOutcome, LastLabels, LastRecord, MeshCopy, Notice, ShapeSections
+from footfit.whole_files import require_folder
 
 KeepMesh = Literal["compact", "full"]
 SAME_LENGTH_MM = 0.01
@@ -227,22 +228,33 @@ def ingest(
     """Ingest a batch into the catalogue at ``path``; yield each file's outcome after its commit.
 
     ``keep_mesh`` "full" keeps every face of a mesh; with ``replace`` also of a last that is stored
-    with a lighter copy. A missing catalogue is made, but not its folder. Signals are held off
-    by ``hold_signals`` from before a commit until the next outcome is asked for.
+    with a lighter copy. A missing catalogue is made when there is a last to store; its folder is
+    not. Signals are held off by ``hold_signals`` from before a commit until the next outcome is
+    asked for.
 
     Raises
     ------
     CatalogueUnusable, BadOption
         The catalogue cannot be opened or written; its folder is missing.
     """
-    with nullcontext() if dry_run else open_catalogue(path, write=True) as catalogue:
+    with ExitStack() as stack:
+        writing = partial(open_catalogue, path, write=True)
+        catalogue = None
+        if not dry_run and path.exists():
+            catalogue = stack.enter_context(writing())
+        elif not dry_run:
+            require_folder(path)
         holdings = Holdings(_stored_lasts(path) if catalogue is None else catalogue.lasts().records)
         again = replace and keep_mesh == "full"  # its copy may be a lighter one
         known = frozenset() if replace else frozenset(holdings.by_content)
         work_on = partial(new_last, known=known, keep_mesh=keep_mesh)
-        made = str(path) if catalogue is not None and catalogue.revisions.made else None
+        made = None
         for work in outcomes(work_on, batch, jobs):
             with hold_signals():
+                if catalogue is None and not dry_run and work.value is not None:
+                    catalogue = stack.enter_context(writing())  # made only for a last to store
+                    holdings = Holdings(catalogue.lasts().records)
+                    made = str(path) if catalogue.revisions.made else None
                 outcome = _store(work, holdings, catalogue, replace=replace, again=again)
                 yield dataclasses.replace(outcome, dry_run=dry_run, new_catalogue=made)
                 made = None

@@ -84,7 +84,7 @@ def swing_words(comparison: Comparison) -> str:
     swing, turn = comparison.placement.swing_mm, comparison.flare_delta_deg
     first, second = comparison.nouns
     size = f"{plain(abs(swing))} mm at the ball"
-    if swing * turn < 0.0:
+    if swing * turn < 0.0 and plain(abs(turn)) != plain(0.0):
         return (
             f"the {second} turns {'less' if swing > 0 else 'more'} inward than the {first}: {size}"
         )
