@@ -10,8 +10,8 @@ SHARE_STEP = 10.0
 LEAST_SHARE, LARGEST_SHARE = 5.0, 95.0
 """A share is said in steps of 10 %, because a girth is not surer than that; the ends stand for
 "nearly nobody" and "nearly everybody"."""
-CLASSES = ((10.0, "very narrow"), (30.0, "narrow"), (70.0, "medium"), (90.0, "wide"))
-"""The name of a width up to a share in percent; above the last it is "very wide"."""
+CLASSES = ((10.0, "very narrow"), (30.0, "narrow"), (60.0, "medium"), (80.0, "wide"))
+"""The name of a width up to a share in percent, as it is said; above the last it is "very wide"."""
 
 
 def size_with_width(size: Size, width: FootWidth) -> str:
@@ -104,11 +104,14 @@ def about_percent(percent: float) -> float:
 
 
 def width_class(percent: float) -> str:
-    """The name of a width by its share.
+    """The name of a width by its share, so that equal shares have one name.
 
     Examples
     --------
     >>> [width_class(value) for value in (3.0, 29.0, 50.0, 71.0, 99.0)]
     ['very narrow', 'narrow', 'medium', 'wide', 'very wide']
+    >>> [width_class(value) for value in (9.6, 10.4)]
+    ['very narrow', 'very narrow']
     """
-    return next((name for most, name in CLASSES if percent < most), "very wide")
+    said = about_percent(percent)
+    return next((name for most, name in CLASSES if said <= most), "very wide")
