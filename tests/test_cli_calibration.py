@@ -14,6 +14,7 @@ from footfit.catalogue.store import open_catalogue
 from footfit.pipeline.evidence.learned_profile import entries_of_csv, profile_text
 from footfit.pipeline.evidence.recording import definitions
 from footfit.pipeline.fit.fit_profile import fit_profile, profile_of, shipped
+from footfit.pipeline.fit.zones import ZONES
 from footfit.results import FitEntry, RatedZone, Worn
 from tests import fits
 from tests.conftest import Footfit
@@ -148,3 +149,12 @@ def test_a_written_profile_says_what_is_worn() -> None:
 def test_a_written_profile_has_the_same_values(name: str) -> None:
     profile = fit_profile(name)
     assert profile_of(profile_text(profile)) == profile
+
+
+@pytest.mark.parametrize("name", ["walking", "sandal"])
+def test_a_profile_calls_its_zones_as_a_match_does(footfit: Footfit, name: str) -> None:
+    run = footfit("show-profile", name.upper())
+    assert run.code == 0, run.err
+    for rule in fit_profile(name).zones:
+        assert f"\n {ZONES[rule.zone].label} " in run.out
+    assert "toe room is length" in " ".join(run.out.split())

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+
 from rich.console import Group, RenderableType
 from rich.text import Text
 
@@ -22,15 +24,18 @@ def list_profiles_table(listed: results.ProfileList) -> RenderableType:
     return Group(table, Text("footfit show-profile NAME shows one with its sources", "dim"))
 
 
-def show_profile_table(shown: results.ShownProfile) -> RenderableType:
-    """What a profile asks of each zone, last minus foot, and how well that is founded."""
+def show_profile_table(shown: results.ShownProfile, labels: Mapping[str, str]) -> RenderableType:
+    """What a profile asks of each zone, last minus foot, and how well that is founded.
+
+    ``labels`` say how a match calls each zone.
+    """
     profile = shown.profile
     heads = ("zone", "target", "good", "acceptable", "weight", "grade", "source")
     table = lined_table(*heads, right=frozenset({"target", "weight"}))
     for rule in profile.zones:
         unit = shown.units[rule.zone]
         table.add_row(
-            cell(rule.zone.replace("_", " "), "bold"),
+            cell(labels[rule.zone], "bold"),
             f"{rule.target:g} {UNIT_WORDS.get(unit, unit)}".strip(),
             range_words(rule.good),
             range_words(rule.acceptable),
@@ -41,11 +46,21 @@ def show_profile_table(shown: results.ShownProfile) -> RenderableType:
     title = f"{visible(profile.name)}, version {profile.version}: {visible(profile.summary)}"
     used = sorted({rule.grade for rule in profile.zones})
     grades = "; ".join(f"{grade} {GRADES[grade]}" for grade in used)
-    return Group(Text(title, "bold"), table, Text(f"last minus foot; grades: {grades}", "dim"))
+    notes = [f"last minus foot; grades: {grades}"]
+    zones = {rule.zone: labels[rule.zone] for rule in profile.zones}
+    keys = [
+        f"{label} is {zone}" for zone, label in zones.items() if zone != label.replace(" ", "_")
+    ]
+    if keys:
+        notes.append(f"in a profile's file {', '.join(keys)}")
+    return Group(Text(title, "bold"), table, *(Text(note, "dim") for note in notes))
 
 
-def calibration_table(learned: results.Calibration) -> RenderableType:
-    """What the ratings say of each zone, and what became of its rule."""
+def calibration_table(learned: results.Calibration, labels: Mapping[str, str]) -> RenderableType:
+    """What the ratings say of each zone, and what became of its rule.
+
+    ``labels`` say how a match calls each zone.
+    """
     heads = ("zone", "wearers", "ratings", "target", "learned, 95 %", "good", "outcome")
     table = lined_table(*heads, right=frozenset({"wearers", "ratings", "target"}))
     for zone in learned.zones:
@@ -56,7 +71,7 @@ def calibration_table(learned: results.Calibration) -> RenderableType:
         good = range_words(zone.before.good)
         changed = zone.status == "applied"
         table.add_row(
-            cell(zone.zone.replace("_", " "), "bold"),
+            cell(labels[zone.zone], "bold"),
             str(zone.wearers),
             str(zone.ratings),
             signed(zone.before.target),
