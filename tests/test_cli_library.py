@@ -45,6 +45,8 @@ def test_no_catalogue_is_made_if_no_last_is_stored(footfit: Footfit, tmp_path: P
         assert run.code == 3, run.err
         assert "new catalogue" not in run.err
         assert not place.exists()
+        assert run.out.split() == ["refused", str(refused)]
+        assert len(run.err.splitlines()) == 1, "the reason is said once"
     run = footfit("ingest-last", junk, LAST, "--catalogue", place)
     assert run.err.count(f"new catalogue: {place}") == 1
     assert "is now the reference" in run.out

@@ -161,12 +161,10 @@ def _range_words(values: Sequence[float] | object) -> str:
 
 
 def ingest_line(outcome: results.IngestOutcome) -> Text:
-    """The outcome of one file, in one line."""
+    """The outcome of one file, in one line; why it was refused is said as an error."""
     line = Text(f"{outcome.status:<10}", STATUS_STYLES.get(outcome.status, ""))
     if outcome.failure is not None:
-        return line.append(
-            visible(f"{outcome.path or 'standard input'}: {outcome.failure.message}"), "default"
-        )
+        return line.append(visible(outcome.path or "standard input"), "default")
     line.append(visible(outcome.last or "-"), "bold default")
     if outcome.side is not None:
         line.append(f"  {outcome.side}", "not bold")
