@@ -13,7 +13,7 @@ from tests import browsing
 SAMPLES = Path(__file__).resolve().parents[1] / "sample_data"
 PAIR = [str(SAMPLES / "feet" / name) for name in ("mh007_L.stl", "mh007_R.stl")]
 DAY = date(2026, 11, 28)
-SIZES = {"page.png": (1080, 980), "sheet.png": (820, 1090)}
+SIZES = {"page.png": (1080, 1005), "sheet.png": (820, 1090)}
 SHOWN_WIDTH = 820
 COLOURS = 256
 """Of a picture's palette: a page has few colours, and the file is then a third."""
