@@ -59,7 +59,7 @@ def sheet_facts(document: dict[str, Any], title: str, customer: str, day: str) -
         marks = [text for verdict in order for text in (MARKS[verdict], verdict)]
         if marks:
             yield fact("marks", marks, SHEET)
-    yield fact(f"{SAID} rounding", "10", SHEET)
+    yield fact(f"{SAID} rounding", ["10", "5", "95"], SHEET)
     yield fact(f"{SAID} survey", ["1,986", "4,082", "2012", "17", "58"], SHEET)
     yield fact("footer", __version__, SHEET)
 
