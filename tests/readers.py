@@ -193,9 +193,8 @@ def _notes(body: Node, taken: list[Node], name: str, reading: Reading) -> None:
 
 
 def _lasts(table: Node, heads: list[str], reading: Reading) -> None:
-    named = {
-        place: word for word in COLUMNS for place, head in enumerate(heads) if word in head.lower()
-    }
+    lower = [head.lower().replace("length", "room") for head in heads]  # by shape: no toe room
+    named = {place: word for word in COLUMNS for place, head in enumerate(lower) if word in head}
     for row in table.one("tbody").every("tr"):
         cells = [cell.text for cell in row.every("th", "td")]
         assert len(cells) == len(heads)
