@@ -97,8 +97,10 @@ def test_another_encoding_is_named(encoding: str, tmp_path: Path) -> None:
     path.write_text("path,style\na.stl,größe\n", encoding=encoding)
     with pytest.raises(BadManifest, match="save it as CSV UTF-8"):
         read_manifest(path)
-    with pytest.raises(BadManifest, match="not a file"):
+    with pytest.raises(BadManifest, match="no such file"):
         read_manifest(tmp_path / "none.csv")
+    with pytest.raises(BadManifest, match="not a file"):
+        read_manifest(tmp_path)
 
 
 def test_a_path_is_found_in_another_spelling(tmp_path: Path) -> None:
