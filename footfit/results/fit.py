@@ -23,6 +23,25 @@ ZONE_ENDS = {
 """Every zone that a profile can name, and what the name of a column ends in by its unit."""
 
 
+ZONE_LABELS = {
+    "length": "toe room",
+    "ball_line": "ball line",
+    "ball_girth": "ball girth",
+    "ball_width": "ball width",
+    "ball_width_orthogonal": "ball width across",
+    "waist_girth": "waist girth",
+    "instep_girth": "instep girth",
+    "short_heel_girth": "heel to instep",
+    "long_heel_girth": "long heel girth",
+    "heel_width": "heel width",
+    "toe_height": "toe height",
+    "toes": "toes",
+    "instep_height": "instep height",
+    "flare": "flare",
+    "plan": "outline shape",
+}
+"""The name of each zone as people read it, in every command."""
+
 Grade = Literal["A", "M", "B", "C"]
 GRADES: dict[Grade, str] = {
     "A": "measured with wearers who judged comfort",

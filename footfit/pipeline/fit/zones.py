@@ -25,6 +25,7 @@ from footfit.geometry.numeric.arrays import Floats
 from footfit.pipeline.fit.heels import Heels, full_change
 from footfit.pipeline.fit.scoring import Column
 from footfit.results import HeelModel, LastRecord, Measure, Measured, Profiled, ZoneRule
+from footfit.results.fit import ZONE_LABELS
 from footfit.results.heel import FLARE
 
 LENGTH_SD_MM = 0.5
@@ -50,10 +51,14 @@ class Zone:
     """One place of comparison; ``less`` and ``more`` are the words for what is off the target."""
 
     name: str
-    label: str
     unit: str
     less: str
     more: str
+
+    @property
+    def label(self) -> str:
+        """The name as people read it."""
+        return ZONE_LABELS[self.name]
 
 
 NO_RULE = (0.0, (0.0, 0.0), (0.0, 0.0), None, 0.0, False, 0.0)
@@ -64,21 +69,21 @@ UNIT_KEYS = {"mm": "_mm", "deg": "_deg", "percent": "_percent", "ratio": ""}
 ZONES: dict[str, Zone] = {
     zone.name: zone
     for zone in (
-        Zone("length", "toe room", "mm", "short", "long"),
-        Zone("ball_line", "ball line", "percent", "too far back", "too far forward"),
-        Zone("ball_girth", "ball girth", "mm", "tighter", "looser"),
-        Zone("ball_width", "ball width", "mm", "narrower", "wider"),
-        Zone("ball_width_orthogonal", "ball width across", "mm", "narrower", "wider"),
-        Zone("waist_girth", "waist girth", "mm", "tighter", "looser"),
-        Zone("instep_girth", "instep girth", "mm", "tighter", "looser"),
-        Zone("short_heel_girth", "heel to instep", "mm", "tighter", "looser"),
-        Zone("long_heel_girth", "long heel girth", "mm", "tighter", "looser"),
-        Zone("heel_width", "heel width", "mm", "narrower", "wider"),
-        Zone(TOE_HEIGHT, "toe height", "mm", "lower", "higher"),
-        Zone(TOES, "toes", "mm", "tighter", "looser"),
-        Zone("instep_height", "instep height", "mm", "lower", "higher"),
-        Zone("flare", "flare", "deg", "less inward", "more inward"),
-        Zone("plan", "outline shape", "ratio", "nearer", "further"),
+        Zone("length", "mm", "short", "long"),
+        Zone("ball_line", "percent", "too far back", "too far forward"),
+        Zone("ball_girth", "mm", "tighter", "looser"),
+        Zone("ball_width", "mm", "narrower", "wider"),
+        Zone("ball_width_orthogonal", "mm", "narrower", "wider"),
+        Zone("waist_girth", "mm", "tighter", "looser"),
+        Zone("instep_girth", "mm", "tighter", "looser"),
+        Zone("short_heel_girth", "mm", "tighter", "looser"),
+        Zone("long_heel_girth", "mm", "tighter", "looser"),
+        Zone("heel_width", "mm", "narrower", "wider"),
+        Zone(TOE_HEIGHT, "mm", "lower", "higher"),
+        Zone(TOES, "mm", "tighter", "looser"),
+        Zone("instep_height", "mm", "lower", "higher"),
+        Zone("flare", "deg", "less inward", "more inward"),
+        Zone("plan", "ratio", "nearer", "further"),
     )
 }
 

@@ -10,6 +10,7 @@ from footfit.report.wording.fit_words import UNITS, zone_number
 from footfit.report.wording.text import difference_text, file_name, length_text, visible
 from footfit.report.wording.zone_words import zone_name
 from footfit.results import Comparison, FootFit, SurfaceClearance, TightPlace, ZoneFit
+from footfit.results.fit import ZONE_LABELS
 from footfit.results.heel import FLARE, heel_words
 
 SIZE_HEADS = {
@@ -63,7 +64,7 @@ def measures_words(comparison: Comparison) -> str:
     """The clearance of each measure that both have, as a match gives it."""
     first, second = comparison.nouns
     known = [
-        f"{name.replace('_', ' ')} {difference_text(clearance)}"
+        f"{ZONE_LABELS[name]} {difference_text(clearance)}"
         for name, clearance in comparison.measured_clearance
         if clearance.value is not None
     ]
