@@ -252,7 +252,7 @@ def catalogue_facts(info: CatalogueFacts) -> Iterator[Fact]:
         "definitions": count_values(info.definitions),
         "mesh copies": [info.mesh_copies, plain(info.mesh_copy_bytes / 1e6)],
         "rows kept": count_values(info.kept),
-        "feet": ["none"],
+        "feet": ["no scan"],
     }
     rows["mesh copies"] += [] if worst is None else [plain(worst, 2)]
     for name, values in rows.items():
