@@ -52,6 +52,7 @@ def test_a_profile_learns_and_is_read_again(footfit: Footfit, log: Path, tmp_pat
     assert answer["applied"] == ["ball_girth"]
     learned = fit_profile(str(output))
     assert learned.version == fit_profile("walking").version + 1
+    assert answer["after"] == learned.to_dict()  # with the hash that a match will give
     rules = {rule.zone: rule for rule in learned.zones}
     low, high = answer["zones"]["ball_girth"]["target_interval_mm"]
     assert low < TARGET_MM < high

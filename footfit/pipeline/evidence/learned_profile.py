@@ -12,8 +12,7 @@ from footfit.pipeline.batch.csv_rows import CsvRow, csv_rows
 from footfit.pipeline.evidence.calibration import zone_evidence
 from footfit.pipeline.evidence.recording import definitions
 from footfit.pipeline.evidence.zone_ratings import log_ratings
-from footfit.pipeline.fit.fit_profile import SCHEMAS
-from footfit.pipeline.fit.toml_tables import values_sha256
+from footfit.pipeline.fit.fit_profile import SCHEMAS, hashed
 from footfit.pipeline.fit.zones import UNIT_KEYS, ZONES
 from footfit.results import (
     Calibration,
@@ -46,8 +45,7 @@ def learned_profile(profile: FitProfile, zones: Iterable[ZoneEvidence]) -> FitPr
     rules = tuple(
         _sourced(applied[rule.zone]) if rule.zone in applied else rule for rule in profile.zones
     )
-    learned = replace(profile, version=profile.version + 1, zones=rules, sha256="")
-    return replace(learned, sha256=values_sha256(asdict(learned)))
+    return hashed(replace(profile, version=profile.version + 1, zones=rules))
 
 
 def _sourced(zone: ZoneEvidence) -> ZoneRule:

@@ -94,6 +94,11 @@ def _profile(table: Mapping[str, Any]) -> FitProfile:
         usual_length_mm=None if usual is None else _range(usual, "usual_length_mm"),
         worn=_worn(table.get("worn", {})),
     )
+    return hashed(profile)
+
+
+def hashed(profile: FitProfile) -> FitProfile:
+    """A profile with the hash of what it asks; which feet it is for does not count."""
     rules_only = {key: value for key, value in asdict(profile).items() if key != "usual_length_mm"}
     return replace(profile, sha256=values_sha256(rules_only))
 
