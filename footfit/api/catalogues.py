@@ -88,20 +88,15 @@ class Catalogue(CatalogueFile):
         InputError, GeometryRefused
             As `flare`; HalfScan if the length of a foot is not known.
         """
-        from footfit.pipeline.customers.growth_forecast import with_growth
+        from footfit.pipeline.customers.matches import answered
         from footfit.pipeline.customers.pair_sides import pair_of_feet
-        from footfit.pipeline.fit.compare import with_surface_clearance
-        from footfit.pipeline.fit.match import matched
 
         asked = self._question(question)
         given: list[Any] = feet if isinstance(feet, list) else [feet]
         if len(given) not in (1, 2):
             raise BadOption(f"a match takes one foot, or the two of one customer, not {len(given)}")
         shapes = pair_of_feet([aligned_shape(foot, question) for foot in given])
-        answer = with_growth(matched(shapes, self._choice(question), asked), asked.growth)
-        if asked.surfaces_in is None:
-            return answer
-        return with_surface_clearance(answer, asked.surfaces_in)
+        return answered(shapes, self._choice(question), asked)
 
     def match_each(
         self,

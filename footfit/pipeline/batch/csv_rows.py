@@ -26,6 +26,20 @@ class CsvRow(NamedTuple):
     where: str
     values: dict[str, str]
 
+    def number(self, column: str, default: str = "") -> float:
+        """The number in a column, with a point or a comma; ``default`` stands for an empty cell.
+
+        Raises
+        ------
+        BadManifest
+            It is no number.
+        """
+        said = self.values.get(column, default)
+        try:
+            return float(said.replace(",", "."))
+        except ValueError as error:
+            raise BadManifest(f"{column} is {said!r}; it must be a number", self.where) from error
+
 
 def csv_rows(path: Path, columns: Sequence[str], required: Sequence[str]) -> list[CsvRow]:
     """The rows of a file; see `rows_of_text`.

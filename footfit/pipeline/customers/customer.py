@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import unicodedata
+from collections import Counter
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from itertools import pairwise
@@ -94,13 +95,14 @@ def pairs_in_csv(path: Path) -> list[Customer]:
     if not customers:
         raise BadManifest(f"names no customer; {IN_CSV}", str(path))
     names = [_key(customer.name or "") for customer in customers]
-    files = [str(each) for customer in customers for each in customer.paths]
+    named = Counter(names)
+    read = Counter(str(each) for customer in customers for each in customer.paths)
     for customer, name in zip(customers, names, strict=True):
-        if names.count(name) > 1:
+        if named[name] > 1:
             words = f"names the customer {customer.name!r} twice; give each line a name of its own"
             raise BadManifest(words, str(path))
         for each in customer.paths:
-            if files.count(str(each)) > 1:
+            if read[str(each)] > 1:
                 raise BadManifest(f"names {each} twice; keep it once", str(path))
     return customers
 

@@ -65,12 +65,25 @@ def _answered(
     try:
         shapes = pair_of_feet([foot.value for foot in feet if foot.value is not None])
         begin("match")
-        answer = replace(matched(shapes, library, question), customer=customer.name)
-        answer = with_growth(answer, question.growth)
+        answer = replace(answered(shapes, library, question), customer=customer.name)
     except (BadOption, GeometryRefused, SameSide) as error:
         return Outcome(customer, None, error.at(customer.path))
-    if question.surfaces_in is not None:
-        from footfit.pipeline.fit.compare import with_surface_clearance
-
-        answer = with_surface_clearance(answer, question.surfaces_in)
     return Outcome(customer, answer, None)
+
+
+def answered(
+    feet: Sequence[results.Profiled], library: results.Library, question: Question
+) -> results.Match:
+    """All that is asked of one customer's feet: the match, a child's growth, the surfaces.
+
+    Raises
+    ------
+    FootfitError
+        As `matched`.
+    """
+    answer = with_growth(matched(feet, library, question), question.growth)
+    if question.surfaces_in is None:
+        return answer
+    from footfit.pipeline.fit.compare import with_surface_clearance
+
+    return with_surface_clearance(answer, question.surfaces_in)

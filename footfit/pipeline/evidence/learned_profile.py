@@ -10,6 +10,7 @@ from pathlib import Path
 from footfit.errors import BadManifest
 from footfit.pipeline.batch.csv_rows import CsvRow, csv_rows
 from footfit.pipeline.evidence.calibration import zone_evidence
+from footfit.pipeline.evidence.ratings_model import RATINGS
 from footfit.pipeline.evidence.recording import definitions
 from footfit.pipeline.evidence.zone_ratings import log_ratings
 from footfit.pipeline.fit.fit_profile import SCHEMAS, hashed
@@ -140,23 +141,15 @@ def _rated_zone(row: CsvRow) -> RatedZone:
     return RatedZone(
         zone=values["zone"],
         unit=values.get("unit", "mm"),
-        clearance=_number(row, "clearance"),
-        sd=_number(row, "sd"),
+        clearance=row.number("clearance"),
+        sd=row.number("sd"),
         definition=values.get("definition", ""),
     )
 
 
-def _number(row: CsvRow, column: str) -> float:
-    try:
-        return float(row.values[column].replace(",", "."))
-    except (KeyError, ValueError) as error:
-        said = row.values.get(column, "")
-        raise BadManifest(f"{column} is {said!r}; it must be a number", row.where) from error
-
-
 def _rating(row: CsvRow) -> int:
-    rating = _number(row, "rating")
-    if rating not in (-2, -1, 0, 1, 2):
+    rating = row.number("rating")
+    if rating not in RATINGS:
         words = f"rating is {row.values['rating']!r}; it must be a whole number from -2 to 2"
         raise BadManifest(words, row.where)
     return int(rating)

@@ -14,6 +14,7 @@ from footfit.geometry.flare.definition import FlareDefinition
 from footfit.geometry.measures.measure_table import MEASURES
 from footfit.pipeline.evidence.zone_ratings import place_ratings
 from footfit.pipeline.fit.ranking import foot_fits, judged_lasts
+from footfit.pipeline.fit.worn_shifts import measure_of
 from footfit.results import (
     FitEntry,
     FitProfile,
@@ -136,7 +137,7 @@ def fit_entry(
 def definitions() -> dict[str, str]:
     """The definition of each zone's measure: only lasts that have it are judged in the zone."""
     by_name = {measure.name: measure.definition_id for measure in MEASURES}
-    length, ball = by_name["functional_length"], by_name["ball_length"]
+    length, ball = by_name[measure_of("length")], by_name["ball_length"]
     flare = FlareDefinition().version
     return by_name | {
         "length": length,

@@ -10,18 +10,22 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, fields, replace
 
 from footfit.errors import BadOption
 from footfit.results import FitProfile, Measure, Measured, Profiled, Worn, ZoneRule
 from footfit.results.worn import BAREFOOT, Load
 
-LENGTHS = ("length",)
 GIRTHS = ("ball_girth", "waist_girth", "instep_girth", "short_heel_girth", "long_heel_girth")
-WIDTHS = ("ball_width", "ball_width_orthogonal")
-HEEL_WIDTHS = ("heel_width",)
-HEIGHTS = ("toe_height", "instep_height")
-WALLS = ("toes",)
+KINDS = {
+    "length": "length",
+    **dict.fromkeys(GIRTHS, "girth"),
+    **dict.fromkeys(("ball_width", "ball_width_orthogonal"), "width"),
+    "heel_width": "heel_width",
+    **dict.fromkeys(("toe_height", "instep_height"), "height"),
+    "toes": "wall",
+}
+"""What each zone measures, where something that is worn or a load changes it."""
 INSOLE_GIRTH = 1.75
 LARGEST_MM = {"sock_mm": 10.0, "insole_mm": 15.0, "heel_lift_mm": 40.0, "scanned_in_sock_mm": 10.0}
 
@@ -79,34 +83,26 @@ def zone_shift(zone: str, foot_mm: float | None, worn: Worn) -> Shift:
     6.28
     """
     sock, insole = worn.more_sock_mm, worn.insole_mm or 0.0
-    by_kind = (
-        (LENGTHS, 2.0 * sock),
-        (WIDTHS, 2.0 * sock),
-        (HEEL_WIDTHS, 2.0 * sock),
-        (HEIGHTS, 2.0 * sock + insole),
-        (GIRTHS, 2.0 * math.pi * sock + INSOLE_GIRTH * insole),
-        (WALLS, sock),
-    )
-    thickness = next((mm for zones, mm in by_kind if zone in zones), 0.0)
+    thickness_mm = {
+        **dict.fromkeys(("length", "width", "heel_width"), 2.0 * sock),
+        "height": 2.0 * sock + insole,
+        "girth": 2.0 * math.pi * sock + INSOLE_GIRTH * insole,
+        "wall": sock,
+    }
+    kind = KINDS.get(zone, "")
+    thickness = thickness_mm.get(kind, 0.0)
     if foot_mm is None:
         return Shift(thickness)
-    loaded = _load_change(zone, worn.load)
-    day = MORNING_GIRTH if zone in GIRTHS and worn.time != "evening" else (0.0, 0.0)
+    loaded = _load_change(kind, worn.load)
+    day = MORNING_GIRTH if kind == "girth" and worn.time != "evening" else (0.0, 0.0)
     grown = day[0] if worn.time == "morning" else 0.0
     sd = foot_mm * math.hypot(loaded[1], day[1])
     return Shift(thickness + foot_mm * (loaded[0] + grown), sd)
 
 
-def _load_change(zone: str, load: Load | None) -> tuple[float, float]:
+def _load_change(kind: str, load: Load | None) -> tuple[float, float]:
     """The share by which the foot's measure grows until half load; unknown load is only unsure."""
-    change = TO_HALF_LOAD[load or "sitting"]
-    kinds = (
-        (LENGTHS, change.length),
-        (WIDTHS, change.width),
-        (HEEL_WIDTHS, change.heel_width),
-        (GIRTHS, change.girth),
-    )
-    share, sd = next((value for zones, value in kinds if zone in zones), (0.0, 0.0))
+    share, sd = getattr(TO_HALF_LOAD[load or "sitting"], kind, (0.0, 0.0))
     return (0.0 if load is None else share), sd
 
 
@@ -128,6 +124,11 @@ def shifted_rule(rule: ZoneRule, shift: Shift) -> ZoneRule:
     )
 
 
+def measure_of(zone: str) -> str:
+    """The measure that a zone compares: the toe room is that of the functional length."""
+    return "functional_length" if zone == "length" else zone
+
+
 def with_total(
     clearance: Measured, zone: str, measures: Iterable[Sequence[Measure]], more_sd: float
 ) -> Measured:
@@ -135,7 +136,7 @@ def with_total(
 
     It has none where the zone compares no measure of its own name.
     """
-    name = "functional_length" if zone == "length" else zone
+    name = measure_of(zone)
     parts = [m.measured for of_shape in measures for m in of_shape if m.name == name]
     totals = [part.total_sd for part in parts]
     if clearance.sd is None or not parts or None in totals:
@@ -149,7 +150,7 @@ def with_unknown_load(
     clearance: Measured, zone: str, measures: tuple[Sequence[Measure], Sequence[Measure]]
 ) -> Measured:
     """A clearance with its ``total_sd``, if nobody says how the foot was loaded, and when."""
-    name = "functional_length" if zone == "length" else zone
+    name = measure_of(zone)
     own = next((m.measured.value for m in measures[0] if m.name == name), None)
     return with_total(clearance, zone, measures, zone_shift(zone, own, BAREFOOT).sd)
 
@@ -157,13 +158,12 @@ def with_unknown_load(
 def shifts_of(foot: Profiled, profile: FitProfile, worn: Worn) -> dict[str, Shift]:
     """The shift of each zone of a profile for one foot."""
     measures = {measure.name: measure.measured.value for measure in foot.measures}
-    measures["length"] = measures.get("functional_length") or measures.get("length")
+    measures["length"] = measures.get(measure_of("length")) or measures.get("length")
     return {r.zone: zone_shift(r.zone, measures.get(r.zone), worn) for r in profile.zones}
 
 
 def worn_with(profile: FitProfile, asked: Worn = BAREFOOT) -> Worn:
     """What is worn: as asked, else as the profile has it."""
     own = profile.worn
-    names = ("sock_mm", "insole_mm", "heel_lift_mm", "load", "time", "scanned_in_sock_mm")
-    said = {name: getattr(asked, name) for name in names}
+    said = {known.name: getattr(asked, known.name) for known in fields(Worn)}
     return Worn(**{n: getattr(own, n) if value is None else value for n, value in said.items()})

@@ -9,7 +9,7 @@ from pathlib import Path
 
 from footfit.errors import BadManifest
 from footfit.geometry.fit.sizes import label_number
-from footfit.pipeline.batch.csv_rows import CsvRow, csv_rows
+from footfit.pipeline.batch.csv_rows import csv_rows
 from footfit.results import LastLabels, LastRecord
 
 LABELS = ("style", "size", "size_system", "width_label")
@@ -50,13 +50,14 @@ def stock(path: Path, lasts: Iterable[LastRecord]) -> Stock:
             name = by_name.get(_plain(row.values["last"]))
             names = [] if name is None else [name]
         elif given:
-            index = indexes.setdefault(given, _index(known, given))
-            names = index.get(tuple(_label(name, row.values[name]) for name in given), [])
+            if given not in indexes:
+                indexes[given] = _index(known, given)
+            names = indexes[given].get(tuple(_label(name, row.values[name]) for name in given), [])
         else:
             raise BadManifest("names no last and gives no style, size or width", row.where)
         if not names:
             unknown.append(row.where)
-        elif _quantity(row) > 0.0:
+        elif row.number("quantity", "1") > 0.0:
             there.update(names)
     return Stock(frozenset(there), tuple(unknown))
 
@@ -81,11 +82,3 @@ def _label(name: str, text: str) -> str:
 
 def _plain(text: str) -> str:
     return " ".join(text.casefold().split())
-
-
-def _quantity(row: CsvRow) -> float:
-    text = row.values.get("quantity", "1").replace(",", ".")
-    try:
-        return float(text)
-    except ValueError as error:
-        raise BadManifest(f"quantity is {text!r}; it must be a number", row.where) from error

@@ -26,7 +26,7 @@ from footfit.results import (
 _ALONG_X = ("length", "functional_length", "tape_length", "ball_length")
 _ALONG_THE_GROUND = ("stick_length", "bottom_length", "tread_from", "tread_to")
 CHILD_MM = 200.0
-"""No adult of the survey has a foot as short as this."""
+"""A shorter foot may be a child's; a fit profile for shorter feet is for children."""
 END_MEASURES = frozenset((*_ALONG_X, *_ALONG_THE_GROUND))
 """What is counted from the pternion or to the toes."""
 
@@ -45,8 +45,12 @@ def measured_scan(aligned: AlignedScan) -> MeasuredScan:
 
 def measured_shape(alignment: Alignment, measures: tuple[Measure, ...]) -> MeasuredScan:
     """The measures of a shape, with a warning for each that is hardly right."""
-    kind = alignment.pose.kind if alignment.pose.sole else "foot"  # without a sole nothing is sure
-    return MeasuredScan(alignment, measures, unusual_measures(measures, kind))
+    return MeasuredScan(alignment, measures, unusual_measures(measures, _likely_kind(alignment)))
+
+
+def _likely_kind(alignment: Alignment) -> str:
+    """The kind whose usual measures count: without a sole nothing is sure, and it may be a foot."""
+    return alignment.pose.kind if alignment.pose.sole else "foot"
 
 
 def check_side(alignment: Alignment) -> None:
@@ -103,7 +107,7 @@ def shape_measures(shape: Shape, info: MeshInfo | None = None) -> tuple[Measure,
 
 def for_feet_of(scan: MeasuredScan, usual_length_mm: tuple[float, float]) -> MeasuredScan:
     """A measured scan with the warnings for feet of these lengths, such as children's."""
-    kind = scan.alignment.pose.kind if scan.alignment.pose.sole else "foot"
+    kind = _likely_kind(scan.alignment)
     return replace(
         scan,
         alignment=usual_alignment(scan.alignment, usual_length_mm),

@@ -10,11 +10,10 @@ from functools import cache
 from pathlib import Path
 
 from footfit.geometry.fit.width_fitting import fittings
+from footfit.pipeline.scan.measure import CHILD_MM
 from footfit.results import FootWidth, Measured, Profiled, WidthShare
 
 FILE = Path(__file__).parent / "survey.toml"
-CHILD_MM = 200.0
-"""A fit profile whose usual feet may be shorter is for children."""
 NO_CHILDREN = "the survey has no children"
 
 
