@@ -158,6 +158,11 @@ def library_facts(records: Sequence[LastRecord], reference: str | None) -> Itera
             yield fact(f"{name} {column}", text or "", CSV)
     for letter, names in marked.items():
         yield fact(f"{SAID} mark {letter}", [letter, *names[:3]], TERMINAL)
+    for record in records:
+        labels = record.labels
+        if labels.parent is not None:
+            words = ["made from", labels.parent, labels.name]
+            yield fact(f"{SAID} made {labels.name}", words, TERMINAL)
     yield fact(f"{SAID} count", [len(records), reference], TERMINAL)
 
 
@@ -233,6 +238,15 @@ def last_facts(last: StoredLast) -> Iterator[Fact]:
             words = [known.reason] if known.value is None else measured_values(known)
             rows[row.name.replace("_", " ")] = words
     rows["±"] = [SPREADS]
+    if last.parentage is not None:
+        made = last.parentage
+        rows["made from"] = [made.base, made.rule, made.profile]
+        for target in made.targets:
+            asked, reached, base = (
+                "-" if value is None else plain(value)
+                for value in (target.target, target.reached, target.base)
+            )
+            rows[f"target {target.name.replace('_', ' ')}"] = [asked, "reached", reached, base]
     for notice in record.warnings:
         rows["warning"] = [notice.message]
     for name, values in rows.items():

@@ -17,8 +17,10 @@ from footfit.results import (
     MeshCopy,
     MeshInfo,
     Notice,
+    Parentage,
     PoseQuality,
     SideVerdict,
+    Target,
 )
 
 STATIONS = 60
@@ -118,6 +120,21 @@ def last(
 def mesh_copy(seed: int = 0, size: int = 2_000) -> MeshCopy:
     """Bytes in place of a compressed mesh."""
     return MeshCopy(np.random.default_rng(seed).bytes(size), faces=10_000, error_mm=0.12)
+
+
+def parentage(base: str, seed: int = 0, **given: object) -> Parentage:
+    """How a last was graded from the last ``base`` of the same seed."""
+    usual: dict[str, object] = {
+        "base_sha256": hashlib.sha256(f"scan {seed}".encode()).hexdigest(),
+        "made_by": "grade",
+        "rule": "eu",
+        "figures": {"steps": 1, "hold": ["heel", "spring"], "length_mm": 6.667},
+        "targets": (
+            Target("bottom_length", "mm", 270.0, 276.667, 276.66),
+            Target("instep_girth", "mm", None, 245.5, None),
+        ),
+    }
+    return Parentage(base, **{**usual, **given})  # type: ignore[arg-type]
 
 
 def plain(value: object) -> object:

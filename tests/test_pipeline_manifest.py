@@ -19,12 +19,13 @@ def rows(text: str) -> list:
 
 
 def test_every_column_is_taken() -> None:
-    text = ",".join(COLUMNS) + "\na.stl,derby-42,derby,42,eu,G,left,m,25.5\n"
+    text = ",".join(COLUMNS) + "\na.stl,derby-42,derby,42,eu,G,derby-G,left,m,25.5\n"
     (row,) = rows(text)
     assert row.path == str(FOLDER / "a.stl")
     labels = row.labels
     assert (labels.name, labels.style, labels.size) == ("derby-42", "derby", "42")
     assert (labels.size_system, labels.width_label, labels.heel_height_mm) == ("eu", "G", 25.5)
+    assert labels.family == "derby-G"
     assert (row.reading.side, row.reading.units) == ("left", "m")
 
 

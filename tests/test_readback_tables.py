@@ -51,7 +51,7 @@ from footfit.results import (
     StoredLast,
     UpgradeOutcome,
 )
-from tests import answers, readers
+from tests import answers, readers, records
 from tests.readback import CSV, TERMINAL, holds, problems
 from tests.readback_tables import (
     align_facts,
@@ -137,7 +137,13 @@ def test_the_table_shows_the_last(reference: str | None) -> None:
         record, measures=(*record.measures, *more), warnings=(note,), upgraded_from="flare/0"
     )
     plain = replace(answers.record("pump", -2.2, style=None, size=None), paper_transform=None)
-    for last in (StoredLast(record, reference), StoredLast(plain, reference)):
+    custom = {"rule": None, "profile": "dress", "made_by": "customise"}
+    for last in (
+        StoredLast(record, reference),
+        StoredLast(plain, reference),
+        StoredLast(record, reference, parentage=records.parentage("boot-40")),
+        StoredLast(record, reference, parentage=records.parentage("boot-40", **custom)),
+    ):
         table = readers.read_terms(terminal_text(show_last_table(last), WIDE))
         assert problems(TERMINAL, table, last_facts(last)) == []
 

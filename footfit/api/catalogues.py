@@ -259,13 +259,15 @@ class Catalogue(CatalogueFile):
         style: str | None = None,
         size: str | None = None,
         width_label: str | None = None,
+        family: str | None = None,
         sort: str = "name",
     ) -> results.Library:
         """The intact lasts that have these labels; ``warnings`` name the damaged ones.
 
         ``sort`` is name, size, length, ball-girth, flare or heel.
         """
-        return lasts.list_lasts(self.path, sort, style=style, size=size, width_label=width_label)
+        labels = {"style": style, "size": size, "width_label": width_label, "family": family}
+        return lasts.list_lasts(self.path, sort, **labels)
 
     def name(self, name: str) -> str:
         """The name of a last as it is stored, for one in any case; raises UnknownLast."""

@@ -127,6 +127,8 @@ class LabelKeywords(TypedDict, total=False):
     size: str | None
     size_system: str | None
     width_label: str | None
+    family: str | None
+    parent: str | None
     heel_height_mm: float | None
     toe_spring_mm: float | None
     platform_mm: float | None

@@ -5,7 +5,7 @@ from __future__ import annotations
 import sqlite3
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 from footfit.catalogue.checks.damage import findings
@@ -17,12 +17,13 @@ from footfit.catalogue.fit_log import FitLog
 from footfit.catalogue.rows.columns import (
     LAST,
     MESH_COPY,
+    PARENTAGE,
     REFERENCE,
     SECTION,
     Table,
 )
 from footfit.catalogue.rows.last_names import last_id
-from footfit.catalogue.rows.records import mesh_copy_of, record_of, sections_of
+from footfit.catalogue.rows.records import mesh_copy_of, parentage_of, record_of, sections_of
 from footfit.catalogue.rows.reference_last import (
     express,
     make_reference,
@@ -30,6 +31,7 @@ from footfit.catalogue.rows.reference_last import (
     stored_reference,
 )
 from footfit.catalogue.rows.requirements import (
+    parent_key,
     place_of,
     require_free_name,
     require_removable,
@@ -40,25 +42,27 @@ from footfit.catalogue.rows.summary import summary
 from footfit.catalogue.rows.verified_rows import (
     intact_last,
     last_names,
-    row_digest,
-    rows,
+    sealed_row,
 )
 from footfit.catalogue.rows.writing import (
     delete_rows,
     driver_of,
+    rename_base,
     seal,
     update_row,
     write_labels,
     write_last,
     write_measured,
+    write_parentage,
     write_sealed,
 )
-from footfit.errors import CatalogueDamaged, UnknownLast
+from footfit.errors import UnknownLast
 from footfit.results import (
     CatalogueFacts,
     Finding,
     LastRecord,
     MeshCopy,
+    Parentage,
     Reference,
     ReferenceOutcome,
     RemoveOutcome,
@@ -149,7 +153,8 @@ class Catalogue:
     def lasts(self, **labels: str | None) -> StoredLasts:
         """Every intact last that has these labels, by name; no mesh is read.
 
-        ``style``, ``size``, ``size_system`` and ``width_label`` filter; None lets all pass.
+        ``style``, ``size``, ``size_system``, ``width_label`` and ``family`` filter; None lets all
+        pass.
         """
         with self.file.reading() as connection:
             return verified_records(connection, **labels)
@@ -180,15 +185,10 @@ class Catalogue:
             return self._copy_of(connection, last_id(connection, name), name)
 
     def _copy_of(self, connection: sqlite3.Connection, key: int, name: str) -> MeshCopy:
-        copies = rows(connection, MESH_COPY, key)
-        if not copies:
+        copy = sealed_row(connection, MESH_COPY, key, f"the mesh of {name!r} is")
+        if copy is None:
             raise UnknownLast(f"{name!r} was stored without its mesh; use ingest-last --replace")
-        if copies[0].get("sha256") != row_digest(MESH_COPY, copies[0]):
-            raise CatalogueDamaged(
-                f"the mesh of {name!r} is damaged; ingest the last again with --replace",
-                str(self.file.path),
-            )
-        return mesh_copy_of(copies[0])
+        return mesh_copy_of(copy)
 
     def sections(self, name: str) -> ShapeSections | None:
         """The kept sections of a last; None if it was stored without them.
@@ -199,13 +199,22 @@ class Catalogue:
             There is no such last; its sections are not what was stored.
         """
         with self.file.reading() as connection:
-            kept = rows(connection, SECTION, last_id(connection, name))
-        if kept and kept[0].get("sha256") != row_digest(SECTION, kept[0]):
-            raise CatalogueDamaged(
-                f"the sections of {name!r} are damaged; ingest the last again with --replace",
-                str(self.file.path),
-            )
-        return sections_of(kept[0]) if kept else None
+            key, words = last_id(connection, name), f"the sections of {name!r} are"
+            row = sealed_row(connection, SECTION, key, words)
+        return None if row is None else sections_of(row)
+
+    def parentage(self, name: str) -> Parentage | None:
+        """How a last was made from another one; None if it was scanned.
+
+        Raises
+        ------
+        UnknownLast, CatalogueDamaged
+            There is no such last; its parentage is not what was stored.
+        """
+        with self.file.reading() as connection:
+            key, words = last_id(connection, name), f"the parentage of {name!r} is"
+            row = sealed_row(connection, PARENTAGE, key, words)
+        return None if row is None else parentage_of(row)
 
     def mesh_copy_names(self) -> tuple[str, ...]:
         """The names of the lasts that have a mesh copy, damaged or not, sorted."""
@@ -249,12 +258,14 @@ class Catalogue:
         record: LastRecord,
         copy: MeshCopy | None = None,
         sections: ShapeSections | None = None,
+        parentage: Parentage | None = None,
         *,
         replace: bool = False,
     ) -> None:
         """Store a last; the first one becomes the reference in the same transaction.
 
-        With ``replace`` it takes the place of the last of its name, if there is one.
+        With ``replace`` it takes the place of the last of its name, if there is one. If that one
+        was read from the same file, its parentage stays.
 
         Raises
         ------
@@ -265,10 +276,11 @@ class Catalogue:
             Its parent is not in the catalogue; its name cannot be stored.
         """
         with self.file.atomic() as connection:
-            key, parent_id = place_of(driver_of(connection), record, replace=replace)
-            key = write_last(connection, record, parent_id, key)
+            place = place_of(driver_of(connection), record, replace=replace)
+            key = write_last(connection, record, place.parent_id, place.key)
             write_sealed(connection, key, MESH_COPY, copy)
             write_sealed(connection, key, SECTION, sections)
+            write_parentage(connection, key, parentage, keep=place.same_file)
             express(connection, key)
 
     def remove(self, name: str) -> RemoveOutcome:
@@ -306,6 +318,7 @@ class Catalogue:
             require_free_name(driver, new_name, stored.id)
             update_row(connection, LAST, stored.id, {"name": new_name})
             seal(connection, stored.id)
+            rename_base(connection, stored, new_name)
         return RenameOutcome(new_name, stored.name)
 
     def edit(
@@ -324,15 +337,23 @@ class Catalogue:
         Raises
         ------
         UnknownLast, CatalogueDamaged
-            There is no such last; its stored numbers were changed.
+            There is no such last, or no such parent; its stored numbers were changed.
+        BadOption
+            The new parent descends from the last.
         FootfitError
             As ``change``; nothing is changed then.
         """
         with self.file.atomic() as connection:
             driver = driver_of(connection)
             stored = intact_last(driver, last_id(driver, name))
-            before = record_of(stored, last_names(driver))
+            names = last_names(driver)
+            before = record_of(stored, names)
             after, sections = change(before, lambda: self._copy_of(driver, stored.id, stored.name))
+            if after.labels.parent != before.labels.parent:
+                parent_id = parent_key(driver, after.labels, stored.id)
+                update_row(connection, LAST, stored.id, {"parent_id": parent_id})
+                parent = None if parent_id is None else names[parent_id]
+                after = replace(after, labels=replace(after.labels, parent=parent))
             if after.labels != before.labels:
                 write_labels(connection, stored.id, after)
                 write_measured(connection, stored.id, after, sections)

@@ -42,7 +42,9 @@ from footfit.results.heel import HeelQuestion as HeelQuestion
 from footfit.results.heel import HeelRule as HeelRule
 from footfit.results.last_record import LastLabels as LastLabels
 from footfit.results.last_record import LastRecord as LastRecord
+from footfit.results.last_record import Parentage as Parentage
 from footfit.results.last_record import StoredLast as StoredLast
+from footfit.results.last_record import Target as Target
 from footfit.results.last_stance import GroundCue as GroundCue
 from footfit.results.last_stance import LastStance as LastStance
 from footfit.results.library import BackupOutcome as BackupOutcome

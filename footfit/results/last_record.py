@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Literal
 
 from footfit.geometry.fit import sizes
 from footfit.results.profile import flare_part
@@ -12,6 +13,7 @@ from footfit.results.values import (
     Json,
     Measured,
     Notice,
+    Part,
     fields,
     measures_part,
     part,
@@ -153,17 +155,56 @@ def _label_part(check: sizes.LabelCheck | None) -> Json | None:
     )
 
 
+MadeBy = Literal["customise", "grade"]
+
+
+@dataclass(frozen=True, slots=True)
+class Target(Part):
+    """A measure that a made last should have: the base's, what was asked for, what was reached.
+
+    ``unit`` is "mm" or "deg"; ``base`` and ``reached`` are None if they could not be measured.
+    """
+
+    name: str
+    unit: str
+    base: float | None
+    target: float
+    reached: float | None
+
+
+@dataclass(frozen=True, slots=True)
+class Parentage(Part):
+    """How a last was made from another one.
+
+    ``base`` and ``base_sha256`` are the name of the base and the hash of its file. A custom last
+    has the hash of the foot's file, and the fit profile with its version and its hash. A graded
+    last has the name of its rule. ``figures`` are plain values: what it was made with.
+    """
+
+    base: str
+    base_sha256: str
+    made_by: MadeBy
+    targets: tuple[Target, ...]
+    figures: Mapping[str, object]
+    foot_sha256: str | None = None
+    profile: str | None = None
+    profile_version: int | None = None
+    profile_sha256: str | None = None
+    rule: str | None = None
+
+
 @dataclass(frozen=True, slots=True)
 class StoredLast(Document):
     """One last of a catalogue, and which last is the catalogue's reference, if any.
 
     ``paper_frame_angle_deg`` is how far the paper's frame is turned from footfit's; it needs a
-    reference.
+    reference. ``parentage`` is None unless the last was made from another one.
     """
 
     record: LastRecord
     reference: str | None
     paper_frame_angle_deg: float | None = None
+    parentage: Parentage | None = None
 
     schema = "show-last/2"
 
@@ -171,6 +212,7 @@ class StoredLast(Document):
         record = self.record
         return {
             **record.entry(self.reference),
+            "parentage": self.parentage,
             "mesh": record.info,
             **record.side.to_dict(),
             **flare_part(record.flare),

@@ -30,7 +30,8 @@ def store(path: Path) -> None:
         for seed in range(LASTS):
             side, parent = ("right", "left")[seed % 2], "last-0" if seed == 3 else None
             record = records.last(f"last-{seed}", seed, side=side, parent=parent)
-            catalogue.add(record, copy, sections)
+            made = records.parentage("last-0") if parent else None
+            catalogue.add(record, copy, sections, made)
             catalogue.fit_log.add(fits.entry(seed))
 
 

@@ -308,7 +308,24 @@ SECTION = _owned(
 )
 """The sections of a last at the named stations; a null station could not be cut."""
 
-SEALED = (MESH_COPY, SECTION)
+PARENTAGE = _owned(
+    "parentage",
+    Column("base", TEXT, "base", rules.NOT_BLANK),
+    Column("base_sha256", TEXT, "base_sha256", rules.SHA256),
+    Column("made_by", TEXT, "made_by", choice("customise", "grade")),
+    Column("foot_sha256", TEXT, "foot_sha256", rules.SHA256, nullable=True),
+    Column("profile", TEXT, "profile", rules.NOT_BLANK, nullable=True),
+    Column("profile_version", INTEGER, "profile_version", nullable=True),
+    Column("profile_sha256", TEXT, "profile_sha256", rules.SHA256, nullable=True),
+    Column("rule", TEXT, "rule", rules.NOT_BLANK, nullable=True),
+    Column("figures", JSON, "figures"),
+    Column("targets", JSON, "targets"),
+    Column("sha256", TEXT, rule=rules.SHA256, hashed=False),
+    hashed=True,
+)
+"""How a last was made from another one; a last that was scanned has no row."""
+
+SEALED = (MESH_COPY, SECTION, PARENTAGE)
 """What has a hash of its own in its row, so that ranking does not read it."""
 
 REFERENCE = Table(
@@ -352,4 +369,4 @@ FIT = Table(
 )
 """One entry of the fit log. It names its last by name and hash, and outlives it."""
 
-TABLES = (LAST, FRAME, FLARE, MEASURE, NOTICE, MESH_COPY, SECTION, REFERENCE, FIT)
+TABLES = (LAST, FRAME, FLARE, MEASURE, NOTICE, MESH_COPY, SECTION, REFERENCE, FIT, PARENTAGE)

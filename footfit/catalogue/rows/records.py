@@ -16,6 +16,7 @@ from footfit.catalogue.rows.columns import (
     MEASURE,
     MESH_COPY,
     NOTICE,
+    PARENTAGE,
     REFERENCE,
     SECTION,
 )
@@ -34,11 +35,13 @@ from footfit.results import (
     MeshCopy,
     MeshInfo,
     Notice,
+    Parentage,
     PoseQuality,
     RatedZone,
     Reference,
     ShapeSections,
     SideVerdict,
+    Target,
 )
 
 _labels = LAST.reader("labels", LastLabels, parent=itemgetter("parent"))
@@ -65,6 +68,9 @@ _stations = {
     for station in STATIONS
 }
 _fit = FIT.reader("", FitEntry, zones=lambda row: _rated_zones(json.loads(row["zones"])))
+_parentage = PARENTAGE.reader(
+    "", Parentage, targets=lambda row: tuple(Target(**each) for each in json.loads(row["targets"]))
+)
 _reference = REFERENCE.reader("", Reference, last=itemgetter("last"))
 
 
@@ -107,6 +113,20 @@ def sections_of(row: Row) -> ShapeSections:
         if row[column] is not None
     }
     return ShapeSections(kept, **_toes_outline(row))
+
+
+def parentage_of(row: Row) -> Parentage:
+    """How a last was made, of its verified row.
+
+    Raises
+    ------
+    CatalogueDamaged
+        The table has lost a column, or the row holds what no last has.
+    """
+    try:
+        return _parentage(row)
+    except (KeyError, TypeError, ValueError) as error:
+        raise CatalogueDamaged(LACKS) from error
 
 
 def reference_from(row: Row, name: str) -> Reference:

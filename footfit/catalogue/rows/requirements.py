@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import sqlite3
 from collections.abc import Mapping
+from typing import NamedTuple
 
 from footfit.catalogue.rows.last_names import caseless, composed, id_of_same_name, last_id
 from footfit.catalogue.rows.verified_rows import key_where, last_names, stored_lasts
@@ -11,10 +12,19 @@ from footfit.errors import BadOption, NameTaken
 from footfit.results import LastLabels, LastRecord
 
 
-def place_of(
-    connection: sqlite3.Connection, record: LastRecord, *, replace: bool
-) -> tuple[int | None, int | None]:
-    """The key of the last that a record takes the place of, and its parent's; None for none.
+class Place(NamedTuple):
+    """Where a record goes: the key of the last that it takes the place of, and its parent's.
+
+    ``same_file`` says that the last in its place was read from the same file.
+    """
+
+    key: int | None
+    parent_id: int | None
+    same_file: bool = False
+
+
+def place_of(connection: sqlite3.Connection, record: LastRecord, *, replace: bool) -> Place:
+    """The place of a record. The parent of a last that is read from its file again stays.
 
     Without ``replace`` a record may only take the place of a damaged last that was made from the
     same file: this is how a damaged last is repaired.
@@ -33,12 +43,16 @@ def place_of(
     if holder is not None and composed(last_names(connection)[holder]) != composed(name):
         raise same_scan(last_names(connection)[holder])
     key = id_of_same_name(connection, name)
-    parent_id = _parent_id(connection, record.labels, key)
-    if key is not None and not replace:
-        (stored,) = stored_lasts(connection, key)
-        if stored.intact or stored.last["content_sha256"] != sha256:
-            raise NameTaken(f"{name!r} is in the catalogue; add --replace, or another --name")
-    return key, parent_id
+    parent_id = parent_key(connection, record.labels, key)
+    if key is None:
+        return Place(None, parent_id)
+    (stored,) = stored_lasts(connection, key)
+    same_file = stored.last["content_sha256"] == sha256
+    if not replace and (stored.intact or not same_file):
+        raise NameTaken(f"{name!r} is in the catalogue; add --replace, or another --name")
+    if same_file and stored.intact and parent_id is None:
+        parent_id = stored.last["parent_id"]
+    return Place(key, parent_id, same_file)
 
 
 def same_scan(holder: str) -> NameTaken:
@@ -95,11 +109,18 @@ def require_removable(connection: sqlite3.Connection, key: int, names: Mapping[i
     ).fetchall()
     if children:
         children_names = ", ".join(repr(child) for (child,) in children)
-        raise BadOption(f"{name!r} is the parent of {children_names}; remove those first")
+        cut = "or remove the label: footfit edit-last NAME --parent ''"
+        raise BadOption(f"{name!r} is the parent of {children_names}; remove those first, {cut}")
 
 
-def _parent_id(connection: sqlite3.Connection, labels: LastLabels, key: int | None) -> int | None:
-    """The parent's key; a last cannot be its own ancestor."""
+def parent_key(connection: sqlite3.Connection, labels: LastLabels, key: int | None) -> int | None:
+    """The key of the parent that labels name, of the last that has ``key``; None for no parent.
+
+    Raises
+    ------
+    UnknownLast, BadOption
+        The parent is not in the catalogue, or it is the last itself or one of its descendants.
+    """
     if labels.parent is None:
         return None
     parent_id = last_id(connection, labels.parent)

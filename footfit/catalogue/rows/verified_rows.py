@@ -95,6 +95,22 @@ def rows(connection: sqlite3.Connection, table: Table, last_id: int | None = Non
     return [dict(zip(columns, row, strict=True)) for row in cursor]
 
 
+def sealed_row(
+    connection: sqlite3.Connection, table: Table, last_id: int, words: str
+) -> Row | None:
+    """The row with a hash of its own that a table has for a last, verified; None for none.
+
+    Raises
+    ------
+    CatalogueDamaged
+        It is not what was stored; the message begins with ``words``.
+    """
+    kept = rows(connection, table, last_id)
+    if kept and kept[0].get("sha256") != row_digest(table, kept[0]):
+        raise CatalogueDamaged(f"{words} damaged; ingest the last again with --replace")
+    return kept[0] if kept else None
+
+
 def stored_lasts(connection: sqlite3.Connection, last_id: int | None = None) -> list[LastRows]:
     """The raw rows of every last, or of one, in the order in which they were first stored.
 

@@ -15,13 +15,14 @@ from footfit.catalogue.rows.columns import (
     LAST,
     MEASURE,
     NOTICE,
+    PARENTAGE,
     REFERENCE,
     SECTION,
     Table,
 )
 from footfit.catalogue.rows.digests import Row
-from footfit.catalogue.rows.verified_rows import row_digest, rows, stored_lasts
-from footfit.results import FitEntry, LastRecord, Reference, ShapeSections
+from footfit.catalogue.rows.verified_rows import LastRows, row_digest, rows, stored_lasts
+from footfit.results import FitEntry, LastRecord, Parentage, Reference, ShapeSections
 from footfit.version import __version__
 
 if TYPE_CHECKING:
@@ -105,6 +106,25 @@ def write_reference(connection: sa.Connection, key: int, reference: Reference) -
     row = REFERENCE.row(reference, id=1, last_id=key, sha256="")
     connection.execute(_sql(REFERENCE).insert(), row)
     _seal_row(connection, key, REFERENCE)
+
+
+def write_parentage(
+    connection: sa.Connection, key: int, parentage: Parentage | None, *, keep: bool
+) -> None:
+    """Write how a last was made; with ``keep`` and None, what is stored stays if it is intact."""
+    stored = rows(driver_of(connection), PARENTAGE, key)
+    intact = all(row.get("sha256") == row_digest(PARENTAGE, row) for row in stored)
+    if parentage is not None or not (keep and intact):
+        write_sealed(connection, key, PARENTAGE, parentage)
+
+
+def rename_base(connection: sa.Connection, base: LastRows, new_name: str) -> None:
+    """Write the new name of a last where others name it as their base. Damaged rows stay."""
+    for row in rows(driver_of(connection), PARENTAGE):
+        its_base = row["base"] == base.name and row["base_sha256"] == base.last["content_sha256"]
+        if its_base and row["sha256"] == row_digest(PARENTAGE, row):
+            update_row(connection, PARENTAGE, row["last_id"], {"base": new_name})
+            _seal_row(connection, row["last_id"], PARENTAGE)
 
 
 def add_fit(connection: sa.Connection, entry: FitEntry) -> None:

@@ -21,6 +21,12 @@ def edit_last(
         "--size-system", "eu", "Set the system of the size, such as eu or uk."
     ),
     width_label: str | None = _label("--width-label", "G", "Set the width as it is marked."),
+    family: str | None = _label(
+        "--family", "F", "Set the family: the lasts of one model in all sizes and widths."
+    ),
+    parent: str | None = _label(
+        "--parent", "LAST", "Set the last of the catalogue that this one was made from."
+    ),
     heel_height: str | None = _label(
         "--heel-height", "MM", "Set the heel height in mm. The last is then measured again."
     ),
@@ -45,6 +51,8 @@ def edit_last(
         "size": size,
         "size_system": size_system,
         "width_label": width_label,
+        "family": family,
+        "parent": parent,
     }
     heights = {
         "heel_height_mm": heel_height,

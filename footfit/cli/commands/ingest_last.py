@@ -41,6 +41,9 @@ def ingest_last(
         "--size-system", "eu", "Set the system of the size, such as eu or uk."
     ),
     width_label: str | None = _label("--width-label", "G", "Set the width as it is marked."),
+    family: str | None = _label(
+        "--family", "F", "Set the family: the lasts of one model in all sizes and widths."
+    ),
     replace: bool = options.switch("--replace", "Replace a stored last of the same name."),
     dry_run: bool = options.switch("--dry-run", "Store nothing; say what would be stored."),
     keep_mesh: KeepMesh = options.option(
@@ -79,10 +82,11 @@ def ingest_last(
         label: manifests.label_mm(value, label) for label, value in standing.keywords().items()
     }
     texts = {"name": name, "style": style, "size": size, "size-system": size_system}
-    for flag, text in {**texts, "width-label": width_label}.items():
+    texts |= {"width-label": width_label, "family": family}
+    for flag, text in texts.items():
         if text is not None and not text.strip():
             raise BadOption(f"--{flag} is empty (an unset variable?); leave it out, or fill it in")
-    labels = LastLabels(name or "", style, size, size_system, width_label, **given)
+    labels = LastLabels(name or "", style, size, size_system, width_label, family=family, **given)
     rows = manifests.read_manifest(manifest) if manifest else []
     if manifest and not rows:
         raise BadManifest("has no line with a last; add one for each file", str(manifest))

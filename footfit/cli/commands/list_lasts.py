@@ -15,6 +15,7 @@ def list_lasts(
     style: str | None = options.option("--style", "List only lasts of this style.", "S"),
     size: str | None = options.option("--size", "List only lasts with this size.", "42"),
     width: str | None = options.option("--width", "List only lasts with this width.", "G"),
+    family: str | None = options.option("--family", "List only lasts of this family.", "F"),
     sort: SortName = options.option(
         "--sort", "Set the order; the least comes first.", default="name"
     ),
@@ -34,5 +35,5 @@ def list_lasts(
 
     outputs = Outputs(table=Library, csv=csv, force=force)
     outputs.refuse(as_json=mode.json)
-    listed = lasts.open().lasts(style=style, size=size, width_label=width, sort=sort)
+    listed = lasts.open().lasts(style=style, size=size, width_label=width, family=family, sort=sort)
     answer_result(listed, mode, outputs)

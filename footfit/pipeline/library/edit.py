@@ -16,7 +16,7 @@ from footfit.results import EditOutcome, LastRecord, Measure, MeshCopy, ShapeSec
 
 Label = str | float | None
 """The value of a label: a text, a height in mm, or None for no label."""
-EDITABLE = (*LABEL_TEXTS[1:], *LABEL_HEIGHTS)
+EDITABLE = (*LABEL_TEXTS[1:], "parent", *LABEL_HEIGHTS)
 """The labels that may change; the name has a command of its own."""
 OF_STANCE = ("stance_label_contradicted", "stance_label_unused")
 """The codes of the warnings that the labels of the stance give."""
@@ -40,9 +40,10 @@ def edit_last(path: Path, name: str, labels: Mapping[str, Label]) -> EditOutcome
     Raises
     ------
     BadOption
-        No label is given, or one has a value that no last has; nothing is changed then.
+        No label is given, one has a value that no last has, or the parent descends from the last;
+        nothing is changed then.
     UnknownLast
-        There is no such last, or it has no mesh copy to be measured again.
+        There is no such last or parent, or the last has no mesh copy to be measured again.
     CatalogueUnusable, NoCatalogue
         The last, its copy or the catalogue cannot be used.
     """

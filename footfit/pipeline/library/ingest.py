@@ -193,7 +193,7 @@ class Holdings:
         old = self.named(name)
         if old is None:
             return "added"
-        labels = dataclasses.replace(entry.labels, name=old.labels.name)
+        labels = dataclasses.replace(entry.labels, name=old.labels.name, parent=old.labels.parent)
         same = holder is not None
         if same and old.labels == labels and _reads_alike(old, entry.reading):
             return "unchanged"

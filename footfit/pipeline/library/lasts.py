@@ -19,7 +19,8 @@ from footfit.results.values import notices_about
 def list_lasts(path: Path, sort: str = "name", **labels: str | None) -> Library:
     """Every intact last, whatever its definition; a warning names each damaged one.
 
-    ``labels`` filter: ``style``, ``size`` and ``width_label``. ``sort`` is one of `SORTS`.
+    ``labels`` filter: ``style``, ``size``, ``width_label`` and ``family``. ``sort`` is one of
+    `SORTS`.
 
     Raises
     ------
@@ -53,14 +54,15 @@ def last(path: Path, name: str) -> StoredLast:
     """
     with open_catalogue(path) as catalogue:
         record, reference = catalogue.record(name), _reference(catalogue)
+        parentage = catalogue.parentage(name)
     if record.paper_transform is None:
-        return StoredLast(record, reference)
+        return StoredLast(record, reference, parentage=parentage)
     angle_deg = paper_frame_angle_deg(
         record.paper_transform,
         record.canonical_transform,
         mirrored=record.side.side == "left",
     )
-    return StoredLast(record, reference, angle_deg)
+    return StoredLast(record, reference, angle_deg, parentage)
 
 
 def _reference(catalogue: Catalogue) -> str | None:

@@ -14,7 +14,7 @@ from footfit.pipeline.batch.sources import ReadingOptions, stored_path
 from footfit.pipeline.scan.standing import LABELLED_MM
 from footfit.results import LastLabels
 
-LABEL_TEXTS = ("name", "style", "size", "size_system", "width_label")
+LABEL_TEXTS = ("name", "style", "size", "size_system", "width_label", "family")
 LABEL_HEIGHTS = ("heel_height_mm", "toe_spring_mm", "platform_mm")
 COLUMNS = ("path", *LABEL_TEXTS, "side", "units", *LABEL_HEIGHTS)
 CHOICES = {"side": ("auto", "left", "right"), "units": ("auto", *UNIT_SCALES)}

@@ -102,7 +102,8 @@ def list_lasts_table(library: results.Library) -> RenderableType:
             record.flare.flare_class or "-",
             _number(record.heel_height_mm, 0),
         )
-    return Group(table, *_legend(marked), Text(_count(library, len(ordered)), "dim"))
+    lines = (*_legend(marked), *_made(ordered), Text(_count(library, len(ordered)), "dim"))
+    return Group(table, *lines)
 
 
 def _number(value: float | None, digits: int = 1) -> str:
@@ -115,10 +116,27 @@ def _legend(marked: Mapping[Mark, Sequence[str]]) -> list[Text]:
     for mark in (*MARKS, OTHER):
         names = marked.get(mark, ())
         if names:
-            more = f" and {len(names) - NAMED} more" if len(names) > NAMED else ""
-            named = ", ".join(map(visible, names[:NAMED]))
-            lines.append(Text(f"{mark.letter}  {mark.words}: {named}{more}", "yellow"))
+            lines.append(Text(f"{mark.letter}  {mark.words}: {_named(names)}", "yellow"))
     return [*lines, Text("footfit show-last NAME says more", "dim")] if lines else []
+
+
+def _named(names: Sequence[str]) -> str:
+    """The first few names, and how many more there are."""
+    more = f" and {len(names) - NAMED} more" if len(names) > NAMED else ""
+    return f"{', '.join(map(visible, names[:NAMED]))}{more}"
+
+
+def _made(records: Sequence[results.LastRecord]) -> list[Text]:
+    """Which lasts were made from which, a line for each parent."""
+    parents = sorted({each.labels.parent for each in records if each.labels.parent})
+    children = {
+        parent: [each.labels.name for each in records if each.labels.parent == parent]
+        for parent in parents
+    }
+    return [
+        Text(f"made from {visible(parent)}: {_named(names)}", "dim")
+        for parent, names in children.items()
+    ]
 
 
 def _count(library: results.Library, listed: int) -> str:
@@ -161,6 +179,7 @@ def show_last_table(last: results.StoredLast) -> RenderableType:
         ("side", side_words(record.side)),
         ("length", length_text(record.length)),
         ("flare", f"{turned}, definition {visible(flare.definition.version)}{upgraded}"),
+        *_parentage(last.parentage),
         *_measures(record),
         ("±", Text(SPREADS, "dim")),
         ("reference", "this is the reference last" if labels.name == reference else "no"),
@@ -171,6 +190,25 @@ def show_last_table(last: results.StoredLast) -> RenderableType:
         *(("warning", cell(notice.message, "yellow")) for notice in record.warnings),
         title=labels.name,
     )
+
+
+def _parentage(parentage: results.Parentage | None) -> list[tuple[str, Text]]:
+    """How a last was made from another one, and each target beside what was reached."""
+    if parentage is None:
+        return []
+    how = {"grade": f"graded by the rule {parentage.rule}", "customise": "made for a foot"}
+    profile = f" to the fit profile {parentage.profile}" if parentage.profile else ""
+    made = f"{parentage.base}, {how[parentage.made_by]}{profile}"
+    return [("made from", cell(made)), *map(_target, parentage.targets)]
+
+
+def _target(target: results.Target) -> tuple[str, Text]:
+    values = (("", target.target), ("reached", target.reached), ("the base has", target.base))
+    words = (
+        f"{name} {'-' if value is None else plain(value)} {target.unit}".strip()
+        for name, value in values
+    )
+    return f"target {target.name.replace('_', ' ')}", cell(", ".join(words))
 
 
 def _measures(record: results.LastRecord) -> list[tuple[str, str | Text]]:
