@@ -1,0 +1,1 @@
+"""Smooth changes of a last: lengths, widths, heights and flare along its bottom's own arc."""

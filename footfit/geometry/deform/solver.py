@@ -1,0 +1,179 @@
+"""The field that brings measures of a last to their targets, with curves as smooth as they can be.
+
+Gauss-Newton: the measures are read as they are defined, on the last as the field has moved it. How
+they answer to each knob is taken from probes, which keep their planes. After each step it is put
+right by what the step did (Broyden), because the planes of measures move too.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from footfit.geometry.deform.chart import Places
+from footfit.geometry.deform.field import Field
+from footfit.geometry.deform.probes import Probe
+from footfit.geometry.numeric.arrays import Floats
+
+
+@dataclass(frozen=True, slots=True)
+class SolverSettings:
+    """What the curves cost, and when it is enough.
+
+    Attributes
+    ----------
+    aim_mm : float
+        A measure so far from its target costs as much as a bend of ``bend`` or a size of ``size``.
+    bend, size : float
+        Of a logarithm of a scale: the second difference from knot to knot, and the value.
+    settled_mm : float
+        The search ends when no measure is farther from its target.
+    rounds : int
+    step : float
+        Of the differences that a knob's effect is taken by, in the knob's unit.
+    """
+
+    aim_mm: float = 0.01
+    bend: float = 0.01
+    size: float = 0.2
+    settled_mm: float = 0.03
+    rounds: int = 8
+    step: float = 1e-3
+
+
+SOLVER = SolverSettings()
+SCALES = ("wider", "higher")
+"""The curves whose bends cost; the others have as few knobs as they need."""
+
+
+@dataclass(frozen=True, slots=True)
+class Knob:
+    """One number of a field: ``pattern`` (knots,) times it is added to the curve of that name.
+
+    A knob of ``unit`` 1 costs its size; a knob in mm has a larger unit.
+    """
+
+    curve: str
+    pattern: Floats
+    unit: float = 1.0
+
+
+@dataclass(frozen=True, slots=True)
+class Reading:
+    """The measures of a last, (aims,), each with a probe where the measure lies."""
+
+    values_mm: Floats
+    probes: Sequence[Probe]
+
+
+@dataclass(frozen=True)
+class Solution:
+    """A field, where it brings the vertices (n, 3), and the measures there, (aims,)."""
+
+    field: Field
+    vertices_mm: Floats
+    values_mm: Floats
+    rounds: int
+
+
+def turned_field(field: Field, knobs: Sequence[Knob], values: Floats) -> Field:
+    """A field with its knobs turned by ``values`` (knobs,)."""
+    curves: dict[str, Floats] = {}
+    for knob, value in zip(knobs, values, strict=True):
+        curve = curves.get(knob.curve, getattr(field, knob.curve))
+        curves[knob.curve] = curve + value * knob.pattern
+    return field.with_curves(**curves)
+
+
+def solution(
+    start: Field,
+    knobs: Sequence[Knob],
+    vertices_mm: Floats,
+    targets_mm: Floats,
+    read: Callable[[Floats], Reading],
+    settings: SolverSettings = SOLVER,
+) -> Solution:
+    """The smoothest field whose measures meet their targets, or come as near as they can.
+
+    Parameters
+    ----------
+    start : Field
+        What the knobs are turned from.
+    knobs : sequence of Knob
+    vertices_mm : (n, 3)
+        The last that is changed, in its resting frame.
+    targets_mm : (aims,)
+    read : callable
+        The measures of moved vertices (n, 3), with probes. Only the first reading's probes are
+        used; ``start`` should move little, if it moves anything.
+    """
+    values = np.zeros(len(knobs))
+    now = Solution(start, start.moved_points(vertices_mm), np.empty(0), 0)
+    reading = read(now.vertices_mm)
+    best = now = replace(now, values_mm=reading.values_mm)
+    effect = _effects(start, knobs, reading, vertices_mm, settings)
+    while _miss(best, targets_mm) > settings.settled_mm and now.rounds < settings.rounds:
+        step = _step(start, knobs, values, effect, targets_mm - now.values_mm, settings)
+        values = values + step
+        field = turned_field(start, knobs, values)
+        moved = field.moved_points(vertices_mm)
+        after = Solution(field, moved, read(moved).values_mm, now.rounds + 1)
+        effect += np.outer(after.values_mm - now.values_mm - effect @ step, step) / (step @ step)
+        now = after
+        best = min(best, now, key=lambda each: _miss(each, targets_mm))
+    return replace(best, rounds=now.rounds)
+
+
+def _miss(solved: Solution, targets_mm: Floats) -> float:
+    """How far the worst measure is from its target."""
+    return float(np.abs(targets_mm - solved.values_mm).max(initial=0.0))
+
+
+def _effects(
+    start: Field,
+    knobs: Sequence[Knob],
+    reading: Reading,
+    vertices_mm: Floats,
+    settings: SolverSettings,
+) -> Floats:
+    """How each measure changes with each knob of a still field, (aims, knobs)."""
+    chart = start.chart
+    result = np.empty((len(reading.probes), len(knobs)))
+    for row, probe in enumerate(reading.probes):
+        places = chart.places(chart.standing(vertices_mm[probe.rows]))
+
+        def value(field: Field, probe: Probe = probe, places: Places = places) -> float:
+            return probe.value(chart.resting(field.moved(places)))
+
+        before = value(start)
+        for column, knob in enumerate(knobs):
+            step = settings.step * knob.unit
+            after = value(turned_field(start, [knob], np.array([step])))
+            result[row, column] = (after - before) / step
+    return result
+
+
+def _step(
+    start: Field,
+    knobs: Sequence[Knob],
+    values: Floats,
+    effect: Floats,
+    miss: Floats,
+    settings: SolverSettings,
+) -> Floats:
+    """By how much the knobs are turned next, (knobs,): the least squares of misses and costs."""
+    size = np.diag([1.0 / (settings.size * knob.unit) for knob in knobs])
+    bends = [_bends(start, knobs, name) / settings.bend for name in SCALES]
+    costs = np.vstack([size, *bends])
+    rows = np.vstack([effect / settings.aim_mm, costs])
+    wanted = np.concatenate([miss / settings.aim_mm, -costs @ values])
+    return np.asarray(np.linalg.lstsq(rows, wanted, rcond=None)[0])
+
+
+def _bends(start: Field, knobs: Sequence[Knob], curve: str) -> Floats:
+    """The second differences of one curve for each knob, (knots - 2, knobs)."""
+    knots = start.chart.settings.knots
+    patterns = [knob.pattern if knob.curve == curve else np.zeros(knots) for knob in knobs]
+    return np.diff(np.stack(patterns, axis=1), n=2, axis=0)

@@ -1,0 +1,118 @@
+"""The section field: what it must not move, and that it brings measures to their targets."""
+
+from __future__ import annotations
+
+from functools import cache
+
+import numpy as np
+import pytest
+
+from footfit.geometry.deform.chart import chart_of
+from footfit.geometry.deform.field import Bump, Field, least_determinant
+from footfit.geometry.deform.probes import girth_probe, span_probe
+from footfit.geometry.deform.solver import Knob, Reading, solution
+from footfit.geometry.measures.girths import ball_girth, instep_girth
+from footfit.geometry.measures.landmarks import AXES, Shape
+from footfit.geometry.measures.widths import ball_width
+from footfit.geometry.mesh.surface import face_normals
+from tools.lasts import LastSpec, last_mesh
+
+
+@cache
+def last(heel_mm: float = 30.0) -> Shape:
+    """A small right last in its resting frame."""
+    spec = LastSpec(heel_height_mm=heel_mm, level_tread=True, rings=90, segments=70)
+    return Shape(*last_mesh(spec), "last")
+
+
+def changed(shape: Shape) -> Field:
+    """A field with every curve in use."""
+    still = Field.still(chart_of(shape))
+    at = still.chart.centres()
+    inner = (at > 0.1) & (at < 0.8)
+    return still.with_curves(
+        ahead=8.0 * np.clip((at - 0.25) / 0.3, 0.0, 1.0),
+        wider=np.where(inner, 0.06, 0.0),
+        higher=np.where(inner, 0.08, 0.0),
+        turned=np.radians(3.0) * np.clip((at - 0.4) / 0.15, 0.0, 1.0),
+    )
+
+
+def test_a_still_field_moves_nothing():
+    shape = last()
+    moved = Field.still(chart_of(shape)).moved_points(shape.vertices_mm)
+    np.testing.assert_array_equal(moved, shape.vertices_mm)
+
+
+@pytest.mark.parametrize("heel_mm", [0.0, 70.0])
+def test_what_a_last_maker_keeps_stays(heel_mm):
+    """The bottom's heights and the top plane within .1 mm; the toe turns as a rigid body."""
+    shape = last(heel_mm)
+    field = changed(shape)
+    before = field.chart.standing(shape.vertices_mm)
+    after = field.chart.standing(field.moved_points(shape.vertices_mm))
+    shift = after - before
+    bottom = shape.faces[face_normals(before, shape.faces)[:, 2] < -0.6].ravel()
+    assert np.abs(shift[bottom, 2]).max() < 0.1
+    assert field.chart.top is not None
+    on_top = np.abs(field.chart.top.heights(before)) < 0.5
+    assert on_top.sum() > 20
+    assert np.linalg.norm(shift[on_top], axis=1).max() < 0.1
+    along, _ = shape.bottom_arc.shares(shape.vertices_mm)
+    toe = along > 0.94
+    start, end = (points[toe] - points[toe].mean(axis=0) for points in (before, after))
+    left, _, right = np.linalg.svd(start.T @ end)
+    assert np.linalg.norm(start @ left @ right - end, axis=1).max() < 0.02
+    assert np.linalg.norm(shift[toe], axis=1).min() > 6.0
+
+
+def test_the_determinant_says_how_far_a_field_is_from_a_fold():
+    shape = last()
+    field = changed(shape)
+    assert least_determinant(Field.still(field.chart), shape.vertices_mm) == pytest.approx(1.0)
+    assert 0.3 < least_determinant(field, shape.vertices_mm) < 1.0
+    folded = field.with_curves(ahead=-90.0 * np.clip((field.chart.centres() - 0.4) / 0.1, 0, 1))
+    assert least_determinant(folded, shape.vertices_mm) < 0.0
+
+
+def test_a_bump_swells_to_its_size_and_ends_at_its_radius():
+    shape = last()
+    chart = chart_of(shape)
+    centre = chart.standing(shape.mt1[None])[0]
+    still = Field.still(chart)
+    field = Field(**{**vars(still), "bumps": (Bump(centre, AXES[1], 25.0, 4.0),)})
+    shift = field.moved_points(shape.vertices_mm) - shape.vertices_mm
+    far = np.linalg.norm(chart.standing(shape.vertices_mm) - centre, axis=1) > 25.0
+    assert np.abs(shift[far]).max() == 0.0
+    assert shift[:, 1].max() == pytest.approx(4.0, abs=0.2)
+
+
+@pytest.mark.parametrize("heel_mm", [10.0, 70.0])
+def test_the_solver_meets_girths_and_widths(heel_mm):
+    shape = last(heel_mm)
+    chart = chart_of(shape)
+    ones = np.eye(chart.settings.knots)
+    at = chart.centres()
+    free = np.flatnonzero((at > 0.1) & (at < 0.8))
+    knobs = [Knob(curve, ones[k]) for curve in ("wider", "higher") for k in free]
+    measures = (ball_girth, instep_girth, ball_width)
+
+    def read(vertices_mm: np.ndarray) -> Reading:
+        now = Shape(vertices_mm, shape.faces, "last")
+        plane = now.ball_plane
+        across = (now.mt1 - now.mt5) * [1.0, 1.0, 0.0]
+        probes = [
+            girth_probe(vertices_mm, shape.faces, *plane),
+            girth_probe(vertices_mm, shape.faces, now.instep, AXES[1:]),
+            span_probe(vertices_mm, now.mt5, now.mt1, across / np.linalg.norm(across)),
+        ]
+        return Reading(np.array([m(now).value for m in measures]), probes)
+
+    targets = read(shape.vertices_mm).values_mm + np.array([9.0, -4.0, 2.0])
+    solved = solution(Field.still(chart), knobs, shape.vertices_mm, targets, read)
+    np.testing.assert_allclose(solved.values_mm, targets, atol=0.05)
+    assert solved.rounds <= 8
+    assert least_determinant(solved.field, shape.vertices_mm) > 0.4
+    own = read(shape.vertices_mm).values_mm
+    same = solution(Field.still(chart), knobs, shape.vertices_mm, own, read)
+    np.testing.assert_array_equal(same.vertices_mm, shape.vertices_mm)
