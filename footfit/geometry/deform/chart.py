@@ -152,7 +152,7 @@ class Chart:
     def centres(self) -> Floats:
         """Where along the arc each spline is highest, (knots,)."""
         knots = self.settings.knots
-        return (np.arange(knots) - 1.0) / (knots - 3.0)
+        return np.asarray((np.arange(knots) - 1.0) / (knots - 3.0), dtype=np.float64)
 
     def places(self, points_mm: Floats) -> Places:
         """Points (n, 3) of the standing frame in the chart."""
