@@ -10,7 +10,7 @@ import pytest
 from footfit.geometry.deform.chart import chart_of
 from footfit.geometry.deform.field import Bump, Field, least_determinant
 from footfit.geometry.deform.probes import girth_probe, span_probe
-from footfit.geometry.deform.solver import Knob, Reading, solution
+from footfit.geometry.deform.solver import Goal, Knob, solution
 from footfit.geometry.measures.girths import ball_girth, instep_girth
 from footfit.geometry.measures.landmarks import AXES, Shape
 from footfit.geometry.measures.widths import ball_width
@@ -97,22 +97,24 @@ def test_the_solver_meets_girths_and_widths(heel_mm):
     knobs = [Knob(curve, ones[k]) for curve in ("wider", "higher") for k in free]
     measures = (ball_girth, instep_girth, ball_width)
 
-    def read(vertices_mm: np.ndarray) -> Reading:
+    def read(vertices_mm: np.ndarray) -> np.ndarray:
         now = Shape(vertices_mm, shape.faces, "last")
-        plane = now.ball_plane
-        across = (now.mt1 - now.mt5) * [1.0, 1.0, 0.0]
-        probes = [
-            girth_probe(vertices_mm, shape.faces, *plane),
-            girth_probe(vertices_mm, shape.faces, now.instep, AXES[1:]),
-            span_probe(vertices_mm, now.mt5, now.mt1, across / np.linalg.norm(across)),
-        ]
-        return Reading(np.array([m(now).value for m in measures]), probes)
+        return np.array([measure(now).value for measure in measures])
 
-    targets = read(shape.vertices_mm).values_mm + np.array([9.0, -4.0, 2.0])
-    solved = solution(Field.still(chart), knobs, shape.vertices_mm, targets, read)
+    across = (shape.mt1 - shape.mt5) * [1.0, 1.0, 0.0]
+    vertices_mm, faces = shape.vertices_mm, shape.faces
+    probes = (
+        girth_probe(vertices_mm, faces, *shape.ball_plane),
+        girth_probe(vertices_mm, faces, shape.instep, AXES[1:]),
+        span_probe(vertices_mm, shape.mt5, shape.mt1, across / np.linalg.norm(across)),
+    )
+    own = read(vertices_mm)
+    targets = own + np.array([9.0, -4.0, 2.0])
+    goals = [Goal(target, probe) for target, probe in zip(targets, probes, strict=True)]
+    solved = solution(Field.still(chart), knobs, vertices_mm, goals, read)
     np.testing.assert_allclose(solved.values_mm, targets, atol=0.05)
     assert solved.rounds <= 8
     assert least_determinant(solved.field, shape.vertices_mm) > 0.4
-    own = read(shape.vertices_mm).values_mm
-    same = solution(Field.still(chart), knobs, shape.vertices_mm, own, read)
+    goals = [Goal(target, probe) for target, probe in zip(own, probes, strict=True)]
+    same = solution(Field.still(chart), knobs, vertices_mm, goals, read)
     np.testing.assert_array_equal(same.vertices_mm, shape.vertices_mm)

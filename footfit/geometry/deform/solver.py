@@ -15,7 +15,7 @@ import numpy as np
 from footfit.geometry.deform.chart import Places
 from footfit.geometry.deform.field import Field
 from footfit.geometry.deform.probes import Probe
-from footfit.geometry.numeric.arrays import Floats
+from footfit.geometry.numeric.arrays import Bools, Floats
 
 
 @dataclass(frozen=True, slots=True)
@@ -24,18 +24,16 @@ class SolverSettings:
 
     Attributes
     ----------
-    aim_mm : float
-        A measure so far from its target costs as much as a bend of ``bend`` or a size of ``size``.
     bend, size : float
-        Of a logarithm of a scale: the second difference from knot to knot, and the value.
+        What costs as much as a goal's ``miss_mm``, of a logarithm of a scale: the second difference
+        from knot to knot, and the value.
     settled_mm : float
-        The search ends when no measure is farther from its target.
+        The search ends when no firm measure is farther from its target.
     rounds : int
     step : float
         Of the differences that a knob's effect is taken by, in the knob's unit.
     """
 
-    aim_mm: float = 0.01
     bend: float = 0.01
     size: float = 0.2
     settled_mm: float = 0.03
@@ -61,16 +59,22 @@ class Knob:
 
 
 @dataclass(frozen=True, slots=True)
-class Reading:
-    """The measures of a last, (aims,), each with a probe where the measure lies."""
+class Goal:
+    """A measure's target in mm, and the probe that answers for it on the still last.
 
-    values_mm: Floats
-    probes: Sequence[Probe]
+    A miss of ``miss_mm`` costs as much as a bend or a size of ``SolverSettings``. A goal that is
+    not ``firm`` is only pulled towards its target: the search does not wait for it.
+    """
+
+    target_mm: float
+    probe: Probe
+    miss_mm: float = 0.01
+    firm: bool = True
 
 
 @dataclass(frozen=True)
 class Solution:
-    """A field, where it brings the vertices (n, 3), and the measures there, (aims,)."""
+    """A field, where it brings the vertices (n, 3), and the measures there, (goals,)."""
 
     field: Field
     vertices_mm: Floats
@@ -91,8 +95,8 @@ def solution(
     start: Field,
     knobs: Sequence[Knob],
     vertices_mm: Floats,
-    targets_mm: Floats,
-    read: Callable[[Floats], Reading],
+    goals: Sequence[Goal],
+    read: Callable[[Floats], Floats],
     settings: SolverSettings = SOLVER,
 ) -> Solution:
     """The smoothest field whose measures meet their targets, or come as near as they can.
@@ -104,44 +108,48 @@ def solution(
     knobs : sequence of Knob
     vertices_mm : (n, 3)
         The last that is changed, in its resting frame.
-    targets_mm : (aims,)
+    goals : sequence of Goal
     read : callable
-        The measures of moved vertices (n, 3), with probes. Only the first reading's probes are
-        used; ``start`` should move little, if it moves anything.
+        The measures (goals,) of moved vertices (n, 3).
     """
+    targets = np.array([goal.target_mm for goal in goals])
+    miss = np.array([goal.miss_mm for goal in goals])
+    firm = np.array([goal.firm for goal in goals], dtype=bool)
     values = np.zeros(len(knobs))
     now = Solution(start, start.moved_points(vertices_mm), np.empty(0), 0)
-    reading = read(now.vertices_mm)
-    best = now = replace(now, values_mm=reading.values_mm)
-    effect = _effects(start, knobs, reading, vertices_mm, settings)
-    while _miss(best, targets_mm) > settings.settled_mm and now.rounds < settings.rounds:
-        step = _step(start, knobs, values, effect, targets_mm - now.values_mm, settings)
+    best = now = replace(now, values_mm=read(now.vertices_mm))
+    if _worst(now, targets, firm) <= settings.settled_mm:
+        return now
+    effect = _effects(start, knobs, [goal.probe for goal in goals], vertices_mm, settings)
+    while _worst(best, targets, firm) > settings.settled_mm and now.rounds < settings.rounds:
+        misses = (targets - now.values_mm) / miss
+        step = _step(start, knobs, values, effect / miss[:, None], misses, settings)
         values = values + step
         field = turned_field(start, knobs, values)
         moved = field.moved_points(vertices_mm)
-        after = Solution(field, moved, read(moved).values_mm, now.rounds + 1)
+        after = Solution(field, moved, read(moved), now.rounds + 1)
         effect += np.outer(after.values_mm - now.values_mm - effect @ step, step) / (step @ step)
         now = after
-        best = min(best, now, key=lambda each: _miss(each, targets_mm))
+        best = min(best, now, key=lambda each: _worst(each, targets, firm))
     return replace(best, rounds=now.rounds)
 
 
-def _miss(solved: Solution, targets_mm: Floats) -> float:
-    """How far the worst measure is from its target."""
-    return float(np.abs(targets_mm - solved.values_mm).max(initial=0.0))
+def _worst(solved: Solution, targets_mm: Floats, firm: Bools) -> float:
+    """How far the worst of the firm measures is from its target."""
+    return float(np.abs(targets_mm - solved.values_mm)[firm].max(initial=0.0))
 
 
 def _effects(
     start: Field,
     knobs: Sequence[Knob],
-    reading: Reading,
+    probes: Sequence[Probe],
     vertices_mm: Floats,
     settings: SolverSettings,
 ) -> Floats:
-    """How each measure changes with each knob of a still field, (aims, knobs)."""
+    """How each measure changes with each knob of the first field, (goals, knobs)."""
     chart = start.chart
-    result = np.empty((len(reading.probes), len(knobs)))
-    for row, probe in enumerate(reading.probes):
+    result = np.empty((len(probes), len(knobs)))
+    for row, probe in enumerate(probes):
         places = chart.places(chart.standing(vertices_mm[probe.rows]))
 
         def value(field: Field, probe: Probe = probe, places: Places = places) -> float:
@@ -159,16 +167,19 @@ def _step(
     start: Field,
     knobs: Sequence[Knob],
     values: Floats,
-    effect: Floats,
-    miss: Floats,
+    effects: Floats,
+    misses: Floats,
     settings: SolverSettings,
 ) -> Floats:
-    """By how much the knobs are turned next, (knobs,): the least squares of misses and costs."""
+    """By how much the knobs are turned next, (knobs,): the least squares of misses and costs.
+
+    ``effects`` (goals, knobs) and ``misses`` (goals,) are over what each miss may cost.
+    """
     size = np.diag([1.0 / (settings.size * knob.unit) for knob in knobs])
     bends = [_bends(start, knobs, name) / settings.bend for name in SCALES]
     costs = np.vstack([size, *bends])
-    rows = np.vstack([effect / settings.aim_mm, costs])
-    wanted = np.concatenate([miss / settings.aim_mm, -costs @ values])
+    rows = np.vstack([effects, costs])
+    wanted = np.concatenate([misses, -costs @ values])
     return np.asarray(np.linalg.lstsq(rows, wanted, rcond=None)[0])
 
 

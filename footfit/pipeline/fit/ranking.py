@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
-from pathlib import Path
 
 import numpy as np
 
@@ -27,7 +26,7 @@ from footfit.pipeline.fit.scoring import (
     tiers,
     worst_levels,
 )
-from footfit.pipeline.fit.toe_box import last_toes, with_toe_boxes
+from footfit.pipeline.fit.toe_box import KeptSections, last_toes, with_toe_boxes
 from footfit.pipeline.fit.worn_shifts import Shift, shifted_rule, shifts_of, with_total
 from footfit.pipeline.fit.zones import (
     LENGTH_SD_MM,
@@ -136,12 +135,12 @@ def judged_lasts(
     profile: FitProfile,
     by: SearchBy,
     heel: HeelQuestion = AS_SCANNED,
-    file: Path | None = None,
+    file: KeptSections = None,
     worn: Worn = BAREFOOT,
 ) -> JudgedLasts:
     """Every last, judged for one customer; of two feet the longer governs the length.
 
-    ``file`` is the catalogue that the lasts' sections are read from. What is ``worn`` shifts what
+    ``file`` is where the lasts' sections are kept. What is ``worn`` shifts what
     is asked of each foot.
     """
     longer = governing(feet)

@@ -53,8 +53,14 @@ class LastToes:
     kept: ShapeSections | str
 
 
-def last_toes(file: Path | None, records: Sequence[LastRecord]) -> list[LastToes]:
-    """The kept sections of lasts, from their catalogue."""
+KeptSections = Path | Mapping[str, ShapeSections] | None
+"""Where sections of lasts are kept: a catalogue, or by the lasts' names."""
+
+
+def last_toes(file: KeptSections, records: Sequence[LastRecord]) -> list[LastToes]:
+    """The kept sections of lasts."""
+    if isinstance(file, Mapping):
+        return [LastToes(record, file[record.labels.name]) for record in records]
     if file is None or not records:
         return [LastToes(record, NOT_STORED) for record in records]
     toes = []

@@ -1,0 +1,106 @@
+"""The last that another one is made from: its record, its shape, and how true its mesh is."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass, replace
+from pathlib import Path
+
+from footfit.catalogue.store import open_catalogue
+from footfit.errors import FootfitError
+from footfit.geometry.measures.landmarks import Shape
+from footfit.pipeline.batch.sources import ReadingOptions, Source
+from footfit.pipeline.scan.kept_sections import kept_sections
+from footfit.pipeline.scan.measure import last_record
+from footfit.pipeline.scan.preparation import stored_shape
+from footfit.pipeline.scan.reading import content_hash, profiled_source
+from footfit.pipeline.scan.standing import LABELLED_MM, stance_labels
+from footfit.results import LastLabels, LastRecord, ShapeSections
+from footfit.results.last_making.custom_last import BaseMesh
+
+
+@dataclass(frozen=True, slots=True)
+class BaseLast:
+    """A last that another one is made from.
+
+    ``shape`` is its right shape in the canonical frame, in mm, with its small holes closed.
+    ``mesh`` says which mesh that is.
+    """
+
+    record: LastRecord
+    shape: Shape
+    sections: ShapeSections
+    mesh: BaseMesh
+
+    @property
+    def name(self) -> str:
+        """The last's name; of a file, its name without the suffix."""
+        return self.record.labels.name
+
+
+def stored_base(path: Path, name: str, folders: Iterable[Path] = ()) -> BaseLast:
+    """A last of the catalogue at ``path``, with the best mesh that there is of it.
+
+    That is the full copy, else the original file if it lies in one of the ``folders`` and has the
+    hash that was stored, else the light copy.
+
+    Raises
+    ------
+    NoCatalogue, UnknownLast, CatalogueUnusable
+        There is no such last, or it was stored without its mesh; it cannot be read.
+    """
+    with open_catalogue(path) as opened:
+        record = opened.record(name)
+        copy = opened.mesh_copy(record.labels.name)
+    labels = stance_labels(record.labels)
+    mesh = BaseMesh("full copy", copy.error_mm)
+    right = stored_shape(copy.data, record.side.side)
+    if copy.faces < record.info.faces:
+        original = _original(record, folders)
+        mesh = BaseMesh("original file" if original else "light copy", copy.error_mm)
+        if original is not None:
+            mesh = replace(mesh, error_mm=0.0)
+            right = original.vertices_mm, original.faces
+    shape = Shape(*right, "last", labels)
+    return BaseLast(record, shape, kept_sections(shape), mesh)
+
+
+def _original(record: LastRecord, folders: Iterable[Path]) -> Shape | None:
+    """The right shape of the file that a last was read from; None if it is not there."""
+    name = Path(record.info.path or "").name
+    for folder in folders if name else ():
+        source = Source(str(folder / name))
+        if not (folder / name).is_file() or content_hash(source) != record.info.sha256:
+            continue
+        side = record.side.side or "auto"
+        reading = ReadingOptions(units=_unit(record), side=side, known_length_mm=_scaled(record))
+        try:
+            return profiled_source(source, reading).aligned.prepared.shape
+        except FootfitError:
+            continue
+    return None
+
+
+def _unit(record: LastRecord) -> str:
+    """The unit that a stored last was read in."""
+    return "auto" if record.info.units == "scaled" else record.info.units
+
+
+def _scaled(record: LastRecord) -> float | None:
+    """The length that a stored last was scaled to; None if its file has a unit."""
+    return record.length_mm if record.info.units == "scaled" else None
+
+
+def scanned_base(source: Source, reading: ReadingOptions) -> BaseLast:
+    """A last in a file of its own; ``reading`` says how it stands.
+
+    Raises
+    ------
+    InputError, GeometryRefused
+        As in reading, aligning and profiling any last.
+    """
+    shape = profiled_source(source, reading)
+    said = {name: getattr(reading, name) for name in LABELLED_MM}
+    record = last_record(shape, LastLabels(Path(source.path or "base").stem, **said))
+    right = replace(shape.aligned.prepared.shape, kind="last")
+    return BaseLast(record, right, kept_sections(right), BaseMesh("file", 0.0))

@@ -1,0 +1,122 @@
+"""What a custom last should measure: each aim is the foot in the base's heel, plus its allowance.
+
+The four girths are those of the least tape, as a last maker takes them. The fit profile's zones
+have girths in upright planes, in which a match judges; those two are pulled along.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+
+from footfit.geometry.measures.measure_table import measure_named
+from footfit.pipeline.fit.heels import Heels, full_change
+from footfit.pipeline.fit.ranking import JudgedLasts, foot_fits, judged_lasts
+from footfit.pipeline.last_making.base_last import BaseLast
+from footfit.results import FitProfile, FootFit, HeelQuestion, LastRecord, Profiled, Worn, ZoneRule
+
+LEAST_TAPES = {
+    "ball_girth_least": ("ball_girth",),
+    "waist_girth_least": ("ball_girth", "instep_girth"),
+    "instep_girth_least": ("instep_girth",),
+    "heel_girth_instep": ("short_heel_girth",),
+}
+"""Each girth, and the zones of a fit profile whose mean allowance it has."""
+WIDTHS = ("ball_width", "heel_width")
+PULLED = ("ball_girth", "instep_girth")
+LENGTH = "length"
+
+
+@dataclass(frozen=True, slots=True)
+class CustomQuestion:
+    """How a foot is fitted: as `match` is asked, and by how much the last's flare follows the
+    foot's (0 to 1).
+    """
+
+    profile: FitProfile
+    heel: HeelQuestion
+    worn: Worn
+    flare_follow: float = 0.0
+
+
+@dataclass(frozen=True, slots=True)
+class CustomAim:
+    """A measure of the base and its target, in mm.
+
+    ``zone`` is the zone whose allowance counts. An aim that is not ``firm`` is only pulled towards
+    its target. ``foot`` is None where no measure of the foot is compared alone.
+    """
+
+    measure: str
+    zone: str
+    base: float
+    target: float
+    foot: float | None = None
+    allowance: float | None = None
+    firm: bool = True
+
+
+def fit_in(foot: Profiled, last: LastRecord, base: BaseLast, question: CustomQuestion) -> FootFit:
+    """A foot in a last that has the sections of ``base``, zone by zone, as `match` judges it."""
+    return foot_fits(judged_in(foot, last, base, question), 0)[0]
+
+
+def judged_in(
+    foot: Profiled, last: LastRecord, base: BaseLast, question: CustomQuestion
+) -> JudgedLasts:
+    """One last, judged for one foot."""
+    kept = {last.labels.name: base.sections}
+    return judged_lasts([foot], [last], question.profile, "fit", question.heel, kept, question.worn)
+
+
+def custom_aims(foot: Profiled, base: BaseLast, question: CustomQuestion) -> tuple[CustomAim, ...]:
+    """The aims of a custom last, the length first; without those that cannot be measured."""
+    judged = judged_in(foot, base.record, base, question)
+    off = {
+        zone.zone: zone.target - zone.clearance.value
+        for zone in foot_fits(judged, 0)[0].zones
+        if zone.clearance.value is not None
+    }
+    rules = {column.rule.zone: column.rule for column in judged.columns}
+    aims = [] if LENGTH not in off else [_toe_room(base, off[LENGTH])]
+    if bool(judged.heels.length_only[0]):
+        return tuple(aims)
+    aims += _girths(foot, base, rules, judged.heels)
+    for name in (*WIDTHS, *PULLED):
+        own, stored = measure_named(name).value_of(base.shape).value, base.record.value_of(name)
+        if own is not None and stored is not None and name in off:
+            allowance = rules[name].target + rules[name].cavity
+            target = stored + off[name]
+            firm = name in WIDTHS
+            aims.append(CustomAim(name, name, own, target, target - allowance, allowance, firm))
+    return tuple(aims)
+
+
+def _toe_room(base: BaseLast, more_mm: float) -> CustomAim:
+    """The aim of the length: by how much the toe room of the base must grow."""
+    length_mm = base.record.value_of(LENGTH) or base.shape.length_mm
+    return CustomAim(LENGTH, LENGTH, length_mm, length_mm + more_mm)
+
+
+def _girths(
+    foot: Profiled,
+    base: BaseLast,
+    rules: Mapping[str, ZoneRule],
+    heels: Heels,
+) -> list[CustomAim]:
+    """The aims of the least tapes: those that the profile asks for, and that both shapes have."""
+    share, model = float(heels.share[0]), heels.question.model
+    of_foot = {row.name: row.measured.value for row in foot.measures}
+    aims = []
+    for name, zones in LEAST_TAPES.items():
+        scanned_mm, base_mm = of_foot.get(name), measure_named(name).value_of(base.shape).value
+        if scanned_mm is None or base_mm is None or not all(zone in rules for zone in zones):
+            continue
+        foot_mm = scanned_mm + share * full_change(model, foot, name)[0]
+        allowance = _mean([rules[zone].target + rules[zone].cavity for zone in zones])
+        aims.append(CustomAim(name, zones[-1], base_mm, foot_mm + allowance, foot_mm, allowance))
+    return aims
+
+
+def _mean(values: Sequence[float]) -> float:
+    return sum(values) / len(values)

@@ -1,0 +1,1 @@
+"""Lasts made from lasts: custom lasts, graded runs, and how two lasts differ."""

@@ -1,0 +1,138 @@
+"""A custom last: what was asked of it, what it has, and what moved from its base."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Literal
+
+from footfit.results.values import Document, Json, Notice, Part, SideName, Verdict, fields
+
+if TYPE_CHECKING:
+    from footfit.geometry.numeric.arrays import Floats, Ints
+    from footfit.results.heel import HeelChange
+    from footfit.results.last_record import LastRecord, Parentage
+    from footfit.results.meshes import ShapeSections
+
+MeshOfBase = Literal["file", "full copy", "original file", "light copy"]
+
+
+@dataclass(frozen=True, slots=True)
+class BaseMesh(Part):
+    """Which mesh of the base was changed: its file, the full copy, or a light copy.
+
+    ``error_mm`` is the largest distance between that mesh and the base's own file.
+    """
+
+    kind: MeshOfBase
+    error_mm: float
+
+
+@dataclass(frozen=True, slots=True)
+class GirthPlane(Part):
+    """Where a girth was taken, in the axes of the written file: ``point_mm`` lies in the plane, and
+    ``normal`` has the length 1.
+    """
+
+    point_mm: tuple[float, float, float]
+    normal: tuple[float, float, float]
+
+
+@dataclass(frozen=True, slots=True)
+class CustomZone(Part):
+    """A measure that the foot sets: of the base, what it should be, and of the written last.
+
+    ``name`` is that of the measure, and ``zone`` that of the fit profile's zone whose allowance
+    counts. ``foot`` is the foot's measure as it would be in the base's heel, and ``allowance`` what
+    the target is more than that. ``room`` is what ``--room`` adds to the target. A girth has its
+    ``plane``.
+    """
+
+    name: str
+    zone: str
+    unit: str
+    foot: float | None
+    allowance: float | None
+    base: float
+    target: float
+    reached: float
+    room: float = 0.0
+    plane: GirthPlane | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class JudgedZone(Part):
+    """A zone of the fit profile in the base and in the custom last, as ``match`` judges it."""
+
+    name: str
+    label: str
+    unit: str
+    target: float
+    base: float | None
+    base_verdict: Verdict | None
+    custom: float | None
+    custom_verdict: Verdict | None
+
+
+@dataclass(frozen=True, slots=True)
+class KeptPlace(Part):
+    """A part that a custom last keeps from its base, and by how much it moved all the same."""
+
+    name: str
+    moved_mm: float
+
+
+@dataclass(frozen=True, slots=True)
+class CustomLast(Document):
+    """A last that was made from a base for one foot.
+
+    ``kept`` are the parts that must not move. ``toe_shift_mm`` is how far the toe moved ahead as a
+    whole, and ``flare_turn_deg`` how far the plan was turned. ``largest_move_mm`` is that of any
+    place of the surface. ``least_determinant`` says how far the change is from a fold: 1 keeps all
+    volumes, 0 folds. The mesh is in the axes of the written file, with ``moved_mm`` (n,) + outward
+    at each vertex; ``base_vertices_mm`` (n, 3) is the base there.
+    """
+
+    base: str
+    base_sha256: str
+    base_mesh: BaseMesh
+    foot: str | None
+    foot_sha256: str
+    side: SideName
+    mirrored: bool
+    profile: str
+    profile_version: int
+    profile_sha256: str
+    heel: HeelChange | None
+    zones: tuple[CustomZone, ...]
+    judged: tuple[JudgedZone, ...]
+    kept: tuple[KeptPlace, ...]
+    toe_shift_mm: float
+    flare_turn_deg: float
+    largest_move_mm: float
+    least_determinant: float
+    warnings: tuple[Notice, ...]
+    record: LastRecord
+    sections: ShapeSections
+    parentage: Parentage
+    vertices_mm: Floats
+    base_vertices_mm: Floats
+    faces: Ints
+    moved_mm: Floats
+    stored_as: str | None = None
+
+    schema = "customise/1"
+    not_written = (
+        *("record", "sections", "parentage", "vertices_mm", "base_vertices_mm"),
+        *("faces", "moved_mm"),
+    )
+
+    @property
+    def verdict(self) -> Verdict | None:
+        """The worst verdict of the zones that could be judged."""
+        order: tuple[Verdict, ...] = ("good", "acceptable", "poor", "reject")
+        known = [zone.custom_verdict for zone in self.judged if zone.custom_verdict is not None]
+        return max(known, key=order.index) if known else None
+
+    def _keys(self) -> Json:
+        mesh = {"faces": len(self.faces), "vertices": len(self.vertices_mm)}
+        return fields(self, *self.not_written) | {"verdict": self.verdict, "mesh": mesh}
