@@ -44,11 +44,16 @@ def heels_of(question: HeelQuestion, lasts: Sequence[LastRecord]) -> Heels:
     A share is the drop over the full drop, up to the model's largest drop, minus that of the drop
     that the foot was scanned at. It is 0 where the drop is not known.
     """
-    drop_mm = np.array([np.nan if mm is None else mm for mm in (last.drop_mm for last in lasts)])
-    drop_mm += question.heel_lift_mm
+    drops_mm = (last.drop_mm for last in lasts)
+    return heels_at(question, np.array([np.nan if mm is None else mm for mm in drops_mm]))
+
+
+def heels_at(question: HeelQuestion, drop_mm: Floats) -> Heels:
+    """The heels of lasts with these drops (n,), NaN where they are not known; see `heels_of`."""
+    drop_mm = drop_mm + question.heel_lift_mm
     model = question.model
     if model is None:
-        nothing = np.zeros(len(lasts))
+        nothing = np.zeros(len(drop_mm))
         return Heels(question, drop_mm, nothing, nothing > 0.0)
     scanned_mm, largest_mm = question.scanned_at_drop_mm, model.largest_drop_mm
     known_mm = np.where(np.isnan(drop_mm), scanned_mm, drop_mm)
@@ -61,7 +66,7 @@ def full_change(model: HeelModel | None, foot: Profiled, measure: str) -> tuple[
     """How a foot's measure changes at the model's full drop, and the standard deviation of that:
     in mm, or in degrees for the flare angle. It is 0 where the model has no rule.
     """
-    rule = _rule_of(model, measure)
+    rule = rule_of(model, measure)
     size = 1.0 if measure == FLARE else _value_mm(foot, measure)
     return rule.change * size, rule.sd * size
 
@@ -92,7 +97,7 @@ def surface_change(heels: Heels, row: int) -> SurfaceChange:
     """How the surface of any foot changes in the heel of one last."""
     return SurfaceChange(
         **{
-            field.name: float(heels.share[row]) * _rule_of(heels.question.model, field.name).change
+            field.name: float(heels.share[row]) * rule_of(heels.question.model, field.name).change
             for field in fields(SurfaceChange)
         }
     )
@@ -100,10 +105,10 @@ def surface_change(heels: Heels, row: int) -> SurfaceChange:
 
 def share_sd(heels: Heels, row: int, measure: str) -> float:
     """The standard deviation, as a share, of how a measure changes in the heel of one last."""
-    return abs(float(heels.share[row])) * _rule_of(heels.question.model, measure).sd
+    return abs(float(heels.share[row])) * rule_of(heels.question.model, measure).sd
 
 
-def _rule_of(model: HeelModel | None, measure: str) -> HeelRule:
+def rule_of(model: HeelModel | None, measure: str) -> HeelRule:
     """The rule of a measure, or one that changes nothing."""
     rule = None if model is None else model.rule_of(measure)
     return rule or HeelRule(measure, 0.0, 0.0, "", "")

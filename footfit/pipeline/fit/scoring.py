@@ -11,7 +11,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from footfit.geometry.numeric.arrays import Floats, Ints
+from footfit.geometry.numeric.arrays import Bools, Floats, Ints
 from footfit.number_words import KEPT, rounded
 from footfit.results import Verdict, ZoneRule
 
@@ -50,6 +50,46 @@ class Scores:
     weight: Floats
 
 
+@dataclass(frozen=True, slots=True)
+class Asked:
+    """What rules ask, as arrays that go with clearances (..., z).
+
+    They are (z,) for the lasts of one customer, and (f, 1, z) if f feet are asked different things.
+    ``below`` and ``above`` are the scales of a score. A range has a low and a high end; it is
+    endless where a rule has none. A reject must be past its limit by ``doubt`` standard deviations.
+    """
+
+    target: Floats
+    below: Floats
+    above: Floats
+    good: tuple[Floats, Floats]
+    acceptable: tuple[Floats, Floats]
+    poor: tuple[Floats, Floats]
+    doubt: Floats
+    weight: Floats
+    counts: Bools
+    required: Bools
+
+
+def asked(columns: Sequence[Column]) -> Asked:
+    """What the rules of columns ask, (z,) each."""
+    rules = [column.rule for column in columns]
+    below, above = np.array([scales(rule) for rule in rules]).reshape(-1, 2).T
+    counts = np.array([column.counts for column in columns], dtype=bool)
+    return Asked(
+        target=np.array([rule.target for rule in rules]),
+        below=below,
+        above=above,
+        good=_ends(rules, "good"),
+        acceptable=_ends(rules, "acceptable"),
+        poor=_ends(rules, "poor"),
+        doubt=np.array([0.0 if rule.zone == "length" else SURE_SDS for rule in rules]),
+        weight=np.array([column.rule.weight if column.counts else 0.0 for column in columns]),
+        counts=counts,
+        required=counts & np.array([rule.required for rule in rules], dtype=bool),
+    )
+
+
 def scores(
     clearance: Floats,
     foot_sd: Floats,
@@ -58,21 +98,25 @@ def scores(
     heel_sd: Floats | None = None,
 ) -> Scores:
     """The scores of clearances (n, z) with their spreads (n, z), by the columns' rules."""
-    scale = np.array([scales(column.rule) for column in columns]).reshape(-1, 2)
-    target = np.array([column.rule.target for column in columns])
-    over = clearance >= target
-    width = np.where(over, scale[:, 1], scale[:, 0])
+    rules = asked(columns)
+    width = score_scale(clearance, rules)
     model_sd = np.zeros_like(clearance) if heel_sd is None else heel_sd
     spreads = np.stack([foot_sd, last_sd, model_sd])
     foot, last, heel = np.where(np.isnan(clearance), 0.0, spreads / width)
     return Scores(
-        score=(clearance - target) / width,
-        level=levels(clearance, [c.rule for c in columns], np.sqrt(np.square(spreads).sum(axis=0))),
+        score=(clearance - rules.target) / width,
+        level=clearance_levels(clearance, rules, np.sqrt(np.square(spreads).sum(axis=0))),
         foot_sd=foot,
         last_sd=last,
         heel_sd=heel,
-        weight=np.array([column.rule.weight if column.counts else 0.0 for column in columns]),
+        weight=rules.weight,
     )
+
+
+def score_scale(clearance: Floats, rules: Asked) -> Floats:
+    """From the target to the edge of good, on the side of each clearance (..., z)."""
+    width: Floats = np.where(clearance >= rules.target, rules.above, rules.below)
+    return width
 
 
 def scales(rule: ZoneRule) -> tuple[float, float]:
@@ -95,13 +139,17 @@ def levels(clearance: Floats, rules: Sequence[ZoneRule], sd: Floats) -> Ints:
     >>> levels(room, [rule], np.ones((5, 1))).ravel().tolist()
     [3, 1, 0, 1, -1]
     """
+    return clearance_levels(clearance, asked([Column(0, rule, True) for rule in rules]), sd)
+
+
+def clearance_levels(clearance: Floats, rules: Asked, sd: Floats) -> Ints:
+    """The verdict of each clearance (..., z); see `levels`."""
     clearance = np.round(clearance, KEPT)
-    doubt = np.array([0.0 if rule.zone == "length" else SURE_SDS for rule in rules]) * sd
+    doubt = rules.doubt * sd
     level = np.zeros(clearance.shape, dtype=np.int64)
-    for name in ("good", "acceptable"):
-        low, high = _ends(rules, name)
+    for low, high in (rules.good, rules.acceptable):
         level += (clearance < low) | (clearance > high)
-    low, high = _ends(rules, "poor")
+    low, high = rules.poor
     level[(clearance < low) | (clearance > high)] = POOR
     level[(clearance < low - doubt) | (clearance > high + doubt)] = REJECT
     level[np.isnan(clearance)] = NOT_JUDGED
@@ -141,10 +189,13 @@ def worst_levels(level: Ints, columns: Sequence[Column]) -> Ints:
 
     It is at best acceptable if a required zone is not judged: what is not known is not good.
     """
-    counts = np.array([column.counts for column in columns], dtype=bool)
-    required = np.array([c.counts and c.rule.required for c in columns], dtype=bool)
-    worst = np.where(counts, level, GOOD).max(axis=1, initial=GOOD)
-    unknown = (required & (level == NOT_JUDGED)).any(axis=1)
+    return worst_level(level, asked(columns))
+
+
+def worst_level(level: Ints, rules: Asked) -> Ints:
+    """The verdict of each last (...,) from its levels (..., z); see `worst_levels`."""
+    worst = np.where(rules.counts, level, GOOD).max(axis=-1, initial=GOOD)
+    unknown = (rules.required & (level == NOT_JUDGED)).any(axis=-1)
     verdict: Ints = np.where(unknown, np.maximum(worst, ACCEPTABLE), worst)
     return verdict
 
@@ -154,21 +205,33 @@ def fit_distance(scores: Scores) -> Floats:
 
     A zone that one last lacks counts as UNKNOWN_SCORE; one that every last lacks counts nothing.
     """
-    weight = _carried(scores)
-    distance: Floats = np.sqrt(np.square(_known_scores(scores)) @ _shares(weight))
+    return score_distance(scores.score, scores.weight)
+
+
+def score_distance(score: Floats, weight: Floats) -> Floats:
+    """The distance (..., n) of scores (..., n, z) of n lasts with weights (z,); see `fit_distance`.
+
+    Examples
+    --------
+    >>> score_distance(np.array([[1.0, np.nan], [0.0, np.nan]]), np.array([2.0, 1.0])).tolist()
+    [1.0, 0.0]
+    """
+    share = _shares(_carried(score, weight))
+    square = np.square(np.nan_to_num(score, nan=UNKNOWN_SCORE))
+    distance: Floats = np.sqrt((square @ share[..., None])[..., 0])
     return distance
 
 
 def _shares(weight: Floats) -> Floats:
-    """Weights (z,) that add up to 1; none where no last is judged in any zone."""
-    total = weight.sum()
-    shares: Floats = weight / total if total else weight
+    """Weights (..., z) that add up to 1; none where no last is judged in any zone."""
+    total = weight.sum(axis=-1, keepdims=True)
+    shares: Floats = weight / np.where(total > 0.0, total, 1.0)
     return shares
 
 
-def _carried(scores: Scores) -> Floats:
-    """The weights (z,) of the zones that any last is judged in."""
-    carried: Floats = np.where(np.isfinite(scores.score).any(axis=0), scores.weight, 0.0)
+def _carried(score: Floats, weight: Floats) -> Floats:
+    """The weights (..., z) of the zones that any of n lasts (..., n, z) is judged in."""
+    carried: Floats = np.where(np.isfinite(score).any(axis=-2), weight, 0.0)
     return carried
 
 
@@ -224,8 +287,7 @@ def distance_spread(scores: Scores) -> Spread:
     With Q = D^2 = sum w u^2 / W and u of variance s^2: var Q = sum (w/W)^2 (4 u^2 s^2 + 2 s^4),
     and var D = var Q / 4 Q with the noise's own share, sum w s^2 / W, added to Q.
     """
-    weight = _carried(scores)
-    share = _shares(weight)
+    share = _shares(_carried(scores.score, scores.weight))
     foot = np.square(scores.foot_sd) + np.square(scores.heel_sd)
     last = np.square(scores.last_sd)
     score = _known_scores(scores)
