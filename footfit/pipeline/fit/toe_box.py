@@ -143,15 +143,15 @@ def toe_boxes(
     cavity_mm: float,
 ) -> dict[int, ToeBox | str]:
     """A foot's toes in lasts by their row, or the reason why they are not known."""
-    ours = _foot_plan(foot)
+    ours = plan_of_foot(foot)
     reasons = {
-        row: ours if isinstance(ours, str) else _lacking(last) for row, last in lasts.items()
+        row: ours if isinstance(ours, str) else lacking_words(last) for row, last in lasts.items()
     }
     rows = [row for row, reason in reasons.items() if reason is None]
     known: dict[int, ToeBox | str] = {row: r for row, r in reasons.items() if r is not None}
     if isinstance(ours, str) or not rows:
         return known
-    walls = toe_walls.walls([_last_plan(lasts[row]) for row in rows])
+    walls = toe_walls.walls([plan_of_last(lasts[row]) for row in rows])
     changes = [surface_change(heels, row) for row in rows]
     scale = 1.0 + np.array([(change.length, change.ball_width) for change in changes])
     inside = toe_walls.toes_in_lasts(ours, walls, rooms_mm[rows], scale)
@@ -167,7 +167,7 @@ def toe_boxes(
     return known
 
 
-def _foot_plan(foot: Profiled) -> toe_walls.ToesPlan | str:
+def plan_of_foot(foot: Profiled) -> toe_walls.ToesPlan | str:
     """A foot's toes in plan, or why they are not known: the toe height says what was scanned."""
     height = foot_shape(foot).measures.get(TOE_HEIGHT)
     if height is None or height.measured.value is None:
@@ -182,7 +182,7 @@ def _foot_plan(foot: Profiled) -> toe_walls.ToesPlan | str:
     return toe_walls.foot_plan(outline_mm, middle_mm - np.array([shape.x_mm(0.0), 0.0]))
 
 
-def _lacking(last: LastToes) -> str | None:
+def lacking_words(last: LastToes) -> str | None:
     """Why the toes of a last are not known; None if they are."""
     if isinstance(last.kept, str):
         return last.kept
@@ -196,7 +196,7 @@ def _is_whole(outline_mm: Floats | None) -> bool:
     return outline_mm is not None and len(outline_mm) == NAMED_SECTIONS.toe_stations
 
 
-def _last_plan(last: LastToes) -> toe_walls.ToesPlan:
+def plan_of_last(last: LastToes) -> toe_walls.ToesPlan:
     """The toes of a last in plan, of one whose toes are known."""
     assert not isinstance(last.kept, str)
     assert last.kept.toes_outline_mm is not None

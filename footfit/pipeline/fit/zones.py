@@ -344,7 +344,7 @@ def _ball_line(foot: ZoneShape, last: ZoneShape) -> Clearance:
     return measure_difference(foot, last, "ball_length")
 
 
-def ball_line_mm(ball_mm: Floats, room_mm: Floats, asked_mm: float) -> Floats:
+def ball_line_mm(ball_mm: Floats, room_mm: Floats, asked_mm: float | Floats) -> Floats:
     """How much further forward the last's ball is than the foot's, as far as the length does not
     explain it.
 

@@ -1,0 +1,163 @@
+"""Feet and lasts as tables of columns: what the coverage of a population is computed from."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass, field
+from pathlib import Path
+
+import numpy as np
+
+from footfit.geometry.fit import toe_walls
+from footfit.geometry.fit.toe_walls import ToesPlan, Walls
+from footfit.geometry.numeric.arrays import Bools, Floats, Ints
+from footfit.pipeline.fit.ranking import own_side
+from footfit.pipeline.fit.shape_columns import ROOM, ShapeColumns, shape_columns
+from footfit.pipeline.fit.toe_box import TOES_SECTION, lacking_words, last_toes, plan_of_last
+from footfit.pipeline.fit.zones import LENGTHS, TOE_BOX, TOE_HEIGHT, ZONES, last_shape
+from footfit.results import FitProfile, LastRecord, SideName
+
+Sides = tuple[SideName | None, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class FootTable:
+    """n feet. ``ids`` are as given. ``columns`` are texts by the name of a column, "" for none.
+
+    ``toes`` are the outlines of the toes in plan, of feet that were scanned.
+    """
+
+    ids: tuple[str, ...]
+    sides: Sides
+    shapes: ShapeColumns
+    columns: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
+    toes: tuple[ToesPlan | None, ...] | None = None
+
+    def __len__(self) -> int:
+        return len(self.ids)
+
+    @property
+    def length_mm(self) -> Floats:
+        """The length that sizes are read from, (n,)."""
+        return self.shapes.value_of("length")
+
+    def part(self, start: int, stop: int) -> FootTable:
+        """The feet from one place to another."""
+        rows = slice(start, stop)
+        return FootTable(
+            self.ids[rows],
+            self.sides[rows],
+            self.shapes.part(rows),
+            {name: column[rows] for name, column in self.columns.items()},
+            None if self.toes is None else self.toes[rows],
+        )
+
+
+@dataclass(frozen=True, slots=True)
+class LastWalls:
+    """The toe boxes of n lasts. ``row`` (n,) is the place in ``walls``, -1 if there is none.
+
+    ``behind_mm`` (n,) is the height of the kept section at the toes.
+    """
+
+    walls: Walls | None
+    row: Ints
+    behind_mm: Floats
+
+
+@dataclass(frozen=True, slots=True)
+class LastTable:
+    """n lasts in the order of their names. ``drop_mm`` (n,) is NaN where it is not known.
+
+    ``own_side`` (n,) says by a foot's side which lasts it is compared with: not with one of the
+    other side whose twin of its own side is there. ``records`` is empty for lasts to make.
+    """
+
+    names: tuple[str, ...]
+    shapes: ShapeColumns
+    drop_mm: Floats
+    own_side: Mapping[SideName | None, Bools]
+    records: tuple[LastRecord, ...] = ()
+    toe_boxes: LastWalls | None = None
+
+    def __len__(self) -> int:
+        return len(self.names)
+
+
+def zone_measures(profile: FitProfile) -> tuple[str, ...]:
+    """The measures of feet and lasts that the zones of a profile read."""
+    asked = [rule.zone for rule in profile.zones if rule.zone in ZONES]
+    special = {"length": ("length", ROOM), "ball_line": ("ball_length",)}
+    names = [name for zone in asked for name in special.get(zone, (zone,))]
+    never = {"flare", "plan", "toes"}
+    return tuple(dict.fromkeys(name for name in (*names, "length", "ball_girth", "ball_width")
+                               if name not in never))  # fmt: skip
+
+
+def last_table(
+    records: Iterable[LastRecord], profile: FitProfile, file: Path | None = None
+) -> LastTable:
+    """The lasts of a catalogue as columns; ``file`` is where their kept sections are read from."""
+    lasts = sorted(records, key=lambda record: record.labels.name)
+    names = (*zone_measures(profile), *LENGTHS)
+    drops = [last.drop_mm for last in lasts]
+    sides: Sides = ("left", "right", None)
+    return LastTable(
+        names=tuple(last.labels.name for last in lasts),
+        shapes=shape_columns([last_shape(last) for last in lasts], names),
+        drop_mm=np.array([np.nan if drop is None else drop for drop in drops]),
+        own_side={side: _own_side(lasts, side) for side in sides},
+        records=tuple(lasts),
+        toe_boxes=_toe_boxes(lasts, profile, file),
+    )
+
+
+def _own_side(lasts: Sequence[LastRecord], side: SideName | None) -> Bools:
+    kept = {id(last) for last in own_side(lasts, side)}
+    return np.array([id(last) in kept for last in lasts], dtype=bool)
+
+
+def _toe_boxes(
+    lasts: Sequence[LastRecord], profile: FitProfile, file: Path | None
+) -> LastWalls | None:
+    """The kept sections of the toes, if the profile judges them."""
+    if file is None or not any(rule.zone in TOE_BOX for rule in profile.zones):
+        return None
+    toes = last_toes(file, lasts)
+    plans = [None if lacking_words(last) else plan_of_last(last) for last in toes]
+    row = np.cumsum([plan is not None for plan in plans]) - 1
+    row[[plan is None for plan in plans]] = -1
+    known = [plan for plan in plans if plan is not None]
+    behind = np.full(len(lasts), np.nan)
+    for place, last in enumerate(toes):
+        section = None if isinstance(last.kept, str) else last.kept.sections.get(TOES_SECTION.name)
+        if section is not None:
+            behind[place] = float(np.ptp(section.points_mm[:, 1]))
+    return LastWalls(toe_walls.walls(known) if known else None, row, behind)
+
+
+def lacking_zones(feet: FootTable, profile: FitProfile) -> dict[str, Bools]:
+    """By required zone, the feet (n,) that lack what it reads."""
+    lacking = {}
+    for rule in profile.zones:
+        if rule.required and rule.weight > 0:
+            lacking[rule.zone] = ~_known(feet, rule.zone)
+    lacking.setdefault("length", ~_known(feet, "length"))
+    return lacking
+
+
+def _known(feet: FootTable, zone: str) -> Bools:
+    """Which feet (n,) have what a zone reads of a foot."""
+    shapes = feet.shapes
+    if zone == "flare":
+        return np.isfinite(shapes.flare_deg)
+    if zone == "plan":
+        whole = np.asarray(np.isfinite(shapes.plan).all(axis=1))
+        return whole if shapes.plan.shape[1] else ~whole
+    if zone == "toes":
+        toes = feet.toes or (None,) * len(feet)
+        return np.array([plan is not None for plan in toes], dtype=bool)
+    if zone == "length":
+        return np.isfinite(shapes.value_of("length"))
+    name = "ball_length" if zone == "ball_line" else zone
+    return np.isfinite(shapes.value_of(TOE_HEIGHT if zone == TOE_HEIGHT else name))

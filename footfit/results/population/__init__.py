@@ -1,0 +1,1 @@
+"""Answers about many feet and about all lasts of a catalogue."""
