@@ -10,9 +10,9 @@ import numpy as np
 from footfit.geometry.fit.toe_walls import ToesPlan
 from footfit.geometry.flare.definition import FlareProfile
 from footfit.pipeline.batch.sources import ReadingOptions, Source
-from footfit.pipeline.fit.shape_columns import shape_columns
 from footfit.pipeline.fit.toe_box import plan_of_foot
 from footfit.pipeline.fit.zones import ZoneShape, foot_shape
+from footfit.pipeline.population.shape_columns import shape_columns
 from footfit.pipeline.population.tables import FootTable
 from footfit.pipeline.scan.reading import profiled_source
 from footfit.results import Profiled, SideName

@@ -28,10 +28,10 @@ from footfit.pipeline.fit.scoring import (
     score_scale,
     worst_level,
 )
-from footfit.pipeline.fit.shape_columns import ROOM, PairClearances, clearances_of
 from footfit.pipeline.fit.toe_box import HEIGHT_SHARES, TOES_SD_MM, TOES_SECTION
 from footfit.pipeline.fit.worn_shifts import shifted_rule, zone_shift
 from footfit.pipeline.fit.zones import TOE_BOX, TOE_HEIGHT, TOES
+from footfit.pipeline.population.shape_columns import ROOM, PairClearances, clearances_of
 from footfit.pipeline.population.tables import FootTable, LastTable
 from footfit.results import FitProfile, HeelQuestion, Worn
 

@@ -12,9 +12,9 @@ from footfit.geometry.fit import toe_walls
 from footfit.geometry.fit.toe_walls import ToesPlan, Walls
 from footfit.geometry.numeric.arrays import Bools, Floats, Ints
 from footfit.pipeline.fit.ranking import own_side
-from footfit.pipeline.fit.shape_columns import ROOM, ShapeColumns, shape_columns
 from footfit.pipeline.fit.toe_box import TOES_SECTION, lacking_words, last_toes, plan_of_last
 from footfit.pipeline.fit.zones import LENGTHS, TOE_BOX, TOE_HEIGHT, ZONES, last_shape
+from footfit.pipeline.population.shape_columns import ROOM, ShapeColumns, shape_columns
 from footfit.results import FitProfile, LastRecord, SideName
 
 Sides = tuple[SideName | None, ...]
