@@ -9,6 +9,7 @@ if TYPE_CHECKING:
     from footfit import errors, results
     from footfit.api.catalogues import Catalogue, match, open_catalogue
     from footfit.api.files import mesh_file, page, picture, sheet, to_trimesh
+    from footfit.api.last_making import check_run
     from footfit.api.scans import (
         align,
         compare,
@@ -23,7 +24,7 @@ if TYPE_CHECKING:
     from footfit.errors import FootfitError
     from footfit.results import LastLabels
 
-_HOMES = ("api.scans", "api.files", "api.catalogues", "errors", "results")
+_HOMES = ("api.scans", "api.files", "api.last_making", "api.catalogues", "errors", "results")
 """Where the names are, the lightest first."""
 
 __all__ = [
@@ -32,6 +33,7 @@ __all__ = [
     "LastLabels",
     "__version__",
     "align",
+    "check_run",
     "compare",
     "curvature",
     "customers",

@@ -154,7 +154,7 @@ class BadManifest(InputError):
 
 
 class BadProfile(InputError):
-    """The TOML of a fit profile or a heel model cannot be understood."""
+    """The TOML of a fit profile, a heel model or a grading rule cannot be understood."""
 
 
 class NotInCatalogue(FootfitError):

@@ -14,6 +14,7 @@ from footfit.report.terminal import (
     catalogue_tables,
     comparison_tables,
     evidence_tables,
+    last_making_tables,
     match_tables,
     profile_tables,
     scan_tables,
@@ -114,6 +115,9 @@ FORMS: dict[type, Form] = {
     ),
     results.Library: Form(
         catalogue_tables.list_lasts_table, lambda library: (None, library.warnings)
+    ),
+    results.RunCheck: Form(
+        last_making_tables.check_run_table, lambda checked: (None, checked.warnings)
     ),
     results.StoredLast: Form(catalogue_tables.show_last_table),
     results.ReferenceOutcome: Form(catalogue_tables.set_reference_line),

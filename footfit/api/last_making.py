@@ -1,0 +1,70 @@
+"""Lasts made from lasts: whether a graded run keeps its increments."""
+
+from __future__ import annotations
+
+import os
+from pathlib import Path
+from typing import Any
+
+from footfit import results
+from footfit.api.inputs import FilePath
+from footfit.errors import BadOption
+from footfit.pipeline.batch.runs import HERE
+from footfit.pipeline.batch.sources import is_no_path, mesh_sources
+
+
+def check_run(
+    run: FilePath | list[FilePath],
+    *,
+    catalogue: FilePath | None = None,
+    manifest: FilePath | None = None,
+    rule: str | None = None,
+    tolerance: str | None = None,
+    jobs: int = HERE,
+) -> results.RunCheck:
+    """The increments of a graded run, size by size and width by width, and where they break.
+
+    Parameters
+    ----------
+    run : path or list of paths
+        Files, folders and globs, or names of lasts; or the name of a family of the catalogue.
+    catalogue : path, optional
+        Where families and names are looked for.
+    manifest : path, optional
+        A CSV file with the sizes of the files; else their names say them.
+    rule : str, optional
+        A grading rule by its name or its file: the run is compared with it, else with itself.
+    tolerance : str, optional
+        In mm by kind of measure, such as "girth=2,length=1.5,width=1,height=1.5".
+
+    Raises
+    ------
+    BadOption
+        A size is not known, or the lasts are no run.
+    NotInCatalogue, InputError, GeometryRefused
+        There is no such last; a file cannot be read or measured.
+    """
+    from footfit.pipeline.last_making import run_lasts
+    from footfit.pipeline.last_making.grading_rules import grading_rule
+    from footfit.pipeline.last_making.run_check import run_check
+    from footfit.pipeline.last_making.tolerances import tolerances
+    from footfit.pipeline.library.manifest import read_manifest
+
+    given: list[Any] = run if isinstance(run, list) else [run]
+    names = [os.fspath(each) for each in given]
+    tolerance_mm = tolerances(tolerance)
+    stated = None if rule is None else grading_rule(rule)
+    rows = [] if manifest is None else read_manifest(Path(manifest))
+    stored = [name for name in names if is_no_path(name)]
+    if stored and catalogue is None:
+        raise BadOption("is no file: name the catalogue that has it", stored[0])
+    lasts: tuple[results.RunLast, ...] = ()
+    family = None
+    if catalogue is not None and len(names) == len(stored) == 1:
+        lasts = run_lasts.family_lasts(Path(catalogue), names[0])
+        family = names[0] if lasts else None
+    if not lasts:
+        files = mesh_sources([name for name in names if name not in stored])
+        by_name = () if not stored else run_lasts.named_lasts(Path(str(catalogue)), stored)
+        lasts = (*by_name, *run_lasts.file_lasts(files, rows, jobs))
+    return run_check(lasts, tolerance_mm, stated, family)

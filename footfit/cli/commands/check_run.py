@@ -1,0 +1,64 @@
+"""``footfit check-run``: does a graded run keep its increments?"""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from footfit.cli import options
+
+
+def check_run(
+    run: list[str] = options.argument(
+        "FAMILY|FILE",
+        "Give a family of the catalogue, or the lasts of a run: files, folders, globs or names.",
+    ),
+    manifest: Path | None = options.option(
+        "--manifest", "Take the sizes of files from this CSV. Else their names say them.", "CSV"
+    ),
+    rule: str | None = options.option(
+        "--rule",
+        "Compare with a grading rule, by its name or its .toml file. Else with the run itself.",
+        "NAME|FILE",
+    ),
+    tolerance: str | None = options.option(
+        "--tolerance",
+        "Allow so many mm by kind of measure. Else girth=2,length=1.5,width=1,height=1.5.",
+        "KIND=MM,...",
+    ),
+    csv: Path | None = options.CSV,
+    jobs: int = options.JOBS,
+    *,
+    lasts: options.Lasts,
+    force: bool = options.FORCE,
+    mode: options.OutputMode,
+) -> None:
+    """Check a run of graded lasts: by how much each measure grows from size to size.
+
+    It exits with 7 if an increment is farther off than the tolerance.
+
+    Example: footfit check-run run/*.stl --rule eu
+    """
+    from footfit.api.last_making import check_run as check
+    from footfit.cli.answers import answer_result
+    from footfit.cli.outputs import Outputs
+    from footfit.cli.progress import progress
+    from footfit.errors import CheckFailed
+    from footfit.results import RunCheck
+
+    outputs = Outputs(table=RunCheck, csv=csv, force=force)
+    outputs.refuse(as_json=mode.json)
+    with progress(mode) as bar:
+        bar.show()
+        checked = check(
+            list(run),
+            catalogue=lasts.path(),
+            manifest=manifest,
+            rule=rule,
+            tolerance=tolerance,
+            jobs=jobs,
+        )
+    answer_result(checked, mode, outputs)
+    if checked.broken:
+        count = len(checked.broken)
+        steps = "1 increment is" if count == 1 else f"{count} increments are"
+        raise CheckFailed(f"{steps} out of tolerance; the worst: {checked.worst_words}")

@@ -1,0 +1,1 @@
+"""How the measures of a last change from size to size and from width to width."""

@@ -1,0 +1,237 @@
+"""Check a run that somebody graded: the increments from size to size, and where they break."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
+from itertools import pairwise
+
+import numpy as np
+
+from footfit.errors import BadOption
+from footfit.geometry.grading.run_laws import Steps, likely_law, median_rate
+from footfit.pipeline.last_making.run_sizes import width_numbers
+from footfit.pipeline.last_making.tolerances import kind_of
+from footfit.results import Notice
+from footfit.results.last_making.grading_rule import GradingRule, LawName
+from footfit.results.last_making.run_check import RunCheck, RunLast, RunLaw, RunStep, StepKind
+
+CHECKED = (
+    *("bottom_length", "ball_girth_least", "waist_girth_least", "instep_girth_least"),
+    *("heel_girth_instep", "ball_width", "heel_width", "bottom_width_ball", "bottom_width_heel"),
+    *("toe_height", "heel_height", "toe_spring_tip"),
+)
+"""The measures of a run that are checked, in this order."""
+LEAST_LASTS = 3
+"""Two lasts have one increment, which nothing can be compared with."""
+
+
+@dataclass(frozen=True, slots=True)
+class Line:
+    """Lasts that differ in size alone, or in width alone, from the least to the largest.
+
+    ``at`` says what they have in common; ``places`` (n,) are their sizes or widths as numbers.
+    """
+
+    kind: StepKind
+    at: str
+    lasts: tuple[RunLast, ...]
+    places: tuple[float, ...]
+
+    def label(self, at: int) -> str:
+        """The size, or the width, of one of its lasts."""
+        last = self.lasts[at]
+        return last.size if self.kind == "size" else last.width or ""
+
+    def having(self, measure: str) -> Line:
+        """The line without the lasts that lack a measure."""
+        kept = [at for at, last in enumerate(self.lasts) if measure in last.measures_mm]
+        lasts = tuple(self.lasts[at] for at in kept)
+        return replace(self, lasts=lasts, places=tuple(self.places[at] for at in kept))
+
+    def steps(self, measure: str) -> Steps:
+        """The steps of a measure that all its lasts have."""
+        values = [last.measures_mm[measure] for last in self.lasts]
+        return Steps(np.array(self.places), np.array(values))
+
+
+def run_check(
+    lasts: Sequence[RunLast],
+    tolerance_mm: Mapping[str, float],
+    rule: GradingRule | None = None,
+    family: str | None = None,
+) -> RunCheck:
+    """The increments of a run, each beside what it should be by the run itself or by a rule.
+
+    Raises
+    ------
+    BadOption
+        There are too few lasts to compare an increment with anything, or two of one size, width and
+        side.
+    """
+    if len(lasts) < (2 if rule else LEAST_LASTS):
+        words = f"a run needs {LEAST_LASTS} sizes or more, and there are {len(lasts)} lasts"
+        raise BadOption(f"{words}: name more, or compare two with --rule")
+    _refuse_twins(lasts)
+    step = _least_step(lasts) if rule is None else rule.size_step
+    lines = [*_size_lines(lasts, step)]
+    width_lines, warnings = _width_lines(lasts, rule)
+    lines += width_lines
+    if not any(len(line.lasts) > 1 for line in lines):
+        raise BadOption("no two lasts differ in size alone, or in width alone: name the whole run")
+    known = [
+        (part, name)
+        for line in lines
+        for name in CHECKED
+        if len((part := line.having(name)).lasts) > 1
+    ]
+    law = rule.law if rule else likely_law(_scaled_sizes(known))
+    laws = tuple(_laws(known, law, rule))
+    by_kind = {(each.measure, each.kind): each for each in laws}
+    return RunCheck(
+        family=family,
+        law=law,
+        size_step=step,
+        rule=None if rule is None else rule.name,
+        tolerance_mm=dict(tolerance_mm),
+        lasts=tuple(sorted(lasts, key=lambda last: (last.size_number, last.width or ""))),
+        laws=laws,
+        steps=tuple(_steps(known, by_kind, tolerance_mm)),
+        warnings=(*warnings, *_lacking(lasts)),
+    )
+
+
+def _least_step(lasts: Sequence[RunLast]) -> float:
+    """The least difference between two sizes of a run; 1 if there is one size alone."""
+    sizes = np.unique([last.size_number for last in lasts])
+    return float(np.diff(sizes).min(initial=np.inf)) if len(sizes) > 1 else 1.0
+
+
+def _scaled_sizes(known: Sequence[tuple[Line, str]]) -> Iterator[Steps]:
+    """The steps from size to size of what no run holds: lengths and girths."""
+    for line, name in known:
+        if line.kind == "size" and kind_of(name) in ("length", "girth"):
+            yield line.steps(name)
+
+
+def _refuse_twins(lasts: Sequence[RunLast]) -> None:
+    seen: dict[tuple[float, str | None, str | None], RunLast] = {}
+    for last in lasts:
+        twin = seen.setdefault((last.size_number, last.width, last.side), last)
+        if twin is not last:
+            width = f", width {last.width}" if last.width else ""
+            words = f"both {twin.last!r} and {last.last!r} have the size {last.size}{width}"
+            raise BadOption(f"{words}: name one of them, or say the sizes with --manifest")
+
+
+def _size_lines(lasts: Sequence[RunLast], step: float) -> Iterator[Line]:
+    """The lasts of each width and side, by size."""
+    for key in sorted({(last.width or "", _side(last, lasts)) for last in lasts}):
+        group = [last for last in lasts if (last.width or "", _side(last, lasts)) == key]
+        group.sort(key=lambda last: last.size_number)
+        yield _line("size", key, group, [last.size_number / step for last in group])
+
+
+def _width_lines(
+    lasts: Sequence[RunLast], rule: GradingRule | None
+) -> tuple[list[Line], tuple[Notice, ...]]:
+    """The lasts of each size and side, by width; a warning if the widths have no order."""
+    widths = sorted({last.width for last in lasts if last.width})
+    if len(widths) < 2:
+        return [], ()
+    try:
+        number = width_numbers(widths, rule.widths if rule else ())
+    except BadOption as error:
+        return [], (Notice("widths_without_order", f"{error.message}; they are not compared"),)
+    lines, step = [], rule.width_step if rule else 1.0
+    wide = [last for last in lasts if last.width]
+    for key in sorted({(last.size_number, _side(last, lasts)) for last in wide}):
+        group = [last for last in wide if (last.size_number, _side(last, lasts)) == key]
+        group.sort(key=lambda last: number[last.width or ""])
+        if len(group) > 1:
+            common = (group[0].size, key[1])
+            places = [number[last.width or ""] / step for last in group]
+            lines.append(_line("width", common, group, places))
+    return lines, ()
+
+
+def _line(
+    kind: StepKind, common: tuple[str, str], group: Sequence[RunLast], places: Sequence[float]
+) -> Line:
+    return Line(kind, " ".join(filter(None, common)), tuple(group), tuple(places))
+
+
+def _side(last: RunLast, lasts: Sequence[RunLast]) -> str:
+    """The side of a last, if the run has both sides."""
+    return last.side or "" if len({each.side for each in lasts}) > 1 else ""
+
+
+def _laws(
+    known: Sequence[tuple[Line, str]], law: LawName, rule: GradingRule | None
+) -> Iterator[RunLaw]:
+    """What each measure grows by in a size and in a width. A height may be held, so it is in mm."""
+    for kind in ("size", "width"):
+        for measure in CHECKED:
+            runs = [
+                line.steps(name) for line, name in known if (line.kind, name) == (kind, measure)
+            ]
+            if not runs:
+                continue
+            stated = None if rule is None else getattr(rule, kind).get(measure)
+            own: LawName = "arithmetic" if kind_of(measure) == "height" else law
+            yield RunLaw(
+                measure=measure,
+                kind=kind,
+                law=own,
+                unit="mm" if own == "arithmetic" else "percent",
+                per_step=_per_step(runs, own) if stated is None else stated.by,
+                steps=sum(len(run.place) - 1 for run in runs),
+                by="run" if stated is None or rule is None else rule.name,
+            )
+
+
+def _per_step(runs: Sequence[Steps], law: LawName) -> float:
+    """The run's own increment, in mm or in percent."""
+    if law == "arithmetic":
+        return median_rate(runs)
+    logs = median_rate([Steps(run.place, np.log(run.value_mm)) for run in runs])
+    return float(100.0 * np.expm1(logs))
+
+
+def _steps(
+    known: Sequence[tuple[Line, str]],
+    laws: Mapping[tuple[str, StepKind], RunLaw],
+    tolerance_mm: Mapping[str, float],
+) -> Iterator[RunStep]:
+    """Every step of every measure, with what it should be."""
+    for line, measure in known:
+        law, steps = laws[measure, line.kind], line.steps(measure)
+        by = law.per_step if law.law == "arithmetic" else float(np.log1p(law.per_step / 100.0))
+        expected = steps.expected_mm(law.law, by)
+        for at, (first, second) in enumerate(pairwise(line.lasts)):
+            yield RunStep(
+                measure=measure,
+                kind=line.kind,
+                at=line.at,
+                start=line.label(at),
+                end=line.label(at + 1),
+                first=first.last,
+                second=second.last,
+                increment_mm=float(steps.increment_mm[at]),
+                expected_mm=float(expected[at]),
+                tolerance_mm=tolerance_mm[kind_of(measure)],
+            )
+
+
+def _lacking(lasts: Sequence[RunLast]) -> tuple[Notice, ...]:
+    """A warning for each measure that some lasts lack, and some have."""
+    counts = {name: sum(name in last.measures_mm for last in lasts) for name in CHECKED}
+    return tuple(
+        Notice(
+            "measure_missing",
+            f"{name.replace('_', ' ')} is measured on {count} of {len(lasts)} lasts: the"
+            " others are left out of its check",
+        )
+        for name, count in counts.items()
+        if 0 < count < len(lasts)
+    )

@@ -1,0 +1,111 @@
+"""The lasts of a run: a family of the catalogue, or files with the sizes that their names say."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping, Sequence
+from pathlib import Path
+
+from footfit.catalogue.store import open_catalogue
+from footfit.errors import BadOption
+from footfit.pipeline.batch.runs import HERE, outcomes
+from footfit.pipeline.batch.sources import Source
+from footfit.pipeline.last_making.run_check import CHECKED
+from footfit.pipeline.last_making.run_sizes import SizeLabel, size_in_name, size_number
+from footfit.pipeline.library.manifest import ManifestRow
+from footfit.pipeline.scan.measure import measured_scan
+from footfit.pipeline.scan.reading import AS_FOUND, aligned_source
+from footfit.results import LastRecord, Measure, MeasuredScan
+from footfit.results.last_making.run_check import RunLast
+
+
+def family_lasts(catalogue: Path, family: str) -> tuple[RunLast, ...]:
+    """The lasts of a family, with the sizes of their labels; none if no last has that label.
+
+    Raises
+    ------
+    BadOption
+        A last of the family has no size that is a number.
+    NoCatalogue, CatalogueUnusable
+        There is no catalogue, or it cannot be read.
+    """
+    with open_catalogue(catalogue) as opened:
+        return tuple(map(stored_last, opened.lasts(family=family).records))
+
+
+def stored_last(record: LastRecord) -> RunLast:
+    """A last of the catalogue as a run has it; raises BadOption if its size is not known."""
+    labels = record.labels
+    number = size_number(labels.size, labels.size_system, labels.name)
+    label = SizeLabel(str(labels.size), labels.width_label, "catalogue")
+    return _last(labels.name, label, number, record.side.side, record.measures)
+
+
+def named_lasts(catalogue: Path, names: Sequence[str]) -> tuple[RunLast, ...]:
+    """Lasts of the catalogue by their names, as a run has them.
+
+    Raises
+    ------
+    UnknownLast, BadOption
+        There is no last of a name; its size is not known.
+    NoCatalogue, CatalogueUnusable
+        There is no catalogue, or it cannot be read.
+    """
+    if not names:
+        return ()
+    with open_catalogue(catalogue) as opened:
+        return tuple(stored_last(opened.record(name)) for name in names)
+
+
+def file_lasts(
+    sources: Sequence[Source], manifest: Sequence[ManifestRow] = (), jobs: int = HERE
+) -> tuple[RunLast, ...]:
+    """Files as a run has them: measured, with the sizes of a manifest, or else of their names.
+
+    Raises
+    ------
+    BadOption
+        A file's size is not known.
+    InputError, GeometryRefused
+        A file cannot be read or measured.
+    """
+    rows = {str(Path(row.path).resolve()): row for row in manifest}
+    labels = {source.path: _label(source, rows) for source in sources}
+    lasts = []
+    for outcome in outcomes(_measured, sources, jobs):
+        if outcome.error is not None:
+            raise outcome.error
+        assert outcome.value is not None
+        label, system = labels[outcome.item.path]
+        name = Path(outcome.item.path or "-").name
+        side = outcome.value.alignment.side.side
+        number = size_number(label.size, system, name)
+        lasts.append(_last(name, label, number, side, outcome.value.measures))
+    return tuple(lasts)
+
+
+def _measured(source: Source) -> MeasuredScan:
+    return measured_scan(aligned_source(source, AS_FOUND))
+
+
+def _label(source: Source, rows: Mapping[str, ManifestRow]) -> tuple[SizeLabel, str | None]:
+    """The size of a file and its system."""
+    path = Path(source.path or "-")
+    row = rows.get(str(path.resolve()))
+    if row is not None and row.labels.size is not None:
+        said = row.labels
+        return SizeLabel(row.labels.size, said.width_label, "manifest"), said.size_system
+    label = size_in_name(path.stem)
+    if label is None:
+        words = "its name says no size: write the size into the name, such as derby-42.stl, or add"
+        raise BadOption(
+            f"{words} --manifest CSV with the columns path, size and width_label", str(path)
+        )
+    return label, None
+
+
+def _last(
+    name: str, label: SizeLabel, number: float, side: str | None, measures: Iterable[Measure]
+) -> RunLast:
+    values = {row.name: row.measured.value for row in measures}
+    known = {name: value for name in CHECKED if (value := values.get(name)) is not None}
+    return RunLast(name, label.size, number, label.width, side, label.size_from, known)

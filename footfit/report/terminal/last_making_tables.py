@@ -1,0 +1,66 @@
+"""Answers about lasts that are made from lasts as rich renderables."""
+
+from __future__ import annotations
+
+from rich.console import Group, RenderableType
+from rich.text import Text
+
+from footfit import results
+from footfit.number_words import plain, signed
+from footfit.report.terminal.scan_tables import cell, lined_table
+from footfit.report.wording.text import visible
+
+OFF = "!"
+"""Stands beside an increment that is out of tolerance."""
+
+
+def check_run_table(checked: results.RunCheck) -> RenderableType:
+    """What each measure grows by, each increment between neighbours, and what is out of tolerance.
+
+    Lasts that differ in size, and lasts that differ in width, have a table for each line of them.
+    """
+    parts: list[RenderableType] = [_lasts_words(checked)]
+    for kind, at in dict.fromkeys((step.kind, step.at) for step in checked.steps):
+        parts.append(_steps_table(checked, kind, at))
+    parts += [Text(f"{OFF} {visible(step.words)}", "bold red") for step in checked.broken]
+    parts += [Text(visible(each.words), "yellow") for each in checked.off_lasts]
+    limits = ", ".join(f"{kind} {plain(mm)} mm" for kind, mm in checked.tolerance_mm.items())
+    state = f"{len(checked.broken)} of {len(checked.steps)} increments are out of tolerance"
+    return Group(*parts, Text(f"{state} ({limits})", "dim"))
+
+
+def _lasts_words(checked: results.RunCheck) -> Text:
+    """How many lasts there are, and by what they are judged."""
+    name = f"{visible(checked.family)}: " if checked.family else ""
+    sizes = list(dict.fromkeys(last.size for last in checked.lasts))
+    by = f"the rule {visible(checked.rule)}" if checked.rule else "the run itself"
+    words = f"{name}{len(checked.lasts)} lasts, sizes {visible(sizes[0])} to {visible(sizes[-1])}"
+    return Text(f"{words}, {checked.law}, compared with {by}", "bold")
+
+
+def _steps_table(checked: results.RunCheck, kind: str, at: str) -> RenderableType:
+    """A row for each measure: what it grows by, and its increments."""
+    steps = [step for step in checked.steps if (step.kind, step.at) == (kind, at)]
+    pairs = list(dict.fromkeys((step.start, step.end) for step in steps))
+    heads = [f"{visible(start)}\nto {visible(end)}" for start, end in pairs]
+    per = "per\nstep"
+    table = lined_table("mm", per, *heads, right=frozenset((per, *heads)))
+    for law in (law for law in checked.laws if law.kind == kind):
+        own = {(s.start, s.end): s for s in steps if s.measure == law.measure}
+        if not own:
+            continue
+        unit = " %" if law.unit == "percent" else ""
+        table.add_row(
+            cell(law.measure.replace("_", " ")),
+            f"{signed(law.per_step)}{unit}",
+            *(_increment(own.get(pair)) for pair in pairs),
+        )
+    title = {"size": "from size to size", "width": "from width to width"}[kind]
+    return Group(Text(f"{title}{', ' if at else ''}{visible(at)}"), table)
+
+
+def _increment(step: results.RunStep | None) -> Text:
+    if step is None:
+        return Text("-", "dim")
+    words = signed(step.increment_mm)
+    return Text(f"{words}{OFF}", "bold red") if step.broken else Text(words)

@@ -1,0 +1,218 @@
+"""Runs that somebody graded: where their increments break, and which rules there are."""
+
+from __future__ import annotations
+
+import json
+from dataclasses import replace
+from pathlib import Path
+
+import pytest
+
+import footfit
+from footfit.catalogue.store import open_catalogue
+from footfit.errors import BadOption, BadProfile, FootfitError
+from footfit.geometry.fit.sizes import SYSTEMS
+from footfit.meshes.write import encoded_mesh
+from footfit.pipeline.last_making import grading_rules
+from footfit.pipeline.last_making.grading_rules import grading_rule, rule_of, shipped_rules
+from footfit.pipeline.last_making.run_check import CHECKED, run_check
+from footfit.pipeline.last_making.run_sizes import size_in_name, width_numbers
+from footfit.pipeline.last_making.tolerances import TOLERANCE_MM, tolerances
+from footfit.results import Measure, Measured, RunLast
+from tests import records
+from tests.conftest import Footfit
+from tools.lasts import LastSpec, last_mesh
+
+GIRTH = "ball_girth_least"
+
+
+def last(size: float, girth_mm: float, width: str | None = None) -> RunLast:
+    values = {"bottom_length": 270.0 + 6.667 * (size - 42.0), GIRTH: girth_mm}
+    name = f"derby-{size:g}{width or ''}"
+    return RunLast(name, f"{size:g}", size, width, "right", "catalogue", values)
+
+
+def run(*girths_mm: float, width: str | None = None) -> list[RunLast]:
+    return [last(38.0 + at, girth, width) for at, girth in enumerate(girths_mm)]
+
+
+def test_an_even_run_has_no_break() -> None:
+    checked = run_check(run(230.0, 235.0, 240.0, 245.0), TOLERANCE_MM)
+    assert checked.broken == ()
+    laws = {law.measure: law.per_step for law in checked.laws}
+    assert laws == {"bottom_length": pytest.approx(6.667), GIRTH: pytest.approx(5.0)}
+
+
+def test_a_wrong_last_breaks_two_increments_and_is_named() -> None:
+    checked = run_check(run(230.0, 235.0, 243.0, 245.0, 250.0), TOLERANCE_MM)
+    assert {(s.start, s.end, round(s.off_mm, 6)) for s in checked.broken} == {
+        ("39", "40", 3.0),
+        ("40", "41", -3.0),
+    }
+    (wrong,) = checked.off_lasts
+    assert (wrong.last, wrong.off_mm) == ("derby-40", pytest.approx(3.0))
+
+
+def test_a_wrong_step_breaks_one_increment_and_no_last_is_wrong() -> None:
+    checked = run_check(run(230.0, 235.0, 244.0, 249.0, 254.0), TOLERANCE_MM)
+    assert [(s.start, s.end) for s in checked.broken] == [("39", "40")]
+    assert checked.off_lasts == ()
+    assert checked.broken[0].words.endswith("9.0 mm, 5.0 mm expected, 4.0 mm too much")
+
+
+def test_a_tolerance_decides_what_breaks() -> None:
+    uneven = run(230.0, 235.0, 241.0, 246.0, 251.0)
+    assert run_check(uneven, TOLERANCE_MM).broken == ()
+    assert len(run_check(uneven, tolerances("girth=0.5")).broken) == 1
+
+
+def test_widths_are_compared_at_each_size() -> None:
+    lasts = [*run(230.0, 235.0, 240.0, width="F"), *run(235.0, 240.0, 248.0, width="G")]
+    checked = run_check(lasts, TOLERANCE_MM)
+    widths = [s for s in checked.steps if (s.kind, s.measure) == ("width", GIRTH)]
+    assert [(s.at, s.start, s.end, s.increment_mm) for s in widths] == [
+        ("38", "F", "G", 5.0),
+        ("39", "F", "G", 5.0),
+        ("40", "F", "G", 8.0),
+    ]
+    assert [s.broken for s in widths] == [False, False, True]
+
+
+def test_a_run_is_compared_with_a_rule() -> None:
+    rule = grading_rule("uk", SYSTEMS["uk"])
+    checked = run_check(run(230.0, 235.0, 240.0), tolerances("girth=1,length=1"), rule)
+    girth = [s for s in checked.steps if s.measure == GIRTH]
+    assert [s.expected_mm for s in girth] == [6.35, 6.35]
+    assert {s.measure for s in checked.broken} == {GIRTH, "bottom_length"}
+    assert {law.by for law in checked.laws} == {"uk"}
+
+
+@pytest.mark.parametrize(
+    ("lasts", "words"),
+    [
+        (run(230.0, 235.0), "3 sizes or more"),
+        ([*run(230.0, 235.0, 240.0), last(38.0, 231.0)], "both 'derby-38' and 'derby-38'"),
+        ([last(38.0 + at, 230.0, width) for at, width in enumerate("EFG")], "size alone"),
+    ],
+)
+def test_what_is_no_run_is_refused(lasts: list[RunLast], words: str) -> None:
+    with pytest.raises(BadOption, match=words):
+        run_check(lasts, TOLERANCE_MM)
+
+
+@pytest.mark.parametrize("name", shipped_rules())
+def test_every_shipped_rule_has_sources_and_an_order_of_widths(name: str) -> None:
+    rule = grading_rule(name)
+    assert rule.name == name
+    assert set(rule.size) <= set(CHECKED)
+    for increment in (*rule.size.values(), *rule.width.values()):
+        assert increment.by > 0.0
+        assert len(increment.source) > 10
+    assert rule.size["bottom_length"].by > rule.size[GIRTH].by or rule.law == "geometric"
+    assert set(rule.width) < set(rule.size)
+
+
+RULE = """
+schema = "footfit.grading-rule/1"
+name = "house"
+systems = ["eu"]
+[size.bottom_length]
+mm = 6.667
+grade = "B"
+source = "the Paris point"
+"""
+
+
+@pytest.mark.parametrize(
+    ("more", "words"),
+    [
+        ("[size.ball_girth]\nmm = 5", "a rule plans bottom_length, ball_girth_least"),
+        ("[size.ball_girth_least]\ngrade = 'B'", "lacks mm"),
+        ("[size.ball_girth_least]\nmm = 500\ngrade = 'B'\nsource = 'x'", "between -30 and 30"),
+        ("[size.ball_girth_least]\nmm = 5\ngrade = 'Z'\nsource = 'x'", "grade must be one of"),
+        ("[size.ball_girth_least]\nmm = 5\ngrade = 'B'", "source must be a short text"),
+        ("[width.bottom_length]\nmm = 5\ngrade = 'B'\nsource = 'x'", "a width step changes no"),
+        ("[colour]\n", "unknown key 'colour'"),
+    ],
+)
+def test_a_wrong_rule_is_refused_in_words(more: str, words: str, tmp_path: Path) -> None:
+    assert rule_of(RULE).size["bottom_length"].by == 6.667
+    with pytest.raises(BadProfile, match=words):
+        rule_of(RULE + more)
+    path = tmp_path / "house.toml"
+    path.write_text(RULE.replace('"eu"', '"moon"'))
+    with pytest.raises(BadProfile, match="size systems are"):
+        grading_rule(str(path))
+
+
+def test_a_rule_counts_the_sizes_of_its_systems() -> None:
+    with pytest.raises(BadOption, match="counts sizes of uk"):
+        grading_rule("uk", SYSTEMS["eu"])
+    assert {grading_rule(None, SYSTEMS[name]).name for name in SYSTEMS} <= set(shipped_rules())
+    with pytest.raises(BadOption, match="there are china"):
+        grading_rule("moon")
+    assert set(grading_rules.BY_SYSTEM) == set(SYSTEMS)
+
+
+def test_names_say_sizes() -> None:
+    for stem, size, width in (
+        ("derby-42", "42", None),
+        ("derby_EU42_G_right_h25_ts8_v1_mm", "42", "G"),
+        ("style7-39.5", "39.5", None),
+        ("boot 42G", "42", "G"),
+    ):
+        label = size_in_name(stem)
+        assert label is not None
+        assert (label.size, label.width) == (size, width)
+    assert size_in_name("derby-left") is None
+    with pytest.raises(BadOption, match="no order"):
+        width_numbers(["narrow", "wide"])
+
+
+def test_files_and_families_are_checked(footfit: Footfit, tmp_path: Path) -> None:
+    vertices, faces = last_mesh(LastSpec(flare_deg=6.0, rings=60, segments=48))
+    folder, catalogue = tmp_path / "run", tmp_path / "lasts.footfit"
+    folder.mkdir()
+    scales = {"40": 0.976, "41": 1.0, "42": 1.024, "43": 1.060}
+    for size, scale in scales.items():
+        mesh = encoded_mesh(vertices * scale, faces, "stl")
+        (folder / f"derby-{size}.stl").write_bytes(mesh)
+    files = sorted(folder.glob("*.stl"))
+    assert footfit("check-run", *files[:3]).code == 0
+    bad = footfit("check-run", folder, "--json")
+    assert bad.code == 7
+    assert bad.document["broken"][0]["to"] == "43"
+    assert json.loads(bad.last_error)["code"] == "check_failed"
+    table = footfit("check-run", folder, "--csv", "-")
+    assert table.out.splitlines()[0].startswith("measure,kind,at,from,to")
+    footfit("ingest-last", folder, "--family", "derby", "--catalogue", catalogue)
+    unnamed = footfit("check-run", "derby", "--catalogue", catalogue)
+    assert unnamed.code == 2
+    assert "edit-last" in unnamed.err
+    for size in scales:
+        footfit("edit-last", f"derby-{size}", "--size", size, "--catalogue", catalogue)
+    stored = footfit("check-run", "derby", "--catalogue", catalogue, "--json").document
+    assert stored["family"] == "derby"
+    assert [s["increment_mm"] for s in stored["steps"]] == [
+        s["increment_mm"] for s in bad.document["steps"]
+    ]
+    unknown = footfit("check-run", "nothing", "--catalogue", catalogue)
+    assert unknown.code == 4
+
+
+def test_a_last_without_a_measure_is_left_out_of_its_check(tmp_path: Path) -> None:
+    path = tmp_path / "lasts.footfit"
+    with open_catalogue(path, write=True) as catalogue:
+        for seed, size in enumerate((40, 41, 42, 43)):
+            record = records.last(f"derby-{size}", seed, size=str(size), family="derby")
+            rows = [Measure("bottom_length", Measured(260.0 + 6.0 * seed), "bottom_length/2")]
+            if seed != 1:
+                rows.append(Measure(GIRTH, Measured(230.0 + 5.0 * seed), f"{GIRTH}/1"))
+            sides = replace(record.side, side="right")
+            catalogue.add(replace(record, measures=tuple(rows), side=sides))
+    checked = footfit.check_run("derby", catalogue=path)
+    steps = [(s.start, s.end) for s in checked.steps if s.measure == GIRTH]
+    assert steps == [("40", "42"), ("42", "43")]
+    assert [notice.code for notice in checked.warnings] == ["measure_missing"]
+    with pytest.raises(FootfitError):
+        footfit.check_run("derby")
