@@ -13,11 +13,14 @@ from footfit.catalogue.store import open_catalogue
 from footfit.errors import BadOption, BadProfile, FootfitError
 from footfit.geometry.fit.sizes import SYSTEMS
 from footfit.meshes.write import encoded_mesh
+from footfit.number_words import signed
 from footfit.pipeline.last_making import grading_rules
 from footfit.pipeline.last_making.grading_rules import grading_rule, rule_of, shipped_rules
-from footfit.pipeline.last_making.run_check import CHECKED, run_check
+from footfit.pipeline.last_making.run_increments import CHECKED, run_check
 from footfit.pipeline.last_making.run_sizes import size_in_name, width_numbers
 from footfit.pipeline.last_making.tolerances import TOLERANCE_MM, tolerances
+from footfit.report.terminal.last_making_tables import check_run_table
+from footfit.report.terminal.scan_tables import terminal_text
 from footfit.results import Measure, Measured, RunLast
 from tests import records
 from tests.conftest import Footfit
@@ -198,6 +201,19 @@ def test_files_and_families_are_checked(footfit: Footfit, tmp_path: Path) -> Non
     ]
     unknown = footfit("check-run", "nothing", "--catalogue", catalogue)
     assert unknown.code == 4
+
+
+def test_the_table_shows_every_increment_and_marks_what_breaks() -> None:
+    lasts = [*run(230.0, 235.0, 243.0, 245.0, width="F"), *run(235.0, 240.0, 245.0, width="G")]
+    checked = run_check(lasts, TOLERANCE_MM)
+    text = terminal_text(check_run_table(checked), 120)
+    for step in checked.steps:
+        mark = "!" if step.broken else ""
+        assert f"{signed(step.increment_mm)}{mark}" in text
+    for step in checked.broken:
+        assert step.words in text
+    assert "arithmetic, compared with the run itself" in text
+    assert "'derby-40F' (40) is wrong by itself" in text
 
 
 def test_a_last_without_a_measure_is_left_out_of_its_check(tmp_path: Path) -> None:

@@ -35,6 +35,7 @@ from footfit.results import (
     RemoveOutcome,
     RenameOutcome,
     RestoreOutcome,
+    RunCheck,
     StoredLast,
     UpgradeOutcome,
 )
@@ -81,6 +82,7 @@ def every_document():
         ShownProfile(fit_profile(), {"length": "mm"}),
         CheckedProfile("a.toml", "a", 1, "0" * 64, ("length",), ()),
         Calibration(fit_profile(), fit_profile(), (), 0, {}),
+        RunCheck(None, "arithmetic", 1.0, None, {"girth": 2.0}, (), (), ()),
         ExportOutcome("a", "a.stl", 10, 0.1),
         answers.facts(),
         upgrade,

@@ -46,7 +46,7 @@ def check_run(
     """
     from footfit.pipeline.last_making import run_lasts
     from footfit.pipeline.last_making.grading_rules import grading_rule
-    from footfit.pipeline.last_making.run_check import run_check
+    from footfit.pipeline.last_making.run_increments import run_check
     from footfit.pipeline.last_making.tolerances import tolerances
     from footfit.pipeline.library.manifest import read_manifest
 

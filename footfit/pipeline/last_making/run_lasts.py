@@ -9,7 +9,7 @@ from footfit.catalogue.store import open_catalogue
 from footfit.errors import BadOption
 from footfit.pipeline.batch.runs import HERE, outcomes
 from footfit.pipeline.batch.sources import Source
-from footfit.pipeline.last_making.run_check import CHECKED
+from footfit.pipeline.last_making.run_increments import CHECKED
 from footfit.pipeline.last_making.run_sizes import SizeLabel, size_in_name, size_number
 from footfit.pipeline.library.manifest import ManifestRow
 from footfit.pipeline.scan.measure import measured_scan
