@@ -13,6 +13,7 @@ from footfit.geometry.numeric.rotations import angle_deg, rotations_about
 from footfit.geometry.pose.frame import about_z, canonical_frame, levelling, plan_axis
 from tests import distortions, shapes
 from tests.bounds import ROUNDING
+from tools.last_specs import wide
 from tools.lasts import LastSpec, last_mesh
 
 
@@ -64,6 +65,26 @@ def test_the_frame_forgets_the_pose_it_was_started_from(last, seed):
     assert angle_deg(frame.rotation @ turn, home.rotation) < ROUNDING
     placed = vertices @ turn.T @ frame.rotation.T + frame.shift
     assert np.abs(placed - (vertices @ home.rotation.T + home.shift)).max() < ROUNDING
+
+
+@pytest.mark.parametrize("style", ["pump", "boot", "sandal"])
+@pytest.mark.parametrize("heel_mm", [(40.0, 60.0), (60.0, 90.0), (90.0, 120.0)])
+def test_a_heeled_last_finds_its_resting_line_from_a_start_that_is_pitched_by_20_deg(
+    style, heel_mm
+):
+    """A rough pose of such a last was 17 deg off: it was then taken for one without a sole."""
+    spec = wide(np.random.default_rng(5), style, heel_mm, rings=60, segments=40, side="right")
+    vertices, faces = last_mesh(spec)
+    length = float(np.ptp(vertices[:, 0]))
+    base = canonical_frame(quadrature(vertices, faces, 0.03 * length), length, last=True)
+    for pitch_deg in (-20.0, -17.0, 17.0, 20.0):
+        turn = rotations_about(np.radians([[0.0, pitch_deg, 0.0]]))[0]
+        turned = vertices @ turn.T
+        turned[:, 2] -= turned[:, 2].min()
+        sample = quadrature(turned, faces, 0.03 * length)
+        frame = canonical_frame(sample, length, last=True)
+        assert frame.sole
+        assert angle_deg(frame.rotation @ turn, base.rotation) < 0.3  # measured .16
 
 
 def test_a_mirrored_shape_has_the_mirrored_frame(last):

@@ -38,6 +38,7 @@ class FrameSettings:
     heeled_back: float = 0.10  # the back of a heeled last is taken below: over it, it leans back
     support_minimum: float = 0.05
     tilt_maximum_deg: float = 16.0
+    heeled_tilt_deg: float = 6.0  # more for a last on its resting line, which holds from 20 deg
     origin_share: float = 0.003
     origin_height: float = 0.20
     heel_strip: tuple[float, float] = (0.02, 0.10)
@@ -82,7 +83,8 @@ def canonical_frame(sample: SurfaceSample, length: float, *, last: bool = False)
     back_height = FRAME.length_height + share * (FRAME.heeled_back - FRAME.length_height)
     length = length_of(turned.points, plane.offset, length, back_height)
     held = support(turned, plane, length)
-    sole = held >= FRAME.support_minimum and tilt_deg <= FRAME.tilt_maximum_deg
+    most_deg = FRAME.tilt_maximum_deg + share * FRAME.heeled_tilt_deg
+    sole = held >= FRAME.support_minimum and tilt_deg <= most_deg
     if not sole:
         rotation, plane, _ = _settled(sample, length, _rim_plane)
         turned = turned_sample(sample, rotation)
