@@ -20,7 +20,7 @@ ScannerName = Literal["laser", "handheld", "phone", "photos"]
 LoadName = Literal["air", "sitting", "half", "full"]
 SexName = Literal["female", "male"]
 TimeName = Literal["morning", "evening"]
-FormatName = Literal["stl", "obj", "ply", "off", "glb", "3mf"]
+FormatName = Literal["stl", "obj", "ply", "off", "glb", "3mf", "3dm"]
 
 STDOUT = Path("-")
 """Where a file is asked for: the answer goes to stdout instead."""

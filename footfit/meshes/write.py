@@ -1,8 +1,10 @@
-"""A mesh as the bytes of a file; the same mesh gives the same bytes."""
+"""A mesh as the bytes of a file; the same mesh gives the same bytes, except as ``.3dm``."""
 
 from __future__ import annotations
 
+import io
 from collections.abc import Callable, Mapping
+from zipfile import ZIP_DEFLATED, ZipFile, ZipInfo
 
 import numpy as np
 from numpy.typing import NDArray
@@ -10,12 +12,31 @@ from numpy.typing import NDArray
 from footfit.errors import BadOption
 from footfit.geometry.mesh.surface import face_normals
 from footfit.geometry.numeric.arrays import Floats, Ints
+from footfit.meshes.formats.rhino.writing import encoded_3dm
 from footfit.meshes.formats.stl import FACET, HEADER_BYTES
+from footfit.meshes.formats.threemf import CORE
 
 VertexData = Mapping[str, NDArray[np.generic]]
 COLOUR = "colour"
 _STL_HEADER = b"footfit"
 _COLOUR_CHANNELS = ("red", "green", "blue")
+_PACKAGE = "http://schemas.openxmlformats.org/package/2006/"
+_THREEMF_PARTS = (
+    (
+        "[Content_Types].xml",
+        f'<Types xmlns="{_PACKAGE}content-types"><Default Extension="rels"'
+        ' ContentType="application/vnd.openxmlformats-package.relationships+xml"/>'
+        '<Default Extension="model"'
+        ' ContentType="application/vnd.ms-package.3dmanufacturing-3dmodel+xml"/></Types>',
+    ),
+    (
+        "_rels/.rels",
+        f'<Relationships xmlns="{_PACKAGE}relationships"><Relationship Id="model"'
+        ' Type="http://schemas.microsoft.com/3dmanufacturing/2013/01/3dmodel"'
+        ' Target="/3D/3dmodel.model"/></Relationships>',
+    ),
+)
+_XML = '<?xml version="1.0" encoding="UTF-8"?>\n'
 
 
 def encoded_mesh(
@@ -29,11 +50,12 @@ def encoded_mesh(
     Parameters
     ----------
     vertices : (n, 3) float64
-        STL keeps 24 bits of each coordinate (0.00002 mm of a foot), OBJ and OFF keep nine digits,
-        PLY keeps every bit.
+        In mm. STL keeps 24 bits of each coordinate (0.00002 mm of a foot), OBJ, OFF and 3MF keep
+        nine digits, PLY and 3DM keep every bit. 3MF and 3DM say that the unit is mm.
     faces : (m, 3) int64
     format : str
-        "stl" (binary), "ply" (binary little-endian), "obj" or "off"; it may begin with a dot.
+        "stl" (binary), "ply" (binary little-endian), "obj", "off", "3mf" or "3dm"; it may begin
+        with a dot.
     vertex_data : mapping of str to (n,) or (n, 3) arrays, optional
         Only for PLY. Each (n,) array becomes a float property of its name, in the mapping's order.
         ``"colour"`` (n, 3) uint8 becomes red, green and blue.
@@ -45,7 +67,8 @@ def encoded_mesh(
     Raises
     ------
     BadOption
-        The format is not written, or it has no place for vertex data.
+        The format is not written, it has no place for vertex data, or it is "3dm" and rhino3dm is
+        not installed.
     """
     extension = format.lower().removeprefix(".")
     if extension not in WRITERS:
@@ -95,6 +118,25 @@ def _off(vertices: Floats, faces: Ints, _: VertexData) -> bytes:
     return (counts + _rows("%.9g %.9g %.9g\n", vertices) + _rows("3 %d %d %d\n", faces)).encode()
 
 
+def _threemf(vertices: Floats, faces: Ints, _: VertexData) -> bytes:
+    corners = _rows('<vertex x="%.9g" y="%.9g" z="%.9g"/>\n', vertices)
+    triangles = _rows('<triangle v1="%d" v2="%d" v3="%d"/>\n', faces)
+    model = (
+        f'<model unit="millimeter" xmlns="{CORE}"><resources><object id="1" type="model"><mesh>\n'
+        f"<vertices>\n{corners}</vertices>\n<triangles>\n{triangles}</triangles>\n"
+        '</mesh></object></resources><build><item objectid="1"/></build></model>\n'
+    )
+    memory = io.BytesIO()
+    with ZipFile(memory, "w") as zipped:  # ZipInfo without a date: the bytes are always the same
+        for name, content in (*_THREEMF_PARTS, ("3D/3dmodel.model", model)):
+            zipped.writestr(ZipInfo(name), _XML + content, ZIP_DEFLATED)
+    return memory.getvalue()
+
+
+def _3dm(vertices: Floats, faces: Ints, _: VertexData) -> bytes:
+    return encoded_3dm(vertices, faces)
+
+
 def _rows(pattern: str, values: NDArray[np.generic]) -> str:
     """One line for each row; adding 0 turns -0.0 into 0."""
     return (pattern * len(values)) % tuple((values + 0).ravel().tolist())
@@ -105,4 +147,6 @@ WRITERS: dict[str, Callable[[Floats, Ints, VertexData], bytes]] = {
     "ply": _ply,
     "obj": _obj,
     "off": _off,
+    "3mf": _threemf,
+    "3dm": _3dm,
 }

@@ -15,7 +15,7 @@ from footfit.results import AlignedScan, SurfaceCurvature
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-MESH_KINDS = ("stl", "ply", "obj", "off")
+MESH_KINDS = ("stl", "ply", "obj", "off", "3mf", "3dm")
 PICTURE_KINDS = ("svg", "png")
 CURVATURE_KINDS = ("ply", "npz")
 

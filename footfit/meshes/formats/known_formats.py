@@ -13,6 +13,7 @@ from footfit.meshes.formats.obj import is_obj, read_obj
 from footfit.meshes.formats.off import is_off, read_off
 from footfit.meshes.formats.ply import is_ply, read_ply
 from footfit.meshes.formats.raw import RawMesh, checked_mesh
+from footfit.meshes.formats.rhino.reading import is_3dm, read_3dm
 from footfit.meshes.formats.stl import is_binary_stl, read_ascii_stl, read_binary_stl
 from footfit.meshes.formats.threemf import is_3mf, read_3mf
 from footfit.meshes.read_limits import Limits
@@ -57,11 +58,12 @@ FORMATS: tuple[MeshFormat, ...] = (
     MeshFormat("off", "off", is_off, read_off),
     MeshFormat("glb", "glb", is_glb, read_glb),
     MeshFormat("3mf", "3mf", is_3mf, read_3mf),
+    MeshFormat("3dm", "3dm", is_3dm, read_3dm),
     MeshFormat("stl-ascii", "stl", _is_ascii_stl, read_ascii_stl),
     MeshFormat("obj", "obj", _is_obj_text, read_obj),
 )
 EXTENSIONS = tuple(sorted({known.extension for known in FORMATS}))
-_READABLE = "STL, OBJ, PLY, OFF, GLB or 3MF"
+_READABLE = "STL, OBJ, PLY, OFF, GLB, 3MF or 3DM"
 
 
 def raw_mesh(

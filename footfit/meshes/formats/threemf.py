@@ -25,7 +25,9 @@ from footfit.meshes.read_limits import Limits
 if TYPE_CHECKING:
     from zipfile import ZipFile, ZipInfo
 
-_CORE = "http://schemas.microsoft.com/3dmanufacturing/core/2015/02 "
+CORE = "http://schemas.microsoft.com/3dmanufacturing/core/2015/02"
+"""The XML namespace of a 3MF's model."""
+_CORE = f"{CORE} "
 _SUFFIX, _USUAL = ".model", "3d/3dmodel.model"
 _LOOKED_AT_BYTES = 65_536
 _UNITS = {  # the unit that footfit reports, and how many of it each unit of the format has
