@@ -16,11 +16,11 @@ from footfit.errors import BadOption, DamagedMesh, EmptyMesh, TooLarge
 from footfit.geometry.mesh.surface import area_vectors
 from footfit.meshes.formats import stl
 from footfit.meshes.formats.foreign import is_text, known_foreign, likeness
-from footfit.meshes.formats.known_formats import EXTENSIONS, FORMATS, raw_mesh
 from footfit.meshes.formats.ply import read_ply
 from footfit.meshes.formats.raw import RawMesh, checked_mesh
 from footfit.meshes.formats.threemf import is_3mf
 from footfit.meshes.formats.tokens import floats, text_lines
+from footfit.meshes.known_formats import EXTENSIONS, FORMATS, raw_mesh
 from footfit.meshes.read_limits import LIMITS
 from footfit.meshes.write import COLOUR, WRITERS, encoded_mesh
 from tests import corpus, shapes

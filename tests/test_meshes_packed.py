@@ -16,7 +16,7 @@ from hypothesis import strategies as st
 
 from footfit.errors import InputError
 from footfit.geometry.mesh.surface import area_vectors
-from footfit.meshes.formats.known_formats import raw_mesh
+from footfit.meshes.known_formats import raw_mesh
 from footfit.meshes.read_limits import LIMITS
 from tests import corpus, packed
 from tests.bounds import ROUNDING

@@ -13,8 +13,8 @@ from hypothesis import strategies as st
 import footfit
 from footfit.errors import DamagedMesh
 from footfit.geometry.mesh.surface import area_vectors
-from footfit.meshes.formats.known_formats import raw_mesh
 from footfit.meshes.formats.polygons import polygon_triangles
+from footfit.meshes.known_formats import raw_mesh
 from footfit.meshes.read_limits import LIMITS
 from tests.strategies import rotations, seeds
 

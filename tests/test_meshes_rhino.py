@@ -7,9 +7,9 @@ import pytest
 
 from footfit.errors import BadOption, DamagedMesh, EmptyMesh, InputError, UnknownFormat
 from footfit.geometry.mesh.topology import boundary_edges, is_closed
-from footfit.meshes.formats.rhino import process, reading, writing
 from footfit.meshes.read import file_mesh
 from footfit.meshes.read_limits import LIMITS, Limits
+from footfit.meshes.rhino import from_3dm, to_3dm, watched_process
 from footfit.meshes.write import encoded_mesh
 from tests import rhino_models as rhino
 from tests.distortions import subdivided
@@ -20,7 +20,7 @@ from tools.fuzz import mutated
 
 
 def read(data: bytes):
-    return reading.read_3dm(data, LIMITS)
+    return from_3dm.read_3dm(data, LIMITS)
 
 
 def codes(raw) -> list[str]:
@@ -131,7 +131,7 @@ def test_without_rhino3dm_the_message_says_how_to_install_it(monkeypatch, footfi
     data = rhino.model()
     path = tmp_path / "last.3dm"
     path.write_bytes(data)
-    for module in (reading, writing):
+    for module in (from_3dm, to_3dm):
         monkeypatch.setattr(module, "is_installed", lambda: False)
     with pytest.raises(UnknownFormat, match=r"pip install 'footfit\[rhino\]'"):
         read(data)
@@ -144,7 +144,7 @@ def test_without_rhino3dm_the_message_says_how_to_install_it(monkeypatch, footfi
 
 def test_a_cut_off_file_is_refused_at_once(monkeypatch):
     data = rhino.model()
-    monkeypatch.setattr(reading, "run", None)
+    monkeypatch.setattr(from_3dm, "run", None)
     for end in (32, 33, 100, len(data) // 2, len(data) - 1):
         with pytest.raises(DamagedMesh, match="cut off"):
             read(data[:end])
@@ -154,7 +154,7 @@ def test_a_cut_off_file_is_refused_at_once(monkeypatch):
 
 def test_damaged_files_give_a_mesh_or_one_line(monkeypatch):
     """rhino3dm itself looks for many seconds through some of them, and is stopped."""
-    monkeypatch.setattr(process, "RHINO", process.RhinoSettings(seconds=1.5))
+    monkeypatch.setattr(watched_process, "RHINO", watched_process.RhinoSettings(seconds=1.5))
     sound, refusals = rhino.model(), []
     for number in range(16):
         try:
@@ -167,7 +167,7 @@ def test_damaged_files_give_a_mesh_or_one_line(monkeypatch):
 
 def test_more_than_the_limits_is_refused():
     with pytest.raises(InputError, match="100"):
-        reading.read_3dm(rhino.model(), Limits(faces=100))
+        from_3dm.read_3dm(rhino.model(), Limits(faces=100))
     model = rhino.Model()
     block = model.block(rhino.mesh())
     for _ in range(3):

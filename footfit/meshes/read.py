@@ -10,8 +10,8 @@ from numpy.typing import ArrayLike
 
 from footfit.errors import DamagedMesh
 from footfit.meshes.clean.triangles import WeldedMesh, welded_mesh
-from footfit.meshes.formats.known_formats import raw_mesh
 from footfit.meshes.formats.raw import RawMesh, checked_mesh
+from footfit.meshes.known_formats import raw_mesh
 from footfit.meshes.read_limits import LIMITS, Limits
 from footfit.meshes.resolution import coordinate_step
 from footfit.results.values import Notice

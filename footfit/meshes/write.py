@@ -12,9 +12,9 @@ from numpy.typing import NDArray
 from footfit.errors import BadOption
 from footfit.geometry.mesh.surface import face_normals
 from footfit.geometry.numeric.arrays import Floats, Ints
-from footfit.meshes.formats.rhino.writing import encoded_3dm
 from footfit.meshes.formats.stl import FACET, HEADER_BYTES
 from footfit.meshes.formats.threemf import CORE
+from footfit.meshes.rhino.to_3dm import encoded_3dm
 
 VertexData = Mapping[str, NDArray[np.generic]]
 COLOUR = "colour"

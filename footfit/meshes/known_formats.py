@@ -13,10 +13,10 @@ from footfit.meshes.formats.obj import is_obj, read_obj
 from footfit.meshes.formats.off import is_off, read_off
 from footfit.meshes.formats.ply import is_ply, read_ply
 from footfit.meshes.formats.raw import RawMesh, checked_mesh
-from footfit.meshes.formats.rhino.reading import is_3dm, read_3dm
 from footfit.meshes.formats.stl import is_binary_stl, read_ascii_stl, read_binary_stl
 from footfit.meshes.formats.threemf import is_3mf, read_3mf
 from footfit.meshes.read_limits import Limits
+from footfit.meshes.rhino.from_3dm import is_3dm, read_3dm
 from footfit.results.values import Notice
 
 

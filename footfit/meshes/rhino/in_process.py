@@ -1,8 +1,8 @@
 """What runs in a process of its own: ``.3dm`` bytes to arrays and back, with rhino3dm.
 
 rhino3dm is native code. On a damaged file it can work for minutes, and it can end its process. So
-footfit starts this file as a program and watches it; see ``process.py``. It imports nothing of
-footfit. Standard input and output carry the data.
+footfit starts this file as a program and watches it (``watched_process.py``). It imports nothing
+of footfit. Standard input and output carry the data.
 """
 
 from __future__ import annotations

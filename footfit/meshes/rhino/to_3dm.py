@@ -8,8 +8,8 @@ import numpy as np
 
 from footfit.errors import BadOption, TooLarge
 from footfit.geometry.numeric.arrays import Floats, Ints
-from footfit.meshes.formats.rhino.process import INSTALL, RhinoFailed, is_installed, run
 from footfit.meshes.read_limits import LIMITS
+from footfit.meshes.rhino.watched_process import INSTALL, RhinoFailed, is_installed, run
 
 
 def encoded_3dm(vertices: Floats, faces: Ints) -> bytes:

@@ -14,9 +14,9 @@ from footfit.errors import DamagedMesh, EmptyMesh, TooLarge, UnknownFormat
 from footfit.geometry.numeric.arrays import Floats, Ints
 from footfit.meshes.formats.placed_parts import Part, joined_parts
 from footfit.meshes.formats.raw import RawMesh, check_counts
-from footfit.meshes.formats.rhino.process import INSTALL, RhinoFailed, is_installed, run
-from footfit.meshes.formats.rhino.seams import closed_gaps
 from footfit.meshes.read_limits import SIMPLIFY, Limits
+from footfit.meshes.rhino.seams import closed_gaps
+from footfit.meshes.rhino.watched_process import INSTALL, RhinoFailed, is_installed, run
 from footfit.results.values import Notice
 
 _MAGIC = b"3D Geometry File Format "
