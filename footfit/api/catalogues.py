@@ -37,6 +37,7 @@ from footfit.pipeline.library import lasts
 if TYPE_CHECKING:
     from footfit.pipeline.fit.match import Question
     from footfit.pipeline.library.ingest import Entry, HoldSignals, KeepMesh
+    from footfit.results.last_making.section_table import SectionTable
 
 NO_LABELS = results.LastLabels("")
 """Nothing is said of a last: its name is that of its file."""
@@ -293,10 +294,26 @@ class Catalogue(CatalogueFile):
 
         return sources(meshes, split=split, named=named_sources(meshes, self.path), **reading)
 
-    def mesh(self, name: str) -> results.MeshCopy:
-        """The mesh copy of a last, for `mesh_file`; raises UnknownLast."""
+    def mesh(self, name: str, most_faces: int | None = None) -> results.MeshCopy:
+        """The mesh copy of a last, for `mesh_file`; raises UnknownLast.
+
+        With ``most_faces`` it is made lighter if it has more; ``error_mm`` says how far it then
+        lies from the file's mesh at most.
+        """
+        from footfit.meshes.copies.compact_copy import limited_copy
+
         with store.open_catalogue(self.path) as catalogue:
-            return catalogue.mesh_copy(name)
+            copy = catalogue.mesh_copy(name)
+        return copy if most_faces is None else limited_copy(copy, most_faces)
+
+    def sections(self, name: str, count: int = 20) -> SectionTable:
+        """``count`` sections of a last along its bottom, and the named ones; raises UnknownLast.
+
+        Its ``rows()`` are the sizes, the rows of its ``outlines()`` the points.
+        """
+        from footfit.pipeline.last_making.last_sections import section_table
+
+        return section_table(self.shape(name), count)
 
     def rename(self, name: str, new_name: str) -> results.RenameOutcome:
         """Give a last another name; raises UnknownLast or NameTaken."""

@@ -10,7 +10,8 @@ import numpy as np
 
 from footfit.errors import BadOption
 from footfit.geometry.numeric.arrays import Floats
-from footfit.results import AlignedScan, SurfaceCurvature
+from footfit.number_words import plain
+from footfit.results import AlignedScan, LastRecord, SurfaceCurvature
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -18,6 +19,8 @@ if TYPE_CHECKING:
 MESH_KINDS = ("stl", "ply", "obj", "off", "3mf", "3dm")
 PICTURE_KINDS = ("svg", "png")
 CURVATURE_KINDS = ("ply", "npz")
+MOST_FACES = 40_000
+"""Of a mesh that is handed over: as a binary STL it has 2 MB, and every program takes it."""
 
 
 def file_kind(path: Path, kinds: tuple[str, ...]) -> str:
@@ -37,6 +40,28 @@ def file_kind(path: Path, kinds: tuple[str, ...]) -> str:
     if kind not in kinds:
         raise BadOption(f"end the name in {' or '.join('.' + k for k in kinds)}", str(path))
     return kind
+
+
+def trade_name(record: LastRecord) -> str:
+    """What a file of a last is called in a folder: what its labels and its stance say of it.
+
+    Style (else the name), size system and size, width, side, heel height, toe spring at the tip,
+    and the unit; what is not known is left out.
+    """
+    labels = record.labels
+    spring_mm = labels.toe_spring_mm
+    spring_mm = record.value_of("toe_spring_tip") if spring_mm is None else spring_mm
+    size = f"{(labels.size_system or '').upper()}{labels.size or ''}"
+    heights = (("h", record.heel_height_mm), ("ts", spring_mm))
+    words = (
+        labels.style or labels.name,
+        size if labels.size else None,
+        labels.width_label,
+        record.side.side,
+        *(None if mm is None else f"{tag}{plain(mm, 0)}" for tag, mm in heights),
+        "mm",
+    )
+    return "_".join(word for word in words if word)
 
 
 def require_kind(kind: str, kinds: tuple[str, ...]) -> None:

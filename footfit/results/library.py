@@ -188,12 +188,18 @@ class EditOutcome(Document):
 
 @dataclass(frozen=True, slots=True)
 class ExportOutcome(Document):
-    """The file of a last; ``faces`` and ``error_mm`` are None for a record in JSON."""
+    """The file of a last; ``faces`` and ``error_mm`` are None for a record in JSON.
+
+    ``error_mm`` is how far the written mesh lies from that of the file at most. ``sections`` and
+    ``outlines`` are the files of its sections, if there are any.
+    """
 
     last: str
     output: str
     faces: int | None = None
     error_mm: float | None = None
+    sections: str | None = None
+    outlines: str | None = None
 
     schema = "export-last/1"
 

@@ -294,7 +294,7 @@ class Shape:
         places = []
         for side, window in ((-1.0, LANDMARKS.outer_joint), (1.0, LANDMARKS.inner_joint)):
             place = self._outermost_of(side, low & (along > window[0]) & (along < window[1]))
-            if place is None or not self._is_joint(self._share(place), window):
+            if place is None or not self._is_joint(self.share_of(place), window):
                 return None
             places.append(place)
         return places[0], places[1]
@@ -309,10 +309,10 @@ class Shape:
         """Half-way between the middle of the joints and the instep; None without joints."""
         if self.joints is None:
             return None
-        ball = self._share(0.5 * (self.joints[0] + self.joints[1]))
+        ball = self.share_of(0.5 * (self.joints[0] + self.joints[1]))
         return self._crown(0.5 * (ball + LANDMARKS.instep))
 
-    def _share(self, place: Floats) -> float:
+    def share_of(self, place: Floats) -> float:
         """How far forward a place (3,) is, over the length, or over the arc of a last's bottom."""
         if self.bottom_arc is None:
             return float(place[0] - self.x_mm(0.0)) / self.length_mm

@@ -85,6 +85,24 @@ def compact_copy(vertices_mm: Floats, faces: Ints, target_faces: int = COPY_FACE
         target_faces *= 2
 
 
+def limited_copy(copy: MeshCopy, most_faces: int) -> MeshCopy:
+    """The copy with no more than ``most_faces``; itself where it has no more.
+
+    Its ``error_mm`` is the copy's own and how far the lighter mesh lies from it.
+    """
+    if copy.faces <= most_faces:
+        return copy
+    vertices_mm, faces = expanded_mesh(copy.data)
+    target, data = most_faces, copy.data
+    lighter, fewer = vertices_mm, faces
+    while len(fewer) > most_faces and target > most_faces // 2:  # it can end a little over it
+        data = _encoded(*lighter_mesh(vertices_mm, faces, target))
+        lighter, fewer = expanded_mesh(data)
+        target -= 1 + len(fewer) - most_faces
+    error_mm = copy.error_mm + largest_deviation_mm(vertices_mm, faces, lighter, fewer)
+    return MeshCopy(data, len(fewer), error_mm)
+
+
 def expanded_mesh(data: bytes) -> tuple[Floats, Ints]:
     """The mesh in a copy's bytes.
 

@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     from footfit.geometry.stance.cues import StanceLabels
     from footfit.results import Profiled
 
-MESH_SUFFIXES = (".stl", ".obj", ".ply", ".off", ".glb", ".3mf")
+MESH_SUFFIXES = (".stl", ".obj", ".ply", ".off", ".glb", ".3mf", ".3dm")
 READ_KINDS = ", ".join(suffix[1:] for suffix in MESH_SUFFIXES)
 NO_SCANS = (
     *("", ".csv", ".db", ".footfit", ".htm", ".html", ".ini", ".jpeg", ".jpg", ".json", ".jsonl"),

@@ -300,10 +300,12 @@ def export_last_line(outcome: results.ExportOutcome) -> Text:
     """The file of a last, and how far its mesh is from the original."""
     line = Text("exported  ").append(visible(outcome.last), "bold")
     line.append(f" to {visible(outcome.output)}")
-    if outcome.faces is None or outcome.error_mm is None:
-        return line
-    error = plain(outcome.error_mm, 2)
-    return line.append(f"  {outcome.faces:,} faces, at most {error} mm from the file's mesh")
+    if outcome.faces is not None and outcome.error_mm is not None:
+        error = plain(outcome.error_mm, 2)
+        line.append(f"  {outcome.faces:,} faces, at most {error} mm from the file's mesh")
+    if outcome.sections is not None and outcome.outlines is not None:
+        line.append(f"\nsections  {visible(outcome.sections)}, {visible(outcome.outlines)}")
+    return line
 
 
 def upgrade_catalogue_line(outcome: results.UpgradeOutcome) -> RenderableType:
