@@ -12,6 +12,7 @@ if TYPE_CHECKING:
     from footfit.api.last_making import check_run
     from footfit.api.scans import (
         align,
+        cluster,
         compare,
         curvature,
         customers,
@@ -34,6 +35,7 @@ __all__ = [
     "__version__",
     "align",
     "check_run",
+    "cluster",
     "compare",
     "curvature",
     "customers",

@@ -222,7 +222,7 @@ class NoSole(GeometryRefused):
 
 
 class CatalogueUnusable(FootfitError):
-    """The catalogue file cannot be opened or written."""
+    """The catalogue, or the cluster that works for it, cannot be used."""
 
     exit = ExitCode.CATALOGUE_UNUSABLE
 
@@ -245,6 +245,10 @@ class CatalogueDamaged(CatalogueUnusable):
 
 class NewerCatalogue(CatalogueUnusable):
     """A newer version of footfit wrote the file."""
+
+
+class ClusterUnusable(CatalogueUnusable):
+    """The scheduler of a cluster does not answer, or its workers cannot be used."""
 
 
 class CheckFailed(FootfitError):

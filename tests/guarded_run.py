@@ -43,7 +43,7 @@ def main(log: str, arguments: list[str]) -> int:
     from footfit.pipeline.batch import runs
 
     apart = runs.outcomes
-    runs.outcomes = lambda work, items, _jobs: apart(work, items, runs.HERE)
+    runs.outcomes = lambda work, items, _jobs, **more: apart(work, items, runs.HERE, **more)
 
     sys.argv = ["footfit", *arguments]
     code = run_guarded(application(), arguments)

@@ -103,7 +103,7 @@ def test_a_file_that_takes_too_long_is_named_and_the_rest_is_stored(
         return usual(entry, **options)
 
     monkeypatch.setattr(ingest, "new_last", new_last)
-    in_this_process = lambda work, items, _jobs: outcomes(work, items, HERE)  # noqa: E731
+    in_this_process = lambda work, items, _jobs, **more: outcomes(work, items, HERE, **more)  # noqa: E731
     monkeypatch.setattr(ingest, "outcomes", in_this_process)
     got = footfit("ingest-last", tmp_path, "--catalogue", tmp_path / "c", "--json")
     status = {Path(line["path"]).name: line["status"] for line in got.lines if "status" in line}

@@ -29,7 +29,7 @@ from footfit.api.wearers import FitLog
 from footfit.catalogue import store
 from footfit.catalogue.file.opening import FIRST_STEPS
 from footfit.errors import BadOption, NoReference
-from footfit.pipeline.batch.runs import HERE, Outcome
+from footfit.pipeline.batch.runs import HERE, Jobs, Outcome
 from footfit.pipeline.batch.sources import Source
 from footfit.pipeline.customers.customer import Customer, alone, one_pair
 from footfit.pipeline.library import lasts
@@ -104,7 +104,7 @@ class Catalogue(CatalogueFile):
         feet: Meshes | list[Customer],
         *,
         pair: bool = False,
-        jobs: int = HERE,
+        jobs: Jobs = HERE,
         **question: Unpack[MatchKeywords],
     ) -> Iterator[Outcome[Customer, results.Match]]:
         """An outcome for each of many feet, as `outcomes` gives it; a ``pair`` of feet has one.
@@ -232,7 +232,7 @@ class Catalogue(CatalogueFile):
         *,
         replace: bool = False,
         dry_run: bool = False,
-        jobs: int = HERE,
+        jobs: Jobs = HERE,
         keep_mesh: KeepMesh = "compact",
         hold_signals: HoldSignals = nullcontext,
     ) -> Iterator[results.IngestOutcome]:

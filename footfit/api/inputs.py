@@ -6,6 +6,7 @@ import os
 from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any, Literal, Protocol, TypedDict, Union, runtime_checkable
 
+from footfit.pipeline.batch.runs import Jobs
 from footfit.pipeline.batch.sources import ReadingOptions, Source
 from footfit.results import (
     AlignedScan,
@@ -142,7 +143,7 @@ class IngestKeywords(ReadingKeywords, total=False):
 
     replace: bool
     dry_run: bool
-    jobs: int
+    jobs: Jobs
     keep_mesh: Literal["compact", "full"]
 
 

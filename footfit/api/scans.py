@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Callable, Iterator, Mapping
+from concurrent.futures import Executor
 from functools import partial
 from pathlib import Path
 from typing import Any, TypeVar, Unpack
@@ -205,7 +206,7 @@ def customers(
 
 
 def outcomes(
-    verb: Callable[..., T], meshes: Meshes, *, jobs: int = runs.HERE, **options: Any
+    verb: Callable[..., T], meshes: Meshes, *, jobs: runs.Jobs = runs.HERE, **options: Any
 ) -> Iterator[runs.Outcome[Source, T]]:
     """Call ``verb`` with each of many meshes: ``outcomes(measure, "feet/", jobs=2)``.
 
@@ -218,12 +219,29 @@ def outcomes(
         A function that takes a mesh, such as `measure`; with ``jobs`` it must be in a module.
     meshes : mesh or list of meshes
         Files, folders and globs too; see `sources`.
-    jobs : int
-        How many processes work; 0 works in this process.
+    jobs : int or concurrent.futures.Executor
+        How many processes work; 0 works in this process. Or who works, such as a `cluster`.
     **options
         For ``verb``.
     """
     return runs.outcomes(partial(verb, **options), sources(meshes), jobs)
+
+
+def cluster(scheduler: str) -> Executor:
+    """The workers of a Dask scheduler, for a ``with`` block and as ``jobs`` of `outcomes`.
+
+    ``scheduler`` is its address, tcp://HOST:PORT or tls://HOST:PORT. The scans travel there.
+
+    Raises
+    ------
+    BadOption
+        The address is not valid, or footfit is installed without its extra ``cluster``.
+    ClusterUnusable
+        The scheduler does not answer, it has no worker, or a worker has another footfit.
+    """
+    from footfit.pipeline.batch.cluster import Cluster
+
+    return Cluster(scheduler)
 
 
 def profiled_shape(shape: Shape, reading: Mapping[str, Any]) -> Profiled:

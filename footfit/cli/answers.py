@@ -56,6 +56,8 @@ def answer_scans(
         Always; with the exit code that the failures share.
     BadOption, OutputExists, UnreadableFile
         Before any work, if an output cannot be written or there is no mesh.
+    ClusterUnusable
+        The cluster that is to work cannot be used.
     """
     from footfit.api import scans
     from footfit.pipeline.customers.customer import file_stem
@@ -63,8 +65,10 @@ def answer_scans(
     outputs.refuse(as_json=mode.json)
     sources = sources_of(meshes, reading, lasts, split=batch.split, quiet=mode.quiet)
     outputs = outputs.placed([file_stem(source.path) for source in sources], sources)
-    outcomes = scans.outcomes(verb, sources, jobs=batch.jobs, **reading.keywords(), **options)
-    raise typer.Exit(answer_outcomes(outcomes, replace(mode, total=len(sources)), outputs))
+    with batch.at_work() as jobs:
+        outcomes = scans.outcomes(verb, sources, jobs=jobs, **reading.keywords(), **options)
+        code = answer_outcomes(outcomes, replace(mode, total=len(sources)), outputs)
+    raise typer.Exit(code)
 
 
 def answer_outcomes(

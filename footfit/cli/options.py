@@ -5,6 +5,8 @@ A command has a parameter of a group's type; `command_group` shows each option o
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+from contextlib import contextmanager
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal
@@ -12,6 +14,8 @@ from typing import TYPE_CHECKING, Any, Literal
 import typer
 
 if TYPE_CHECKING:
+    from concurrent.futures import Executor
+
     from footfit.api.catalogues import Catalogue
 
 UnitName = Literal["auto", "mm", "cm", "m", "in"]
@@ -332,8 +336,38 @@ class Standing:
 
 
 @dataclass(frozen=True, slots=True)
-class Batch:
-    """How many meshes are worked on."""
+class Crew:
+    """Who works: processes of this machine, or a cluster."""
+
+    jobs: int = member_of(JOBS)
+    scheduler: str | None = member(
+        "--scheduler",
+        "Work on the Dask cluster of this scheduler. The scans travel to its workers.",
+        "tcp://HOST:PORT",
+        panel=READING,
+    )
+
+    @contextmanager
+    def at_work(self) -> Iterator[int | Executor]:
+        """What the functions of `footfit.api` take as ``jobs``.
+
+        Raises
+        ------
+        BadOption, ClusterUnusable
+            The address is not valid; the cluster cannot be used.
+        """
+        if self.scheduler is None:
+            yield self.jobs
+            return
+        from footfit.api.scans import cluster
+
+        with cluster(self.scheduler) as workers:
+            yield workers
+
+
+@dataclass(frozen=True, slots=True)
+class Batch(Crew):
+    """How many meshes are worked on, and who works."""
 
     split: bool = member(
         "--split",
@@ -341,7 +375,6 @@ class Batch:
         **SWITCH,
         panel=READING,
     )
-    jobs: int = member_of(JOBS)
 
 
 @dataclass(frozen=True, slots=True)

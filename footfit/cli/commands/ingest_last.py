@@ -51,11 +51,11 @@ def ingest_last(
         "Keep a compact copy of each mesh, or the full mesh, which custom lasts need.",
         default="compact",
     ),
-    jobs: int = options.JOBS,
     *,
     lasts: options.Lasts,
     reading: options.Reading,
     standing: options.Standing,
+    crew: options.Crew,
     mode: options.OutputMode,
 ) -> None:
     """Read, align, measure and store lasts. A printed line means that the last is stored.
@@ -99,15 +99,20 @@ def ingest_last(
     refused: list[int] = []
     warned = 0
     catalogue, notices = lasts.open_to_make(dry_run=dry_run), Notices(mode)
-    outcomes = catalogue.ingest_each(
-        batch,
-        replace=replace,
-        dry_run=dry_run,
-        jobs=jobs,
-        keep_mesh=keep_mesh,
-        hold_signals=LISTENER.hold,
-    )
-    with reader_required(), failures_last(mode) as tell_failure, progress(mode) as bar:
+    with (
+        crew.at_work() as jobs,
+        reader_required(),
+        failures_last(mode) as tell_failure,
+        progress(mode) as bar,
+    ):
+        outcomes = catalogue.ingest_each(
+            batch,
+            replace=replace,
+            dry_run=dry_run,
+            jobs=jobs,
+            keep_mesh=keep_mesh,
+            hold_signals=LISTENER.hold,
+        )
         for outcome in bar.items(outcomes):
             tell(outcome, mode, notices)
             warned += bool(outcome.warnings)

@@ -143,23 +143,24 @@ def match(
     scans = [foot.source for customer in customers for foot in customer.feet]
     titles = [customer.title for customer in customers]
     outputs = outputs.placed(titles, scans, unless="--pair for one customer's two feet")
-    answers = catalogue.match_each(
-        customers,
-        jobs=batch.jobs,
-        by=by,
-        profile=profile,
-        top=top,
-        style=style,
-        size_system=size_system,
-        clearance=clearance,
-        stock=stock,
-        **reading.keywords(),
-        **worn.keywords(),
-        **growing.keywords(),
-    )
     mode = replace(mode, total=len(customers))
     summary = Summary(fail_under)
-    code = answer_outcomes(answers, mode, outputs, summary.add, len(scans), "customers")
+    with batch.at_work() as jobs:
+        answers = catalogue.match_each(
+            customers,
+            jobs=jobs,
+            by=by,
+            profile=profile,
+            top=top,
+            style=style,
+            size_system=size_system,
+            clearance=clearance,
+            stock=stock,
+            **reading.keywords(),
+            **worn.keywords(),
+            **growing.keywords(),
+        )
+        code = answer_outcomes(answers, mode, outputs, summary.add, len(scans), "customers")
     if len(customers) > 1 and not mode.json and csv != options.STDOUT:
         show(customers_table(summary.lines))
     raise typer.Exit(summary.checked_code(code, as_json=mode.json))

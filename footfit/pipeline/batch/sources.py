@@ -103,6 +103,14 @@ def mesh_sources(
     return [named.get(path) or Source(path) for path in paths]
 
 
+def source_bytes(source: Source) -> bytes:
+    """The bytes of a source, behind the guards of ``meshes.read``."""
+    from footfit.meshes.file_bytes import file_bytes
+    from footfit.meshes.read_limits import LIMITS
+
+    return source.data if source.data is not None else file_bytes(source.path or "", LIMITS)
+
+
 def is_no_path(argument: str) -> bool:
     """Whether there is no file and no folder of that name."""
     try:

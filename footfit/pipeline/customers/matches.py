@@ -10,7 +10,7 @@ from itertools import islice
 from footfit import results
 from footfit.errors import BadOption, GeometryRefused, SameSide
 from footfit.pipeline.batch.phases import begin
-from footfit.pipeline.batch.runs import HERE, Outcome, outcomes
+from footfit.pipeline.batch.runs import HERE, Jobs, Outcome, outcomes
 from footfit.pipeline.batch.sources import ReadingOptions
 from footfit.pipeline.customers.customer import Customer, CustomerFoot
 from footfit.pipeline.customers.growth_forecast import with_growth
@@ -26,7 +26,7 @@ def matches(
     library: results.Library,
     question: Question,
     *,
-    jobs: int = 1,
+    jobs: Jobs = 1,
 ) -> Iterator[Outcome[Customer, results.Match]]:
     """Each customer's answer, in order.
 

@@ -14,7 +14,7 @@ from footfit.catalogue.rows.last_names import caseless, composed, differs_in_cas
 from footfit.catalogue.rows.requirements import same_scan
 from footfit.catalogue.store import Catalogue, open_catalogue
 from footfit.errors import BadOption, ExitCode, FootfitError, NameTaken, NoCatalogue
-from footfit.pipeline.batch.runs import HERE, Outcome, outcomes
+from footfit.pipeline.batch.runs import HERE, Jobs, Outcome, outcomes
 from footfit.pipeline.batch.sources import ReadingOptions, Source
 from footfit.pipeline.library.manifest import LABEL_HEIGHTS, ManifestRow
 from footfit.pipeline.scan.kept_sections import kept_sections
@@ -121,25 +121,20 @@ def _entry(
     return Entry(source, labels, reading)
 
 
-def new_last(
-    entry: Entry, known: frozenset[str] = frozenset(), keep_mesh: KeepMesh = "compact"
-) -> NewLast:
+def new_last(entry: Entry, keep_mesh: KeepMesh = "compact") -> NewLast:
     """The slow part of an ingest. It does not use the catalogue, and runs in a worker.
 
-    ``known`` holds the content hashes that the catalogue has: those files are not aligned again.
     ``keep_mesh`` "full" keeps every face of the mesh.
     """
     from footfit.meshes.copies.compact_copy import COPY_FACES, compact_copy
 
-    sha256 = content_hash(entry.source)
-    if sha256 in known:
-        return NewLast(sha256)
     shape = profiled_source(entry.source, entry.reading)
     faces = shape.aligned.faces
     target = len(faces) if keep_mesh == "full" else COPY_FACES
     copy = compact_copy(shape.aligned.vertices_mm, faces, target)
     sections = kept_sections(shape.aligned.prepared.shape)
-    return NewLast(sha256, last_record(shape, entry.labels), copy, sections)
+    record = last_record(shape, entry.labels)
+    return NewLast(record.info.sha256, record, copy, sections)
 
 
 class Holdings:
@@ -219,7 +214,7 @@ def ingest(
     batch: Sequence[Entry],
     path: Path,
     *,
-    jobs: int = HERE,
+    jobs: Jobs = HERE,
     replace: bool = False,
     dry_run: bool = False,
     keep_mesh: KeepMesh = "compact",
@@ -247,9 +242,9 @@ def ingest(
         holdings = Holdings(_stored_lasts(path) if catalogue is None else catalogue.lasts().records)
         again = replace and keep_mesh == "full"  # its copy may be a lighter one
         known = frozenset() if replace else frozenset(holdings.by_content)
-        work_on = partial(new_last, known=known, keep_mesh=keep_mesh)
+        work_on = partial(new_last, keep_mesh=keep_mesh)
         made = None
-        for work in outcomes(work_on, batch, jobs):
+        for work in outcomes(work_on, batch, jobs, known=partial(_known_last, known)):
             with hold_signals():
                 if catalogue is None and not dry_run and work.value is not None:
                     catalogue = stack.enter_context(writing())  # made only for a last to store
@@ -258,6 +253,12 @@ def ingest(
                 outcome = _store(work, holdings, catalogue, replace=replace, again=again)
                 yield dataclasses.replace(outcome, dry_run=dry_run, new_catalogue=made)
                 made = None
+
+
+def _known_last(known: frozenset[str], entry: Entry) -> NewLast | None:
+    """The last of a file whose content hash the catalogue has: it is not aligned again."""
+    sha256 = content_hash(entry.source)
+    return NewLast(sha256) if sha256 in known else None
 
 
 def _stored_lasts(path: Path) -> Sequence[LastRecord]:

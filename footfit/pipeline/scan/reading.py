@@ -9,13 +9,11 @@ from typing import Literal, cast
 
 from footfit import results
 from footfit.errors import BadOption, FootfitError, UnknownUnits, errors_at
-from footfit.meshes.file_bytes import file_bytes
 from footfit.meshes.read import file_mesh
-from footfit.meshes.read_limits import LIMITS
 from footfit.meshes.units import check_unit_options
 from footfit.pipeline.batch.phases import begin
 from footfit.pipeline.batch.side_words import side_of_file
-from footfit.pipeline.batch.sources import ReadingOptions, Source
+from footfit.pipeline.batch.sources import ReadingOptions, Source, source_bytes
 from footfit.pipeline.scan.align import aligned_scan
 from footfit.pipeline.scan.cleaning import scan_of
 from footfit.pipeline.scan.flare import profiled_scan
@@ -28,11 +26,6 @@ from footfit.pipeline.scan.trueness import check_scanner
 AS_FOUND = ReadingOptions()
 ANY_LENGTH_MM = 250.0
 """What a shape of unknown scale is taken to be, to look at the shape alone."""
-
-
-def source_bytes(source: Source) -> bytes:
-    """The bytes of a source, behind the guards of ``meshes.read``."""
-    return source.data if source.data is not None else file_bytes(source.path or "", LIMITS)
 
 
 def content_hash(source: Source) -> str:
