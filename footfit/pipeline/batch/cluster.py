@@ -39,7 +39,7 @@ class Patience:
     """
 
     to_connect_s: float = 10.0
-    for_a_worker_s: float = 20.0
+    for_a_worker_s: float = 10.0
     look_every_s: float = 1.0
     without_workers_s: float = 60.0
     resubmissions: int = 3
@@ -256,8 +256,12 @@ def _client(address: str, patience: Patience) -> Any:
         import distributed
     except ImportError as error:
         raise BadOption(NOT_INSTALLED) from error
-    for name in [name for name in logging.root.manager.loggerDict if "distributed" in name]:
-        logging.getLogger(name).setLevel(logging.CRITICAL + 1)
+    for name in list(logging.root.manager.loggerDict):  # Dask would write to stderr
+        if name.split(".")[0] in ("distributed", "tornado"):
+            logging.getLogger(name).setLevel(logging.CRITICAL + 1)
+    if address.startswith("tls") and not _has_certificates(distributed.Security()):
+        words = "tls:// needs certificates, and Dask's settings name none; docs/cluster.md says how"
+        raise ClusterUnusable(words, address)
     wait = f"{patience.to_connect_s:g}s"
     dask.config.set(
         {
@@ -265,11 +269,19 @@ def _client(address: str, patience: Patience) -> Any:
             "distributed.admin.large-graph-warning-threshold": "10GB",
         }
     )
+    connect = partial(distributed.Client, address, timeout=wait, set_as_default=False)
+    client: Future[Any] = Future()
+    # Dask may wait for ever if another program listens there.
+    threading.Thread(target=lambda: _settle(client, *_answer(connect)), daemon=True).start()
     try:
-        return distributed.Client(address, timeout=wait, set_as_default=False)
+        return client.result(patience.to_connect_s + patience.look_every_s)
     except Exception as error:
         words = f"no Dask scheduler answers there ({_first_line(error)}); look at its address"
         raise ClusterUnusable(words, address) from error
+
+
+def _has_certificates(security: Any) -> bool:
+    return security.get_connection_args("client").get("ssl_context") is not None
 
 
 def _require_scheduler(address: str, patience: Patience) -> None:
