@@ -11,9 +11,22 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
+from footfit.pipeline.batch.sources import Source
+
 ROOT = Path(__file__).resolve().parents[1]
 AT_ONCE = "DASK_DISTRIBUTED__SCHEDULER__ALLOWED_FAILURES"
 """With 0 Dask gives up a task when its first worker dies: footfit has to send it again."""
+
+
+def path_and_size(source: Source) -> str:
+    """What a worker sees of an item: its bytes have travelled."""
+    assert source.data is not None
+    return f"{source.path} {len(source.data)}"
+
+
+def failing(source: Source) -> str:
+    """Work with a bug."""
+    raise ValueError(source.path)
 
 
 @dataclass

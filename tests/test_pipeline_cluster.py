@@ -22,7 +22,7 @@ from footfit.pipeline.batch.sources import ReadingOptions, Source, mesh_sources
 from footfit.pipeline.library.ingest import entries, ingest
 from footfit.results import LastLabels
 from footfit.version import __version__
-from tests.clusters import LocalCluster, local_cluster
+from tests.clusters import LocalCluster, failing, local_cluster, path_and_size
 from tests.conftest import SAMPLES, Footfit
 
 LASTS = [str(path) for path in sorted((SAMPLES / "lasts").glob("*.*"))[:4]]
@@ -95,28 +95,18 @@ def test_ctrl_c_leaves_what_was_acknowledged(cluster: LocalCluster, tmp_path: Pa
     assert len(lines) < len(LASTS)
 
 
-def name_of(source: Source) -> str:
-    """What a worker sees of an item: its bytes have travelled."""
-    assert source.data is not None
-    return f"{source.path} {len(source.data)}"
-
-
 def test_the_bytes_of_a_file_travel(cluster: LocalCluster, tmp_path: Path) -> None:
     (tmp_path / "a").write_bytes(b"12345")
     with Cluster(cluster.address) as workers:
-        (found,) = outcomes(name_of, [Source(str(tmp_path / "a"))], workers)
+        (found,) = outcomes(path_and_size, [Source(str(tmp_path / "a"))], workers)
     assert found.value == f"{tmp_path / 'a'} 5"
-
-
-def fail(source: Source) -> str:
-    raise ValueError(source.path)
 
 
 def test_a_bug_on_a_worker_is_raised_here(cluster: LocalCluster, tmp_path: Path) -> None:
     (tmp_path / "bug").touch()
     source = Source(str(tmp_path / "bug"), b"")
     with Cluster(cluster.address) as workers, pytest.raises(ValueError, match="bug"):
-        list(outcomes(fail, [source], workers))
+        list(outcomes(failing, [source], workers))
 
 
 def test_a_scheduler_that_goes_away_ends_the_batch_in_one_line(

@@ -201,8 +201,12 @@ def answer_on_worker(version: str, call: bytes) -> tuple[Any, BaseException | No
     except ClusterUnusable:
         words = f"has footfit {__version__}, and the command {version}: install the same version"
         return None, ClusterUnusable(words, worker.address)
+    return _answer(lambda: _done_in_pool(_pool(worker.state.nthreads), call))
+
+
+def _done_in_pool(pool: WorkerPool, call: bytes) -> Any:
     fn, args, kwargs = pickle.loads(call)
-    return _answer(_pool(worker.state.nthreads).submit(fn, *args, **kwargs).result)
+    return pool.submit(fn, *args, **kwargs).result()
 
 
 @lru_cache(maxsize=1)
