@@ -27,11 +27,11 @@ def curvature(
         "MM",
         min=0,
     ),
-    jobs: int = options.JOBS,
     force: bool = options.FORCE,
     *,
     lasts: options.Lasts,
     scale: options.Scale,
+    crew: options.Crew,
     mode: options.OutputMode,
 ) -> None:
     """Measure the concentrated curvature of a surface at every vertex, in 1/mm.
@@ -46,7 +46,7 @@ def curvature(
     mesh, picture = (output, CURVATURE_KINDS, files.mesh_file), (plot, PICTURE_KINDS, files.picture)
     outputs = Outputs((OutputFile(*mesh), OutputFile(*picture)), force=force)
     chosen = {"radius_mm": radius, "output": None if output is None else str(output)}
-    batch = options.Batch(split=False, jobs=jobs)
+    batch = options.Batch(split=False, jobs=crew.jobs, scheduler=crew.scheduler)
     answer_scans(curvature_with_output, meshes, scale, batch, mode, outputs, lasts, **chosen)
 
 
