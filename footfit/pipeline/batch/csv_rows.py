@@ -6,10 +6,12 @@ import codecs
 import csv
 import io
 import re
-from collections.abc import Sequence
+from collections.abc import Iterable, Iterator, Sequence
+from contextlib import contextmanager
 from difflib import get_close_matches
+from itertools import chain
 from pathlib import Path
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 from footfit.errors import BadManifest
 
@@ -49,11 +51,8 @@ def csv_rows(path: Path, columns: Sequence[str], required: Sequence[str]) -> lis
     BadManifest
         It is not a file, not text or too large, or its content is not understood.
     """
+    _check_file(path)
     try:
-        if not path.exists():
-            raise BadManifest("there is no such file: check the path", str(path))
-        if not path.is_file():
-            raise BadManifest("is not a file; name a CSV file", str(path))
         if path.stat().st_size > LARGEST_BYTES:
             limit = f"{LARGEST_BYTES / 1e6:.0f} MB"
             raise BadManifest(f"is larger than {limit}; give it fewer lines", str(path))
@@ -61,6 +60,17 @@ def csv_rows(path: Path, columns: Sequence[str], required: Sequence[str]) -> lis
     except OSError as error:
         raise BadManifest(f"cannot be read ({error.strerror})", str(path)) from error
     return rows_of_text(_decoded(data, str(path)), columns, required, str(path))
+
+
+def _check_file(path: Path) -> None:
+    """Refuse a path that is no file."""
+    try:
+        if not path.exists():
+            raise BadManifest("there is no such file: check the path", str(path))
+        if not path.is_file():
+            raise BadManifest("is not a file; name a CSV file", str(path))
+    except OSError as error:  # such as a name that is too long
+        raise BadManifest(f"cannot be read ({error.strerror})", str(path)) from error
 
 
 def rows_of_text(
@@ -81,24 +91,76 @@ def rows_of_text(
     >>> rows_of_text("path;size;;\na.stl;42;;\n;;;\n", ("path", "size"), ("path",), "lasts.csv")
     [CsvRow(where='lasts.csv line 2', values={'path': 'a.stl', 'size': '42'})]
     """
-    said = _EXCELS_LINE.match(text)
-    text = text[said.end() :] if said else text
-    delimiter = said[1] if said else _delimiter(text, required)
-    reader = csv.reader(
-        io.StringIO(text, newline=""), delimiter=delimiter, skipinitialspace=True, strict=True
-    )
-    rows = []
+    table = _table_of(io.StringIO(text, newline=""), required, origin)
+    names = _checked_names(table.head, columns, required, origin)
+    known = ((where, _values(cells, names, where)) for where, cells in table.rows)
+    return [CsvRow(where, values) for where, values in known if values]
+
+
+class CsvTable(NamedTuple):
+    """A table as it is read: its head as it stands, and its rows, each with its file and line."""
+
+    head: list[str]
+    rows: Iterator[tuple[str, list[str]]]
+
+
+@contextmanager
+def csv_stream(path: Path, required: Sequence[str] = ()) -> Iterator[CsvTable]:
+    """The table of a file of any length, which is never in memory as a whole.
+
+    ``required`` are columns that help to see which delimiter the table has.
+
+    Raises
+    ------
+    BadManifest
+        It is not a file, not text, or not a table.
+    """
+    _check_file(path)
+    origin = str(path)
     try:
-        header: list[str] = next((cells for cells in reader if any(map(str.strip, cells))), [])
-        names = _checked_names(header, columns, required, origin)
+        with path.open("rb") as file:
+            is_utf16 = file.read(2) in _UTF16_MARKS
+        encoding = "utf-16" if is_utf16 else "utf-8-sig"
+        with path.open(encoding=encoding, newline="") as text:
+            yield _table_of(text, required, origin)
+    except UnicodeDecodeError as error:
+        raise BadManifest(f"is not UTF-8 text; {SAVE_AGAIN}", origin) from error
+    except OSError as error:
+        raise BadManifest(f"cannot be read ({error.strerror})", origin) from error
+
+
+def _table_of(text: Iterable[str], required: Sequence[str], origin: str) -> CsvTable:
+    """The table in lines of text; the head decides which delimiter it has."""
+    lines = (line for line in text)
+    passed, delimiter = 0, None
+    first = ""
+    for line in lines:
+        said = _EXCELS_LINE.fullmatch(line) if passed == 0 else None
+        if said:
+            delimiter = said[1]
+        elif line.strip(" ,;|\t\r\n"):
+            first = line
+            break
+        passed += 1
+    reader = csv.reader(
+        chain([first], lines),
+        delimiter=delimiter or _delimiter(first, required),
+        skipinitialspace=True,
+        strict=True,
+    )
+    rows = _numbered_rows(reader, origin, passed)
+    return CsvTable(next(rows, ("", []))[1], rows)
+
+
+def _numbered_rows(reader: Any, origin: str, passed: int) -> Iterator[tuple[str, list[str]]]:
+    """The rows of a reader with their places; ``passed`` lines stand before its first."""
+    try:
         for cells in reader:
-            where = f"{origin} line {reader.line_num + (1 if said else 0)}"
-            if values := _values(cells, names, where):
-                rows.append(CsvRow(where, values))
+            yield f"{origin} line {reader.line_num + passed}", cells
     except csv.Error as error:
-        problem = f"is not a CSV file ({error} in line {reader.line_num})"
-        raise BadManifest(f"{problem}; {SAVE_AGAIN}", origin) from error
-    return rows
+        line = reader.line_num + passed
+        words = f"is not a CSV file ({error} in line {line}); {SAVE_AGAIN}"
+        raise BadManifest(words, origin) from error
 
 
 def _decoded(data: bytes, origin: str) -> str:
@@ -113,15 +175,21 @@ def _decoded(data: bytes, origin: str) -> str:
     return text
 
 
-def _delimiter(text: str, required: Sequence[str]) -> str:
-    """What divides the header into most columns, with the required ones among them."""
-    line = text.lstrip().partition("\n")[0]
-    parts = {each: [_plain(cell) for cell in line.split(each)] for each in DELIMITERS}
+def _delimiter(line: str, required: Sequence[str]) -> str:
+    """What divides the head into most columns, with the required ones among them."""
+    parts = {each: [plain_name(cell) for cell in line.split(each)] for each in DELIMITERS}
     able = [each for each in DELIMITERS if set(required) <= set(parts[each])]
     return max(able or DELIMITERS, key=lambda each: len(parts[each]))
 
 
-def _plain(name: str) -> str:
+def plain_name(name: str) -> str:
+    """The name of a column without regard to case, spaces and dashes.
+
+    Examples
+    --------
+    >>> plain_name(' "Ball-Girth" ')
+    'ball_girth'
+    """
     return "_".join(name.strip().strip('"').casefold().replace("-", " ").replace("_", " ").split())
 
 
@@ -129,7 +197,7 @@ def _checked_names(
     cells: Sequence[str], columns: Sequence[str], required: Sequence[str], origin: str
 ) -> list[str]:
     """The names of the columns, "" for one without a name."""
-    names = [_plain(cell) for cell in cells]
+    names = [plain_name(cell) for cell in cells]
     known = f"the columns are {', '.join(columns)}"
     for name, cell in zip(names, cells, strict=True):
         if name and name not in columns:

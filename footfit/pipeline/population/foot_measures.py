@@ -24,10 +24,11 @@ NO_CURVE = np.empty((0, 2))
 class FootMeasures:
     """One foot: its side, what zones read of it, and its toes in plan, if they were scanned whole.
 
-    ``sha256`` is that of the scan's file. Of the flare only the angle and the plan curvature stay.
+    ``key`` is the hash of the scan's file, and which foot of the file it is. Of
+    the flare only the angle and the plan curvature stay.
     """
 
-    sha256: str
+    key: str
     side: SideName | None
     shape: ZoneShape
     toes: ToesPlan | None
@@ -41,11 +42,17 @@ def read_foot(source: Source, reading: ReadingOptions) -> FootMeasures:
     InputError, GeometryRefused
         As a match of this foot.
     """
-    return foot_measures(profiled_source(source, reading))
+    return foot_measures(profiled_source(source, reading), part_mark(source))
 
 
-def foot_measures(foot: Profiled) -> FootMeasures:
-    """What is kept of a foot."""
+def part_mark(source: Source) -> str:
+    """Which foot of its file a source is: "#1", or nothing."""
+    mark = (source.path or "").rpartition("#")
+    return f"#{mark[2]}" if source.scan is not None and mark[1] and mark[2].isdigit() else ""
+
+
+def foot_measures(foot: Profiled, mark: str = "") -> FootMeasures:
+    """What is kept of a foot; ``mark`` says which one of its file it is."""
     whole, toes = foot_shape(foot), plan_of_foot(foot)
     flare = foot.flare
     shape = ZoneShape(
@@ -64,7 +71,7 @@ def foot_measures(foot: Profiled) -> FootMeasures:
     )
     info = foot.aligned.alignment.info
     side = foot.aligned.alignment.side.side
-    return FootMeasures(info.sha256, side, shape, None if isinstance(toes, str) else toes)
+    return FootMeasures(info.sha256 + mark, side, shape, None if isinstance(toes, str) else toes)
 
 
 def foot_table(ids: Sequence[str], feet: Sequence[FootMeasures], names: Iterable[str]) -> FootTable:

@@ -77,6 +77,8 @@ class Judged:
     margin, margin_zone : (n,)
         How far inside acceptable the tightest zone that counts is, in the unit of the zone; - is
         outside. NaN and -1 if nothing was judged.
+    known : (n, z)
+        Whether any last could be judged in a zone.
     alone, with_length : (n, z, 2)
         Whether any last is good, or at least acceptable, in a zone alone; in it and in length.
     served : (2, lasts, n / 8)
@@ -89,6 +91,7 @@ class Judged:
     clearance: Floats
     margin: Floats
     margin_zone: Ints
+    known: Bools
     alone: Bools
     with_length: Bools
     served: Bytes
@@ -178,6 +181,7 @@ def _judged(feet: FootTable, lasts: LastTable, asking: Asking, heels: Heels) -> 
         clearance=clearance,
         margin=margin,
         margin_zone=margin_zone,
+        known=(level != NOT_JUDGED).any(axis=1),
         alone=_any_last(level, level),
         with_length=_any_last(level, np.maximum(level, level[:, :, length, None])),
         served=np.packbits(np.swapaxes(served, 1, 2), axis=2),

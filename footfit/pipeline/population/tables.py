@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
+from typing import TypeVar
 
 import numpy as np
 
@@ -18,6 +19,7 @@ from footfit.pipeline.population.shape_columns import ROOM, ShapeColumns, shape_
 from footfit.results import FitProfile, LastRecord, SideName
 
 Sides = tuple[SideName | None, ...]
+T = TypeVar("T")
 
 
 @dataclass(frozen=True, slots=True)
@@ -43,13 +45,20 @@ class FootTable:
 
     def part(self, start: int, stop: int) -> FootTable:
         """The feet from one place to another."""
-        rows = slice(start, stop)
+        return self.chosen(np.arange(start, min(stop, len(self))))
+
+    def chosen(self, rows: Ints) -> FootTable:
+        """Some of the feet."""
+
+        def of(values: Sequence[T]) -> tuple[T, ...]:
+            return tuple(values[row] for row in rows)
+
         return FootTable(
-            self.ids[rows],
-            self.sides[rows],
+            of(self.ids),
+            of(self.sides),
             self.shapes.part(rows),
-            {name: column[rows] for name, column in self.columns.items()},
-            None if self.toes is None else self.toes[rows],
+            {name: of(column) for name, column in self.columns.items()},
+            None if self.toes is None else of(self.toes),
         )
 
 

@@ -1,0 +1,162 @@
+"""Whom a catalogue of lasts serves: the coverage of a population of feet."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, Unpack
+
+from footfit import results
+from footfit.api.inputs import (
+    FilePath,
+    HeelKeywords,
+    Meshes,
+    ReadingKeywords,
+    WornKeywords,
+    heel_options,
+    reading_options,
+    worn_options,
+)
+from footfit.api.scans import sources
+from footfit.errors import EmptyCatalogue, NoCandidate
+from footfit.pipeline.batch.runs import HERE
+from footfit.results.population.coverage_answer import Coverage
+
+if TYPE_CHECKING:
+    from footfit.pipeline.batch.sources import Source
+    from footfit.pipeline.population.feet_scans import FootOutcome
+
+TABLES = (".csv", ".tsv", ".txt")
+"""The suffixes of a table of measures."""
+
+
+class CoverageKeywords(ReadingKeywords, HeelKeywords, WornKeywords, total=False):
+    """What is asked of a population, and how scans are to be understood.
+
+    ``profile`` is the name or the file of a fit profile. ``style``, ``size_system`` and ``stock``
+    filter the lasts as in a match. ``group_by`` are columns of a CSV. ``next_lasts`` is how many
+    lasts to plan. ``jobs`` is how many processes read scans, and ``cache`` a file that keeps their
+    measures.
+    """
+
+    profile: str
+    style: str | None
+    size_system: str | None
+    stock: FilePath | None
+    group_by: Sequence[str]
+    next_lasts: int
+    jobs: int
+    cache: FilePath | None
+
+
+def coverage(feet: Meshes, catalogue: FilePath, **asked: Unpack[CoverageKeywords]) -> Coverage:
+    """Whom the lasts of a catalogue serve: shares of feet, the gaps, and the lasts to make next.
+
+    Parameters
+    ----------
+    feet : path or list of meshes
+        A CSV of measures, or scans: files, folders and globs. docs/coverage.md has the columns.
+    catalogue : path
+    **asked
+        See `CoverageKeywords`.
+
+    Raises
+    ------
+    BadManifest, BadOption
+        The CSV is not understood; there is no such profile, column or size system.
+    NoCatalogue, NoCandidate, CatalogueUnusable
+        There is no catalogue, no last passes the filters, or the file cannot be used.
+    """
+    asker = coverage_asker(Path(catalogue), asked)
+    if is_table(feet):
+        return asker.of_table(Path(os.fspath(feet)))  # type: ignore[arg-type]
+    given = sources(feet)
+    return asker.of_scans(asker.measured(given), given)
+
+
+def is_table(feet: Any) -> bool:
+    """Whether feet are given as a CSV of measures, by the suffix of its name."""
+    return isinstance(feet, (str, os.PathLike)) and Path(feet).suffix.lower() in TABLES
+
+
+@dataclass(frozen=True, slots=True)
+class CoverageAsker:
+    """A question to a catalogue: its lasts are read once, before any foot is."""
+
+    library: results.Library
+    asked: dict[str, Any]
+    profile: results.FitProfile
+
+    def measured(self, given: Sequence[Source]) -> Iterator[FootOutcome]:
+        """The measures of scans, each as it is read."""
+        from footfit.pipeline.population.feet_scans import measured_feet
+
+        cache = self.asked.get("cache")
+        jobs, reading = self.asked.get("jobs", HERE), reading_options(self.asked)
+        return measured_feet(given, reading, jobs, None if cache is None else Path(cache))
+
+    def of_scans(self, measured: Iterable[FootOutcome], given: Sequence[Source]) -> Coverage:
+        """The coverage of feet that were measured."""
+        from footfit.pipeline.population.feet_scans import feet_of_scans
+
+        feet, failed = feet_of_scans(measured, given)
+        return self._answer(feet, failed, ())
+
+    def of_table(self, path: Path) -> Coverage:
+        """The coverage of the feet of a CSV."""
+        from footfit.pipeline.population.feet_csv import feet_of_csv
+
+        feet, notices = feet_of_csv(path, self.asked.get("group_by", ()))
+        return self._answer(feet, (), notices)
+
+    def _answer(self, feet: Any, failed: Any, notices: tuple[results.Notice, ...]) -> Coverage:
+        from footfit.pipeline.fit.worn_shifts import worn_with
+        from footfit.pipeline.population import coverage_run
+        from footfit.pipeline.population.judging import Asking
+        from footfit.pipeline.population.tables import last_table
+
+        library, asked = self.library, self.asked
+        worn = worn_with(self.profile, worn_options(asked))
+        people = coverage_run.Population(
+            feet,
+            failed,
+            tuple(asked.get("group_by", ())),
+            _shown_system(asked.get("size_system")),
+            asked.get("next_lasts", coverage_run.NEXT_LASTS),
+            (*library.warnings, *notices),
+        )
+        lasts = last_table(library.lasts, self.profile, library.file)
+        return coverage_run.coverage(people, lasts, Asking(self.profile, heel_options(asked), worn))
+
+
+def coverage_asker(path: Path, asked: Any) -> CoverageAsker:
+    """A question to the lasts of a catalogue, which are read now; one without a last serves nobody.
+
+    Raises
+    ------
+    NoCatalogue, NoCandidate, CatalogueUnusable, BadOption
+        As `coverage`.
+    """
+    from footfit.pipeline.fit.candidates import choice, in_stock
+    from footfit.pipeline.fit.fit_profile import fit_profile
+
+    profile = fit_profile(asked.get("profile", "walking"))
+    try:
+        library = choice(path, asked.get("style"), asked.get("size_system"))
+        if not library.lasts:
+            raise NoCandidate("no last passes these filters; see footfit list-lasts")
+        stock = asked.get("stock")
+        library = library if stock is None else in_stock(library, Path(stock))
+    except EmptyCatalogue:
+        library = results.Library((), 0, None)
+    return CoverageAsker(library, dict(asked), profile)
+
+
+def _shown_system(asked: str | None) -> str:
+    """The size system that feet are grouped by; a maker's own system says nothing of feet."""
+    from footfit.geometry.fit.sizes import system_named
+
+    system = system_named(asked)
+    return "eu" if system is None else system.name
