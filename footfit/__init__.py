@@ -10,6 +10,7 @@ if TYPE_CHECKING:
     from footfit.api.catalogues import Catalogue, match, open_catalogue
     from footfit.api.files import mesh_file, page, picture, sheet, to_trimesh
     from footfit.api.last_making import check_run
+    from footfit.api.populations import coverage
     from footfit.api.scans import (
         align,
         cluster,
@@ -37,6 +38,7 @@ __all__ = [
     "check_run",
     "cluster",
     "compare",
+    "coverage",
     "curvature",
     "customers",
     "errors",

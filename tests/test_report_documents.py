@@ -43,7 +43,7 @@ from footfit.results.evidence.fit_entries import FitList, ForgetOutcome, RecordO
 from footfit.results.evidence.fit_evidence import Calibration
 from footfit.results.evidence.profiles import CheckedProfile, ProfileList, ShownProfile
 from footfit.results.values import exact, json_number, part
-from tests import answers, fits
+from tests import answers, fits, people
 from tests.bounds import ROUNDING, printed
 from tests.comparisons import comparison
 
@@ -89,6 +89,7 @@ def every_document():
         CheckOutcome("a.footfit", 12, 12, (FINDING,)),
         BackupOutcome("a.footfit", "b.footfit", 9, 12),
         RestoreOutcome("a.footfit", "b.footfit", 12, None),
+        people.small_answer(),
         DemoOutcome("demo", 12, "derby-42", ("report.html",)),
     ]
     return [result.to_dict() for result in results]
@@ -165,6 +166,19 @@ def test_the_page_lists_the_keys_of_a_comparison() -> None:
     assert set(section) == listed["section"]
     assert set(section["sizes"]["width"]) == listed["size difference"]
     assert set(section["sizes"]["width"]["foot"]) == listed["measured value"]
+
+
+def test_the_page_lists_the_keys_of_a_coverage() -> None:
+    listed, document = listed_keys(), people.small_answer().to_dict()
+    share = {"count", "of", "share", "low", "high"}
+    assert set(document["good"]) == listed["share"] == share
+    assert set(document["zones"][0]) == listed["served zone"]
+    assert set(document["zones"][0]["alone"]) == {"good", "acceptable"}
+    assert set(document["lasts"][0]) == listed["served last"]
+    assert set(document["next_lasts"][0]) == listed["next last"]
+    measures = {f"{name}_mm" for name in people.NAMES}
+    assert set(document["feet"][0]) - measures == listed["judged foot"]
+    json_line(document)
 
 
 def test_an_error_is_said_without_the_heavy_libraries() -> None:

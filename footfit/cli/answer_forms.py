@@ -13,6 +13,7 @@ from footfit import results
 from footfit.report.terminal import (
     catalogue_tables,
     comparison_tables,
+    coverage_tables,
     evidence_tables,
     last_making_tables,
     match_tables,
@@ -20,6 +21,7 @@ from footfit.report.terminal import (
     scan_tables,
 )
 from footfit.results import Alignment, IngestOutcome, Match, MeshInfo, Notice
+from footfit.results.population.coverage_answer import Coverage
 from footfit.results.values import notices_about
 
 if TYPE_CHECKING:
@@ -143,5 +145,6 @@ FORMS: dict[type, Form] = {
         lambda shown: profile_tables.show_profile_table(shown, _zone_labels())
     ),
     results.CheckedProfile: Form(profile_tables.check_profile_line),
+    Coverage: Form(coverage_tables.coverage_table, lambda answer: (None, answer.warnings)),
     results.DemoOutcome: Form(catalogue_tables.demo_table),
 }

@@ -17,7 +17,7 @@ from footfit.version import __version__
 HEADINGS = {
     "Start here": "demo",
     "The paper's commands": "ingest-last set-reference align flare curvature measure match",
-    "Fit": "compare",
+    "Fit": "compare coverage",
     "Lasts made from lasts": "check-run",
     "Fit profiles": "list-profiles show-profile check-profile calibrate-profile",
     "What wearers say": "record-fit list-fits forget-fits",

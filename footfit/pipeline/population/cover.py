@@ -48,6 +48,7 @@ def greedy_cover(bits: Bytes, wanted: Bytes, most: int | None = None) -> Cover:
     ([1, 0], [3, 1], [3, 4])
     """
     left = wanted.copy()
+    reach = int(counts(wanted & np.bitwise_or.reduce(bits, axis=0, initial=0)))
     rows: list[int] = []
     gains: list[int] = []
     tops: list[Ints] = []
@@ -60,9 +61,8 @@ def greedy_cover(bits: Bytes, wanted: Bytes, most: int | None = None) -> Cover:
         rows.append(best)
         gains.append(int(gain[best]))
         left &= ~bits[best]
-    return Cover(
-        np.array(rows, dtype=np.int64), np.array(gains, dtype=np.int64), _bounds(gains, tops)
-    )
+    bounds = np.minimum(_bounds(gains, tops), reach)
+    return Cover(np.array(rows, dtype=np.int64), np.array(gains, dtype=np.int64), bounds)
 
 
 def _bounds(gains: list[int], tops: list[Ints]) -> Ints:

@@ -167,7 +167,10 @@ def _distributions(feet: FootTable) -> tuple[Distribution, ...]:
     """Every measure that a foot has, and the flare."""
     columns = {name: ("mm", column.value) for name, column in feet.shapes.measures.items()}
     columns["flare"] = ("deg", feet.shapes.flare_deg)
-    known = ((name, unit, values[np.isfinite(values)]) for name, (unit, values) in columns.items())
+    known = (  # sorted, so that no sum depends on the order of the feet
+        (name, unit, np.sort(values[np.isfinite(values)]))
+        for name, (unit, values) in columns.items()
+    )
     return tuple(
         Distribution(
             measure=name,
