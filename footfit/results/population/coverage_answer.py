@@ -107,7 +107,7 @@ class Coverage(Document):
             "failed": [each.to_dict() for each in self.failed],
             "lasts_considered": self.lasts,
             **self.served.to_dict(),
-            **fields(self, *skipped, "judged"),
+            **fields(self, *skipped, "judged", "good_if_gone"),
             "heel_model": None if model is None else model.model_id,
             "could_go": gone,
             "lasts": [last.to_dict() for last in self.library],
