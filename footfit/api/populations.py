@@ -21,7 +21,7 @@ from footfit.api.inputs import (
 )
 from footfit.api.scans import sources
 from footfit.errors import EmptyCatalogue, NoCandidate
-from footfit.pipeline.batch.runs import HERE
+from footfit.pipeline.batch.runs import HERE, Jobs
 from footfit.results.population.coverage_answer import Coverage
 
 if TYPE_CHECKING:
@@ -37,8 +37,8 @@ class CoverageKeywords(ReadingKeywords, HeelKeywords, WornKeywords, total=False)
 
     ``profile`` is the name or the file of a fit profile. ``style``, ``size_system`` and ``stock``
     filter the lasts as in a match. ``group_by`` are columns of a CSV. ``next_lasts`` is how many
-    lasts to plan. ``jobs`` is how many processes read scans, and ``cache`` a file that keeps their
-    measures.
+    lasts to plan. ``jobs`` is how many processes, or which executor, reads scans, and ``cache`` a
+    file that keeps their measures.
     """
 
     profile: str
@@ -47,7 +47,7 @@ class CoverageKeywords(ReadingKeywords, HeelKeywords, WornKeywords, total=False)
     stock: FilePath | None
     group_by: Sequence[str]
     next_lasts: int
-    jobs: int
+    jobs: Jobs
     cache: FilePath | None
 
 
@@ -73,7 +73,7 @@ def coverage(feet: Meshes, catalogue: FilePath, **asked: Unpack[CoverageKeywords
     if is_table(feet):
         return asker.of_table(Path(os.fspath(feet)))  # type: ignore[arg-type]
     given = sources(feet)
-    return asker.of_scans(asker.measured(given), given)
+    return asker.of_scans(asker.measured(given))
 
 
 def is_table(feet: Any) -> bool:
@@ -97,11 +97,11 @@ class CoverageAsker:
         jobs, reading = self.asked.get("jobs", HERE), reading_options(self.asked)
         return measured_feet(given, reading, jobs, None if cache is None else Path(cache))
 
-    def of_scans(self, measured: Iterable[FootOutcome], given: Sequence[Source]) -> Coverage:
+    def of_scans(self, measured: Iterable[FootOutcome]) -> Coverage:
         """The coverage of feet that were measured."""
         from footfit.pipeline.population.feet_scans import feet_of_scans
 
-        feet, failed = feet_of_scans(measured, given)
+        feet, failed = feet_of_scans(measured)
         return self._answer(feet, failed, ())
 
     def of_table(self, path: Path) -> Coverage:

@@ -103,14 +103,18 @@ def coverage(
     )
     outputs = Outputs(files, Coverage, csv, force)
     outputs.refuse(as_json=mode.json)
-    asked = {**reading.keywords(), **worn.keywords(), "jobs": batch.jobs, "cache": cache}
-    asker = coverage_asker(
-        lasts.path(),
-        asked
-        | {"profile": profile, "style": style, "size_system": size_system, "stock": stock}
-        | {"group_by": by, "next_lasts": next_lasts},
-    )
-    answer, errors = answer_of(asker, feet, reading, batch, mode, outputs)
+    filters = {"style": style, "size_system": size_system, "stock": stock}
+    asked = {
+        "profile": profile,
+        "group_by": by,
+        "next_lasts": next_lasts,
+        "cache": cache,
+        **filters,
+    }
+    with batch.at_work() as jobs:
+        asked |= {**reading.keywords(), **worn.keywords(), "jobs": jobs}
+        asker = coverage_asker(lasts.path(), asked)
+        answer, errors = answer_of(asker, feet, reading, batch, mode, outputs)
     answer_result(answer, mode, outputs)
     raise typer.Exit(common_code(int(error.exit) for error in errors))
 
@@ -159,4 +163,4 @@ def answer_of(
                     say_failure(error_line(outcome.error, as_json=mode.json, verbose=mode.verbose))
                 yield outcome
 
-        return asker.of_scans(measured(), sources), errors
+        return asker.of_scans(measured()), errors

@@ -7,9 +7,8 @@ from functools import partial
 from pathlib import Path
 from typing import TypeAlias
 
-from footfit.errors import FootfitError
 from footfit.geometry.measures.measure_table import of_kind
-from footfit.pipeline.batch.runs import Outcome, outcomes
+from footfit.pipeline.batch.runs import Jobs, Outcome, outcomes
 from footfit.pipeline.batch.sources import ReadingOptions, Source
 from footfit.pipeline.population.foot_measures import (
     FootMeasures,
@@ -26,48 +25,41 @@ FootOutcome: TypeAlias = Outcome[Source, FootMeasures]
 
 
 def measured_feet(
-    sources: Sequence[Source], reading: ReadingOptions, jobs: int, cache: Path | None = None
+    sources: Sequence[Source], reading: ReadingOptions, jobs: Jobs, cache: Path | None = None
 ) -> Iterator[FootOutcome]:
-    """The outcome of each scan; first those that the cache has, then the others in their order.
+    """The outcome of each scan in order; what the cache has is not read again.
 
     Raises
     ------
     BadOption
         The cache is another kind of file, or cannot be written.
     """
+    work = partial(read_foot, reading=reading)
     if cache is None:
-        yield from outcomes(partial(read_foot, reading=reading), sources, jobs)
+        yield from outcomes(work, sources, jobs)
         return
     with measure_cache(cache, reading) as (kept, add):
-        to_read: list[Source] = []
-        for source in sources:
-            foot = _kept_foot(source, kept)
-            if foot is None:
-                to_read.append(source)
-            else:
-                yield Outcome(source, foot, None)
-        for outcome in outcomes(partial(read_foot, reading=reading), to_read, jobs):
-            if outcome.value is not None:
-                add(outcome.value)
+        known = partial(_kept_foot, kept) if kept else _nothing
+        for outcome in outcomes(work, sources, jobs, known=known):
+            foot = outcome.value
+            if foot is not None and kept.get(foot.key) is not foot:
+                add(foot)
             yield outcome
 
 
-def _kept_foot(source: Source, kept: Mapping[str, FootMeasures]) -> FootMeasures | None:
-    """The measures of a file that the cache has; a file that cannot be read has none."""
-    try:
-        return kept.get(content_hash(source) + part_mark(source)) if kept else None
-    except FootfitError:
-        return None
+def _kept_foot(kept: Mapping[str, FootMeasures], source: Source) -> FootMeasures | None:
+    """The measures of a scan that the cache has."""
+    return kept.get(content_hash(source) + part_mark(source))
 
 
-def feet_of_scans(
-    measured: Iterable[FootOutcome], sources: Sequence[Source]
-) -> tuple[FootTable, tuple[FailedFoot, ...]]:
-    """The feet of outcomes in the order of their sources, and those that failed."""
-    places = {id(source): place for place, source in enumerate(sources)}
-    ordered = sorted(measured, key=lambda outcome: places.get(id(outcome.item), 0))
+def _nothing(_: Source) -> None:
+    """An empty cache knows no scan."""
+
+
+def feet_of_scans(measured: Iterable[FootOutcome]) -> tuple[FootTable, tuple[FailedFoot, ...]]:
+    """The feet of outcomes, and those that failed."""
     ids, feet, failed = [], [], []
-    for outcome in ordered:
+    for outcome in measured:
         name = outcome.item.path or "standard input"
         if outcome.value is not None:
             ids.append(name)
