@@ -104,7 +104,7 @@ def coverage(
     outputs = Outputs(files, Coverage, csv, force)
     outputs.refuse(as_json=mode.json)
     filters = {"style": style, "size_system": size_system, "stock": stock}
-    asked = {
+    asked: dict[str, Any] = {
         "profile": profile,
         "group_by": by,
         "next_lasts": next_lasts,
