@@ -8,6 +8,7 @@ from footfit.version import __version__
 if TYPE_CHECKING:
     from footfit import errors, results
     from footfit.api.catalogues import Catalogue, match, open_catalogue
+    from footfit.api.drawings import draw_last, drawing, drawing_file
     from footfit.api.files import mesh_file, page, picture, sheet, to_trimesh
     from footfit.api.last_making import check_run
     from footfit.api.populations import coverage
@@ -26,7 +27,10 @@ if TYPE_CHECKING:
     from footfit.errors import FootfitError
     from footfit.results import LastLabels
 
-_HOMES = ("api.scans", "api.files", "api.last_making", "api.catalogues", "errors", "results")
+_HOMES = (
+    *("api.scans", "api.files", "api.drawings", "api.last_making", "api.catalogues"),
+    *("errors", "results"),
+)
 """Where the names are, the lightest first."""
 
 __all__ = [
@@ -41,6 +45,9 @@ __all__ = [
     "coverage",
     "curvature",
     "customers",
+    "draw_last",
+    "drawing",
+    "drawing_file",
     "errors",
     "flare",
     "match",

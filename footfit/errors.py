@@ -217,6 +217,10 @@ class SameSide(UsageError):
     """The two feet of a pair are of one side."""
 
 
+class OtherKind(GeometryRefused):
+    """The shape is a foot where a last is asked for, or the other way round."""
+
+
 class NoSole(GeometryRefused):
     """The scan has no sole, and the answer needs one."""
 

@@ -140,6 +140,11 @@ FORMS: dict[type, Form] = {
     results.Calibration: Form(
         lambda learned: profile_tables.calibration_table(learned, _zone_labels())
     ),
+    results.Drawing: Form(
+        scan_tables.draw_last_table,
+        lambda drawing: _of_scan(drawing.alignment),
+        lambda drawing: (drawing.alignment.info,),
+    ),
     results.ProfileList: Form(profile_tables.list_profiles_table),
     results.ShownProfile: Form(
         lambda shown: profile_tables.show_profile_table(shown, _zone_labels())

@@ -75,9 +75,9 @@ def output_file(
     return option(first, help, metavar, *more, default=default, panel=OUTPUT)
 
 
-def output_files(flag: str, help: str, *short: str) -> Any:
+def output_files(flag: str, help: str, *short: str, default: Any = None) -> Any:
     """An option that names a file to write, or a folder for the files of many meshes."""
-    return output_file(flag, help, *short, metavar="FILE|FOLDER/")
+    return output_file(flag, help, *short, metavar="FILE|FOLDER/", default=default)
 
 
 def head_text(flag: str, help: str, metavar: str) -> Any:

@@ -40,6 +40,7 @@ from footfit.results.heel import HeelChange as HeelChange
 from footfit.results.heel import HeelModel as HeelModel
 from footfit.results.heel import HeelQuestion as HeelQuestion
 from footfit.results.heel import HeelRule as HeelRule
+from footfit.results.last_making.drawing import Drawing as Drawing
 from footfit.results.last_making.grading_rule import GradingRule as GradingRule
 from footfit.results.last_making.run_check import RunCheck as RunCheck
 from footfit.results.last_making.run_check import RunLast as RunLast

@@ -12,6 +12,8 @@ from footfit.geometry.measures.measure_table import MEASURES
 from footfit.results.values import Document, Json, exact, fields, measures_part, part, rows
 
 if TYPE_CHECKING:
+    from collections.abc import Mapping
+
     from footfit.errors import FootfitError
     from footfit.geometry.flare.definition import FlareProfile
     from footfit.geometry.numeric.arrays import Floats, Ints
@@ -43,13 +45,15 @@ def flare_part(flare: FlareProfile) -> Json:
 class Profiled(Document):
     """A mesh aligned, measured and profiled: what ingest stores and match ranks.
 
-    ``unusual`` are notices of a flare that is unusual for a foot or a last.
+    ``unusual`` are notices of a flare that is unusual for a foot or a last. ``labels`` are what
+    people say of a last of the catalogue, by the names of `LastLabels`.
     """
 
     aligned: AlignedScan
     flare: FlareProfile
     measures: tuple[Measure, ...]
     unusual: tuple[Notice, ...] = ()
+    labels: Mapping[str, Any] | None = None
 
     columns = (
         *("path", "side", "flare_angle_deg", "flare_angle_sd_deg", "flare_angle_total_sd_deg"),

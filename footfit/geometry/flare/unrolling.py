@@ -38,13 +38,20 @@ class SideLine:
         [[5.0, 7.0, 2.0]]
         """
         x, y, z = points_mm.T
-        arc = self._beyond(x, self.x_mm, self.arc_mm)
-        return np.column_stack([arc, y, z - self._beyond(x, self.x_mm, self.z_mm)])
+        return np.column_stack([self.arc(x), y, z - self.height(x)])
+
+    def arc(self, x_mm: Floats) -> Floats:
+        """The arc length of the line at ``x_mm`` (n,)."""
+        return self._beyond(x_mm, self.x_mm, self.arc_mm)
+
+    def height(self, x_mm: Floats) -> Floats:
+        """The height of the line at ``x_mm`` (n,)."""
+        return self._beyond(x_mm, self.x_mm, self.z_mm)
 
     def at(self, arc_mm: Floats) -> tuple[Floats, Floats]:
         """Where the line is at an arc length (n,): x and z."""
         x = self._beyond(arc_mm, self.arc_mm, self.x_mm)
-        return x, self._beyond(x, self.x_mm, self.z_mm)
+        return x, self.height(x)
 
     @staticmethod
     def _beyond(at: Floats, known: Floats, values: Floats) -> Floats:

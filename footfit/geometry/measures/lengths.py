@@ -121,13 +121,45 @@ def bottom_length(shape: Shape) -> MeasureValue:
     The overhang of the heel's back and of the toe's tip do not count: this is the standard last
     length. It does not change when a last is bent to another heel.
     """
-    if shape.stance is None:
-        return MeasureValue(None, OPEN_BOTTOM)
+    ends = feather_ends(shape)
+    return MeasureValue(None, OPEN_BOTTOM) if ends is None else MeasureValue(ends.length_mm)
+
+
+@dataclass(frozen=True, slots=True)
+class FeatherEnds:
+    """Where a last's bottom begins and ends: at its rearmost and its foremost feather edge.
+
+    Attributes
+    ----------
+    line : SideLine
+        The bottom's line, drawn on straight at both ends.
+    rear_mm, front_mm : float
+        The two edges, along the line.
+    heel_wall : (2,)
+        Where the wall of the heel's back looks, along the ground and up.
+    """
+
+    line: SideLine
+    rear_mm: float
+    front_mm: float
+    heel_wall: Floats
+
+    @property
+    def length_mm(self) -> float:
+        """The length of the bottom along its line."""
+        return self.front_mm - self.rear_mm
+
+
+def feather_ends(shape: Shape) -> FeatherEnds | None:
+    """The ends of a last's bottom; None if it is open, and of a foot."""
+    if shape.kind == "foot" or shape.stance is None:
+        return None
     definition = replace(FlareDefinition(), line_window=ALONG.line_window)
     line = bottom_arc(shape.stance, definition).line
-    behind = _beyond(shape, line, 1, _heel_wall(shape, line))
-    run = float(line.arc_mm[-2] - line.arc_mm[1])
-    return MeasureValue(behind + run + _beyond(shape, line, -2, AHEAD))
+    wall = _heel_wall(shape, line)
+    rear_mm = float(line.arc_mm[1]) - _beyond(shape, line, 1, wall)
+    front_mm = float(line.arc_mm[-2]) + _beyond(shape, line, -2, AHEAD)
+    return FeatherEnds(line, rear_mm, front_mm, wall)
 
 
 def _low_faces(shape: Shape, stance: Stance) -> Ints:

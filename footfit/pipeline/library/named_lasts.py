@@ -21,6 +21,7 @@ from footfit.pipeline.scan.preparation import stored_shape
 from footfit.pipeline.scan.standing import last_stance, stance_labels
 from footfit.results import LastRecord, MeshCopy, Notice, PreparedScan, Profiled
 from footfit.results.meshes import FROM_CATALOGUE
+from footfit.results.values import fields
 
 LOOK_WAIT_S = 0.5
 """How long footfit waits for a locked catalogue, to see whether it has a last of a file's name."""
@@ -130,7 +131,8 @@ def profiled_last(catalogue: Path, name: str) -> Profiled:
     with open_catalogue(catalogue) as opened:
         record = opened.record(name)
         copy = opened.mesh_copy(record.labels.name)
-    return Profiled(aligned_scan(_prepared(record, copy)), record.flare, record.measures)
+    aligned = aligned_scan(_prepared(record, copy))
+    return Profiled(aligned, record.flare, record.measures, labels=fields(record.labels))
 
 
 def _prepared(record: LastRecord, copy: MeshCopy) -> PreparedScan:

@@ -187,6 +187,18 @@ def curvature_table(curvature: results.SurfaceCurvature) -> RenderableType:
     return facts(*rows, title=curvature.info.path or "standard input")
 
 
+def draw_last_table(drawing: results.Drawing) -> RenderableType:
+    """The views that were drawn in true size, and those that are missing."""
+    alignment = drawing.alignment
+    rows: list[tuple[str, str | Text]] = [("side", side_words(alignment.side))]
+    for view in drawing.views:
+        width, height = (plain(value) for value in view.size_mm)
+        rows.append((view.name, f"{width} x {height} mm"))
+    if drawing.missing:
+        rows.append(("not drawn", f"{', '.join(drawing.missing)}: the scan is open there"))
+    return facts(*rows, title=alignment.info.path or "standard input")
+
+
 def measure_table(scan: results.MeasuredScan) -> RenderableType:
     """One mesh: every measure with its uncertainty, or the reason why there is none."""
     alignment = scan.alignment

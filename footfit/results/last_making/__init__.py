@@ -1,1 +1,1 @@
-"""Lasts made from lasts: custom lasts, graded runs, and how two lasts differ."""
+"""Lasts made from lasts: custom lasts, graded runs, how two lasts differ; lasts on paper."""

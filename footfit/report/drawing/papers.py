@@ -1,0 +1,139 @@
+"""Papers, and how a drawing that is larger than one is cut into tiles."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import Literal
+
+import numpy as np
+
+from footfit.report.drawing.parts import EDGE_MM, Block, Line, Words, straight
+
+PaperName = Literal["a4", "a3", "letter", "roll"]
+MARGIN_MM = OVERLAP_MM = 10.0
+BAR_MM = 100.0
+BAR_FROM_EDGE_MM = 8.5  # printers reach to some 4.3 mm of the paper's edge
+TICK_MM = 1.2
+CROSS_MM = 3.0
+PRINT_WORDS = "print at 100 %, do not fit to page"
+
+
+@dataclass(frozen=True, slots=True)
+class Paper:
+    """A paper in mm. A roll is as long as the drawing, and has one tile."""
+
+    width_mm: float
+    height_mm: float
+
+    @property
+    def is_roll(self) -> bool:
+        """Whether the drawing decides how long it is."""
+        return math.isinf(self.height_mm)
+
+    @property
+    def window_mm(self) -> tuple[float, float]:
+        """How much of a drawing one paper shows."""
+        return self.width_mm - 2.0 * MARGIN_MM, self.height_mm - 2.0 * MARGIN_MM
+
+    @property
+    def pitch_mm(self) -> tuple[float, float]:
+        """From tile to tile: neighbours share an overlap."""
+        width, height = self.window_mm
+        return width - OVERLAP_MM, height - OVERLAP_MM
+
+
+PAPERS: dict[PaperName, Paper] = {
+    "a4": Paper(210.0, 297.0),
+    "a3": Paper(297.0, 420.0),
+    "letter": Paper(215.9, 279.4),
+    "roll": Paper(610.0, math.inf),
+}
+
+
+@dataclass(frozen=True, slots=True, order=True)
+class Tile:
+    """One paper of a drawing, by its row from the top and its column from the left."""
+
+    row: int
+    column: int
+
+    @property
+    def name(self) -> str:
+        """A letter for the column and a number for the row.
+
+        Examples
+        --------
+        >>> Tile(1, 2).name, Tile(0, 26).name
+        ('C2', 'AA1')
+        """
+        letters, left = "", self.column
+        while left >= 0:
+            letters, left = chr(ord("A") + left % 26) + letters, left // 26 - 1
+        return f"{letters}{self.row + 1}"
+
+    def top_left_mm(self, paper: Paper) -> tuple[float, float]:
+        """The upper left corner of the tile's window on the drawing."""
+        if paper.is_roll:
+            return 0.0, 0.0
+        return self.column * paper.pitch_mm[0], -self.row * paper.pitch_mm[1]
+
+
+def tiles_of(left: float, top: float, right: float, bottom: float, paper: Paper) -> frozenset[Tile]:
+    """The fewest tiles in a rectangle of them that show a box; y is negative below the top.
+
+    Examples
+    --------
+    >>> sorted(tile.name for tile in tiles_of(0.0, 0.0, 195.0, -277.0, PAPERS["a4"]))
+    ['A1', 'B1']
+    """
+    if paper.is_roll:
+        return frozenset({Tile(0, 0)})
+    spans = []
+    for start, end, window, pitch in zip(
+        (left, -top), (right, -bottom), paper.window_mm, paper.pitch_mm, strict=True
+    ):
+        first = math.floor(start / pitch + 1e-9)
+        spans.append(range(first, max(first, math.ceil((end - window) / pitch - 1e-9)) + 1))
+    return frozenset(Tile(row, column) for column in spans[0] for row in spans[1])
+
+
+def furniture(width_mm: float, height_mm: float, name: str, title: str) -> Block:
+    """What stands on every paper: bars in both directions, the words, the tile's name, its crosses.
+
+    In the coordinates of the paper, from its lower left corner.
+    """
+    top, side = height_mm - BAR_FROM_EDGE_MM, BAR_FROM_EDGE_MM
+    across = _bar("bar across")
+    bars = (
+        across.moved(MARGIN_MM, top).lines
+        + _bar("bar up").quarter_turned().moved(side, MARGIN_MM).lines
+    )
+    words = (
+        Words(f"100 mm   {PRINT_WORDS}", (MARGIN_MM + BAR_MM + 2.5, top), 2.4),
+        Words("100 mm", (side + 0.9, MARGIN_MM + BAR_MM + 2.5), 2.4, turned=True),
+        Words(title, (MARGIN_MM, top + 1.9), 2.2),
+        Words(name, (width_mm - MARGIN_MM, top - 0.4), 4.0, "end", bold=True),
+    )
+    return Block(bars + crosses(width_mm, height_mm), words)
+
+
+def _bar(name: str) -> Block:
+    """A bar from 0 to the right; the middles of its ticks are its ends."""
+    bar = Line(np.array([[0.0, 0.0], [BAR_MM, 0.0]]), name=name, width_mm=EDGE_MM)
+    ticks = (straight((x, -TICK_MM), (x, TICK_MM)) for x in (0.0, BAR_MM))
+    return Block((bar, *ticks))
+
+
+def crosses(width_mm: float, height_mm: float) -> tuple[Line, ...]:
+    """A cross in each corner, in the middle of the overlap: neighbours have the same one."""
+    inset = MARGIN_MM + 0.5 * OVERLAP_MM
+    return tuple(
+        line
+        for x in (inset, width_mm - inset)
+        for y in (inset, height_mm - inset)
+        for line in (
+            straight((x - CROSS_MM, y), (x + CROSS_MM, y)),
+            straight((x, y - CROSS_MM), (x, y + CROSS_MM)),
+        )
+    )
