@@ -30,8 +30,10 @@ class BottomOutlineSettings:
     ----------
     heel, toe : float
         How far the centres lie from the ends, around which the half planes turn.
+    near : float
+        Points that lie higher over the line, upright, are not laid flat.
     low : float
-        Faces that lie higher over the line, upright, are no bottom.
+        Faces that lie higher over the line, at right angles to it, are no bottom.
     step : float
         From half plane to half plane across the bottom.
     turn_deg : float
@@ -42,13 +44,18 @@ class BottomOutlineSettings:
 
     heel: float = 0.12
     toe: float = 0.14
-    low: float = 0.08
+    near: float = 0.16
+    low: float = 0.06
     step: float = 0.006
     turn_deg: float = 2.0
     touch_deg: float = 15.0
 
 
 BOTTOM_OUTLINE = BottomOutlineSettings()
+LINE_PLACES = 400
+"""Of a side line, from the nearest of which the foot of a perpendicular is looked for."""
+LEAST_GAIN = 0.2
+"""Keeps a point near the line's centre of curvature on its own side."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -107,15 +114,21 @@ def perpendicular(line: SideLine, standing_mm: Floats, rounds: int = 4) -> Float
     >>> perpendicular(slope, np.array([[4.0, 7.0, 3.0], [1.0, 0.0, 7.0]])).round(9).tolist()
     [[5.0, 7.0, 0.0], [5.0, 0.0, 5.0]]
     """
+    from scipy.spatial import cKDTree
+
     x, y, z = standing_mm.T
     slopes = np.gradient(line.z_mm, line.x_mm)
     bends = np.gradient(slopes, line.x_mm)
-    at = x
+    places = np.linspace(line.x_mm[0], line.x_mm[-1], LINE_PLACES)
+    known = cKDTree(np.column_stack([places, line.height(places)]))
+    start = places[known.query(np.column_stack([x, z]))[1]]
+    reach, at = places[1] - places[0], start
     for _ in range(rounds):  # Newton's steps to where the way to the point meets the line squarely
         slope = np.interp(at, line.x_mm, slopes)
         over = z - line.height(at)
         gain = 1.0 + np.square(slope) - over * np.interp(at, line.x_mm, bends)
-        at = at + (x - at + over * slope) / np.maximum(gain, 0.2)
+        step = (x - at + over * slope) / np.maximum(gain, LEAST_GAIN)
+        at = np.clip(at + step, start - reach, start + reach)
     slope = np.interp(at, line.x_mm, slopes)
     height = (z - line.height(at)) * np.sqrt(1.0 + np.square(slope))
     return np.column_stack([line.arc(at), y, height])
@@ -131,10 +144,12 @@ def bottom_outline(
     """
     standing = frame.standing(shape.vertices_mm)
     over_mm = standing[:, 2] - frame.line.height(standing[:, 0])
-    a, b, c = (over_mm < settings.low * frame.length_mm)[shape.faces.T]
+    a, b, c = (over_mm < settings.near * frame.length_mm)[shape.faces.T]
     vertices, faces, _ = without_unused_vertices(shape.vertices_mm, shape.faces[a & b & c])
     flat = frame.flat(vertices)
     flat[:, 0] -= frame.rear_mm
+    a, b, c = (np.abs(flat[:, 2]) < settings.low * frame.length_mm)[faces.T]
+    faces = faces[a & b & c]
     points = [
         centre + _touched(flat, faces, centre, angle, tilt, settings) * _towards(angle)
         for centre, angle, tilt in _half_planes(flat, faces, frame, settings)

@@ -16,6 +16,8 @@ from footfit.geometry.numeric.arrays import Bools, Floats, Ints
 
 GRID_MM = 0.2
 """The pitch of the lines. A curve with a radius of 1 mm is cut short by .005 mm."""
+BEFORE = 1.382
+"""How far before the shadow the grid begins: no line of it lies along a straight edge."""
 CORNER_DEG = 15.0
 """Where the outline turns by more from one cell to the next but one, it has a corner between."""
 
@@ -56,7 +58,7 @@ def shadow_outline(points: Floats, faces: Ints, grid_mm: float = GRID_MM) -> Flo
     ([0.0, 0.0], [4.0, 3.0])
     """
     used = points[faces].reshape(-1, 2)
-    low, high = used.min(axis=0) - 1.5 * grid_mm, used.max(axis=0) + 1.5 * grid_mm
+    low, high = used.min(axis=0) - BEFORE * grid_mm, used.max(axis=0) + 1.5 * grid_mm
     size = np.ceil((high - low) / grid_mm).astype(np.int64) + 1
     u, v = (low[axis] + grid_mm * np.arange(size[axis]) for axis in (0, 1))
     columns, rows = _lines(points, faces, u), _lines(points[:, ::-1], faces, v)

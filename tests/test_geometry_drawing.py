@@ -1,0 +1,121 @@
+"""Outlines in true size against other programs, and against the shapes that they are of."""
+
+from __future__ import annotations
+
+import manifold3d
+import numpy as np
+import pytest
+
+from footfit.geometry.drawing.bottom_outline import bottom_outline, flat_frame
+from footfit.geometry.drawing.lower_part import below
+from footfit.geometry.drawing.shadow import shadow_outline
+from footfit.geometry.drawing.thinned import thinned_loop
+from footfit.geometry.drawing.views import views
+from footfit.geometry.measures.landmarks import Shape
+from footfit.geometry.measures.measure_table import measure_named
+from tests.bounds import ROUNDING
+from tests.shapes import cube, sphere
+from tests.test_geometry_along_the_bottom import SPEC, resting
+from tools.bent_lasts import bent
+from tools.last_specs import LastSpec
+from tools.lasts import last_mesh
+
+CHORD_MM = 0.05
+"""What a drawing promises; .023 is the most that was measured."""
+
+
+def away_mm(points: np.ndarray, loop: np.ndarray) -> np.ndarray:
+    """How far points (n, 2) are from a closed polyline (k, 2)."""
+    along = np.roll(loop, -1, axis=0) - loop
+    share = ((points[:, None] - loop) * along).sum(axis=2)
+    share = np.clip(share / np.maximum(np.square(along).sum(axis=1), 1e-12), 0.0, 1.0)
+    return np.linalg.norm(points[:, None] - loop - share[..., None] * along, axis=2).min(axis=1)
+
+
+@pytest.mark.parametrize("axes", [[0, 1], [0, 2], [1, 2]])
+def test_a_shadow_is_that_of_another_program(axes: list[int]) -> None:
+    vertices, faces = last_mesh(LastSpec(heel_height_mm=60.0, rings=110, segments=80))
+    outline = thinned_loop(shadow_outline(vertices[:, axes], faces))
+    third = 3 - sum(axes)
+    turned = np.column_stack([vertices[:, axes], vertices[:, third]])
+    mirrored = np.linalg.det(np.eye(3)[[*axes, third]]) < 0
+    mesh = manifold3d.Mesh(
+        vert_properties=turned.astype(np.float32),
+        tri_verts=(faces[:, ::-1] if mirrored else faces).astype(np.uint32),
+    )
+    peer = max(manifold3d.Manifold(mesh).project().to_polygons(), key=len)
+    assert away_mm(outline, peer).max() < CHORD_MM
+    assert away_mm(np.asarray(peer), outline).max() < CHORD_MM
+
+
+def test_a_shadow_keeps_corners_and_is_as_large_as_its_shape() -> None:
+    vertices, faces = cube(100.3)
+    square = thinned_loop(shadow_outline(vertices[:, :2], faces))
+    corners = 50.15 * np.array([[-1.0, -1], [1, -1], [1, 1], [-1, 1]])
+    assert away_mm(corners, square).max() < ROUNDING
+    assert away_mm(square, corners).max() < ROUNDING
+    vertices, faces = sphere(40.0, 5)
+    radius = np.linalg.norm(shadow_outline(vertices[:, [0, 2]], faces), axis=1)
+    assert radius.min() > 40.0 - CHORD_MM  # the sphere's mesh is inscribed: it lacks .03
+    assert radius.max() < 40.0 + ROUNDING
+
+
+def test_the_part_below_a_height_ends_there() -> None:
+    vertices, faces = sphere(50.0, 4)
+    low = below(vertices, faces, -20.0)
+    assert low[0][low[1]][:, :, 2].max() == pytest.approx(-20.0)
+    circle = shadow_outline(low[0][:, :2], low[1])
+    radius = np.linalg.norm(circle, axis=1)
+    assert radius == pytest.approx(np.sqrt(50.0**2 - 20.0**2), abs=0.1)  # measured .06: inscribed
+
+
+def test_a_last_that_is_bent_as_a_shoe_bends_keeps_its_bottom() -> None:
+    """A flat insole that is bent to a heel is the same insole, laid flat again."""
+    vertices, faces = last_mesh(SPEC)
+    stance = Shape(vertices, faces, "last").stance
+    stands = stance.standing_transform
+    level = vertices @ stands[:3, :3].T + stands[:3, 3]
+    first = None
+    for heel_mm in (0.0, 30.0, 60.0, 90.0):
+        raised = resting(bent(level, stance.length_mm, heel_mm, 1.0))
+        shape = Shape(raised, faces, "last")
+        outline = bottom_outline(shape, flat_frame(shape))
+        length_mm = measure_named("bottom_length").value_of(shape).value
+        assert np.ptp(outline[:, 0]) == pytest.approx(length_mm, abs=1e-6)
+        first = outline if first is None else first
+        off_mm = away_mm(outline, first)
+        assert np.sqrt(np.square(off_mm).mean()) < 0.16  # measured .08, with a heel of 90 mm
+        assert off_mm.max() < 1.0  # measured .54, where the ball bends most
+
+
+def test_a_bottom_is_as_wide_as_its_measures_say() -> None:
+    shape = Shape(*last_mesh(LastSpec(heel_height_mm=8.0, level_tread=True)), "last")
+    frame = flat_frame(shape)
+    outline = bottom_outline(shape, frame)
+    for name, share in (("bottom_width_heel", 1.0 / 6.0), ("bottom_width_ball", 0.66)):
+        place = frame.flat(np.array([[shape.x_mm(share), 0.0, 0.0]]))[0, 0] - frame.rear_mm
+        after = np.roll(outline, -1, axis=0)
+        met = (outline[:, 0] > place) != (after[:, 0] > place)
+        width_mm = np.ptp(outline[met, 1])
+        assert width_mm == pytest.approx(measure_named(name).value_of(shape).value, abs=0.6)
+
+
+def test_the_views_of_a_last_are_named_and_run_one_way() -> None:
+    shape = Shape(*last_mesh(LastSpec(rings=110, segments=80)), "last")
+    seen, missing = views(shape)
+    assert missing == ()
+    names = ["bottom", "plan", "side", "heel", "arch", "instep", "waist", "ball", "toes"]
+    assert [view.name for view in seen] == names
+    for view in (*seen, *(view.mirrored() for view in seen)):
+        for outline in view.outlines_mm:
+            x, y = outline.T
+            assert x @ np.roll(y, -1) > y @ np.roll(x, -1)
+
+
+def test_what_is_open_is_not_drawn() -> None:
+    vertices, faces = last_mesh(LastSpec(rings=110, segments=80))
+    middle = vertices[faces].mean(axis=1)
+    hole = (middle[:, 2] < 12.0) & (middle[:, 0] > 60.0) & (middle[:, 0] < 200.0)
+    seen, missing = views(Shape(vertices, faces[~hole], "last"))
+    assert {"bottom", "arch", "instep"} <= set(missing)
+    assert {"plan", "side", "heel"} <= {view.name for view in seen}
