@@ -23,6 +23,7 @@ from footfit.results import Scan
 from tests.distortions import moved, random_pose, white_noise
 from tests.reading import read_scan
 from tests.scans import aligned
+from tools.drawing_pictures import drawing_pictures
 from tools.page_pictures import page_pictures
 from tools.stance_picture import stance_picture
 from tools.tape_pictures import tape_pictures
@@ -46,6 +47,7 @@ def pictures() -> dict[str, bytes]:
         **curvature_pictures(foot, rng),
         **page_pictures(),
         **tape_pictures(),
+        **drawing_pictures(),
         "standing_last.png": stance_picture(),
     }
 
