@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 from footfit import results
 from footfit.api.inputs import FilePath
 from footfit.errors import BadOption
+from footfit.results.population.coverage_answer import Coverage
 
 if TYPE_CHECKING:
     from footfit.meshes.exchange import Trimesh
@@ -101,13 +102,14 @@ def to_trimesh(result: results.Scan | results.AlignedScan | results.Profiled) ->
 
 
 def page(
-    result: results.Match | results.Comparison,
+    result: results.Match | results.Comparison | Coverage,
     catalogue: FilePath | None = None,
     *,
     title: str = "",
     customer: str = "",
 ) -> str:
-    """A match or a comparison as one HTML page; a match with its ``catalogue`` draws the lasts.
+    """A match, a comparison or a coverage as one HTML page; a match with its ``catalogue`` draws
+    the lasts.
 
     The page of a match shows ``title`` and ``customer``, which are kept nowhere.
 
@@ -123,6 +125,10 @@ def page(
     from footfit.report.page.compare_page import compare_page
     from footfit.report.page.match_page import match_page
 
+    if isinstance(result, Coverage):
+        from footfit.report.page.coverage_page import coverage_page
+
+        return coverage_page(result)
     if isinstance(result, results.Comparison):
         return compare_page(drawables.drawable(result))
     if catalogue is None:

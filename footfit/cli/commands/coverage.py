@@ -89,6 +89,8 @@ def coverage(
 
     Example: footfit coverage customers.csv --by sex --html coverage.html
     """
+    from dataclasses import replace
+
     from footfit.api.files import page
     from footfit.api.populations import coverage_asker
     from footfit.cli.answers import answer_result
@@ -115,7 +117,8 @@ def coverage(
         asked |= {**reading.keywords(), **worn.keywords(), "jobs": jobs}
         asker = coverage_asker(lasts.path(), asked)
         answer, errors = answer_of(asker, feet, reading, batch, mode, outputs)
-    answer_result(answer, mode, outputs)
+    columns_of: Any = answer  # the feet of each coverage have columns of their own
+    answer_result(answer, mode, replace(outputs, table=columns_of))
     raise typer.Exit(common_code(int(error.exit) for error in errors))
 
 

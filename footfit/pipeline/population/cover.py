@@ -62,6 +62,7 @@ def greedy_cover(bits: Bytes, wanted: Bytes, most: int | None = None) -> Cover:
         gains.append(int(gain[best]))
         left &= ~bits[best]
     bounds = np.minimum(_bounds(gains, tops), reach)
+    bounds = np.minimum.accumulate(bounds[::-1])[::-1]  # fewer rows serve no more than more rows
     return Cover(np.array(rows, dtype=np.int64), np.array(gains, dtype=np.int64), bounds)
 
 

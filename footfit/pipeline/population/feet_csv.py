@@ -46,9 +46,18 @@ GREATEST_HEEL = "heelbreadth"
 GREATEST_HEEL_SHARE = 0.92
 """A survey's heel breadth is the greatest one; ours, at a sixth of the length, is so much of it."""
 NOTHING = frozenset({"", "-", "na", "n/a", "nan", "null", "none", "."})
-LENGTH_MM = (110.0, 370.0)
-"""A foot's length; any other number is in another unit, or wrong."""
-MEASURE_MM = (5.0, 600.0)
+RANGES = {
+    FLARE: (-90.0, 90.0),
+    "length": (110.0, 370.0),
+    "functional_length": (110.0, 370.0),
+    "ball_length": (60.0, 300.0),
+    "girth": (100.0, 600.0),
+    "width": (20.0, 200.0),
+    "height": (0.0, 200.0),
+    "spring": (-30.0, 100.0),
+}
+"""What a measure of a foot can be, by its name or a word of it; any other number is in another
+unit, or wrong."""
 UNUSUAL_SHARE = 0.05
 """If more of the feet have a value that people hardly have, the column may hold something else."""
 ROWS_AT_ONCE = 20_000
@@ -160,17 +169,29 @@ def _numbers(texts: Sequence[str], role: Role, places: Sequence[str], origin: st
         values = np.array(
             [_number(*each, role, origin) for each in zip(texts, places, strict=True)]
         )
-    low, high = {"length": LENGTH_MM, FLARE: (-90.0, 90.0)}.get(role.name, MEASURE_MM)
+    low, high = _range_of(role.name)
     wrong = np.flatnonzero(np.isinf(values) | (values < low) | (values > high))
     if len(wrong):
         value, unit = values[wrong[0]], "deg" if role.name == FLARE else "mm"
         words = f"{role.name} is {value:g}; it must be from {low:g} to {high:g} {unit}"
         for factor in (10.0, 1000.0, 25.4):
-            if unit == "mm" and role.name == "length" and low <= value * factor <= high:
+            if unit == "mm" and low <= value * factor <= high:
                 words += f" (is it {value * factor:.0f} mm?): give all measures in mm"
                 break
         raise BadManifest(words, f"{origin} line {places[wrong[0]]}")
     return values * role.scale
+
+
+def _range_of(name: str) -> tuple[float, float]:
+    """What a measure of a foot can be.
+
+    Examples
+    --------
+    >>> _range_of("length"), _range_of("instep_girth_least")
+    ((110.0, 370.0), (100.0, 600.0))
+    """
+    words = (word for word in name.split("_") if word in RANGES)
+    return RANGES[name if name in RANGES else next(words)]
 
 
 def _number(text: str, place: str, role: Role, origin: str) -> float:

@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any
 from footfit import number_words
 from footfit.report.wording import (
     comparison_words,
+    coverage_words,
     fit_words,
     sheet_words,
     text,
@@ -44,6 +45,10 @@ FILTERS = (
     comparison_words.measures_words,
     comparison_words.surfaces_words,
     comparison_words.swing_words,
+    coverage_words.feet_words,
+    coverage_words.next_words,
+    coverage_words.percent_words,
+    coverage_words.share_words,
     sheet_words.fit_words,
     sheet_words.shoe_labels,
     width_words.fittings_words,

@@ -1,0 +1,1 @@
+"""Plots of many feet and many lasts: scatters, curves and histograms."""
