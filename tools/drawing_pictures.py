@@ -19,7 +19,7 @@ def drawing_pictures() -> dict[str, bytes]:
     import pypdfium2
     from PIL import Image
 
-    document = pypdfium2.PdfDocument(footfit.draw_last(SAMPLES / "lasts" / "derby-40.stl"))
+    document = pypdfium2.PdfDocument(footfit.draw_last(SAMPLES / "lasts" / "derby-38.stl"))
     sheets = [page.render(scale=DOTS_PER_INCH / 72.0).to_pil() for page in document]
     width = sum(sheet.width + GAP for sheet in sheets) + GAP
     row = Image.new("RGB", (width, sheets[0].height + 2 * GAP), TABLE)

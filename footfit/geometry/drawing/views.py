@@ -18,7 +18,7 @@ from footfit.geometry.drawing.thinned import thinned_loop
 from footfit.geometry.fit.paired_sections import station_plane
 from footfit.geometry.fit.stations import STATIONS, Station
 from footfit.geometry.measures.landmarks import LANDMARKS, Shape
-from footfit.geometry.mesh.outlines import TAPE_OUTLINES, Outline
+from footfit.geometry.mesh.outlines import TAPE_OUTLINES, Outline, steady_loop
 from footfit.geometry.numeric.arrays import Floats, Ints
 
 LEG_HEIGHT = 0.60
@@ -210,11 +210,17 @@ def _plan(shape: Shape, cuts: tuple[_Cut, ...]) -> View:
     return _from_above("plan", _standing(shape, shape.vertices_mm), shape.faces, cuts, shape)
 
 
+def _shadow(points: Floats, faces: Ints) -> Floats:
+    """The outline of a shadow without a scanner's noise; that of a clean mesh stays as it is."""
+    outline = shadow_outline(points, faces)
+    return steady_loop(outline, float(np.ptp(outline[:, 0])), TAPE_OUTLINES)
+
+
 def _from_above(
     name: str, vertices: Floats, faces: Ints, cuts: tuple[_Cut, ...], last: Shape | None = None
 ) -> View:
     """The shadow from above, with the marks of the sections; those of a ``last`` stand as it."""
-    outline = thinned_loop(_toe_up(shadow_outline(vertices[:, :2], faces)))
+    outline = thinned_loop(_toe_up(_shadow(vertices[:, :2], faces)))
     edges = ((cut.station.name, cut.edges(0.0)) for cut in cuts)
     seen = ((mark, at if last is None else _standing(last, at)) for mark, at in edges)
     return View(name, (outline,), _marks(outline, ((mark, _toe_up(at)) for mark, at in seen)))
@@ -225,6 +231,6 @@ def _side(shape: Shape, cuts: tuple[_Cut, ...]) -> View:
     vertices, faces = _standing(shape, shape.vertices_mm), shape.faces
     if shape.kind == "foot":
         vertices, faces = below(vertices, faces, LEG_HEIGHT * shape.length_mm)
-    outline = thinned_loop(shadow_outline(vertices[:, [0, 2]], faces))
+    outline = thinned_loop(_shadow(vertices[:, [0, 2]], faces))
     seen = ((cut.station.name, _standing(shape, cut.ends)[:, [0, 2]]) for cut in cuts)
     return View("side", (outline,), _marks(outline, seen), symmetric=True)

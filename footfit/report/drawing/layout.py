@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from footfit.report.drawing.packing import PADDING_MM, Packing, packing
+from footfit.report.drawing.packing import PADDING_MM, Packing, Size, packing
 from footfit.report.drawing.papers import MARGIN_MM, Paper, Tile, furniture
 from footfit.report.drawing.parts import Block, joined
 from footfit.report.drawing.title_block import tile_map, title_block, title_words
@@ -83,7 +83,7 @@ def layout(drawing: Drawing, paper: Paper) -> Layout:
 
 
 def _packing(blocks: Mapping[str, Block], names: Sequence[str], paper: Paper) -> Packing:
-    return packing([_size(blocks[name]) for name in names], paper)
+    return packing([_size(name, blocks[name]) for name in names], paper)
 
 
 def _laid_out(
@@ -107,7 +107,7 @@ def _laid_out(
     return Layout(tuple(placed), tuple(shown), paper, size_mm, title)
 
 
-def _size(block: Block) -> tuple[float, float]:
+def _size(name: str, block: Block) -> Size:
     low, high = block.bounds
     width, height = high - low + np.multiply(2.0, PADDING_MM)
-    return float(width), float(height)
+    return Size(float(width), float(height), name in (TEXT, MAP))

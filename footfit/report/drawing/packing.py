@@ -4,11 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 
 from footfit.geometry.numeric.arrays import Floats
-from footfit.report.drawing.papers import Paper, Tile, tiles_of
+from footfit.report.drawing.papers import UNDER_CROSS_MM, Paper, Tile, crosses_in, tiles_of
 
 PADDING_MM = (2.0, 0.25)
 """Beside each block, and over and under it: it keeps blocks from the edges of papers."""
@@ -39,8 +40,16 @@ class Packing:
         return len(self.tiles), sum(map(len, self.shown)), self.height_mm
 
 
-def packing(sizes: Sequence[tuple[float, float]], paper: Paper) -> Packing:
-    """Places for blocks of some sizes (width, height with padding), the first first.
+class Size(NamedTuple):
+    """How large a block is, with its padding; ``is_text`` if no cross may cover it."""
+
+    width: float
+    height: float
+    is_text: bool = False
+
+
+def packing(sizes: Sequence[Size], paper: Paper) -> Packing:
+    """Places for blocks of some sizes, the first first.
 
     Each block goes to the corner where it needs the fewest new papers and crosses the fewest
     borders. The best of several numbers of columns is taken.
@@ -48,29 +57,31 @@ def packing(sizes: Sequence[tuple[float, float]], paper: Paper) -> Packing:
     counts = (1,) if paper.is_roll else range(1, MOST_COLUMNS + 1)
     pitch, window = paper.pitch_mm[0], paper.window_mm[0]
     widths = [pitch * (count - 1) + window for count in counts]
-    widest = max(width for width, _ in sizes)
+    widest = max(size.width for size in sizes)
     fits = [width for width in widths if width >= widest] or [max(*widths, widest)]
     return min((_packing_within(sizes, paper, width) for width in fits), key=lambda each: each.cost)
 
 
-def _packing_within(sizes: Sequence[tuple[float, float]], paper: Paper, width_mm: float) -> Packing:
+def _packing_within(sizes: Sequence[Size], paper: Paper, width_mm: float) -> Packing:
     boxes = np.empty((0, 4))  # left, top, right, bottom; y down
     shown: list[frozenset[Tile]] = []
-    for width, height in sizes:
+    for size in sizes:
         used = frozenset[Tile]().union(*shown)
         keyed = []
-        for left, top in _free_places(boxes, (width, height), width_mm, paper):
-            tiles = tiles_of(left, -top, left + width, -top - height, paper)
-            keyed.append((len(tiles - used), len(tiles), top + height, left, top, tiles))
-        *_, left, top, tiles = min(keyed, key=lambda key: key[:-1])
-        boxes = np.vstack([boxes, [left, top, left + width, top + height]])
+        for left, top in _free_places(boxes, size, width_mm, paper):
+            box = left, top, left + size.width, top + size.height
+            tiles = tiles_of(left, -top, box[2], -box[3], paper)
+            covered = crosses_in(box, tiles, paper) if size.is_text else 0
+            keyed.append((len(tiles - used), len(tiles), covered, box[3], left, box, tiles))
+        *_, box, tiles = min(keyed, key=lambda key: key[:-2])
+        boxes = np.vstack([boxes, box])
         shown.append(tiles)
     height_mm = float(boxes[:, 3].max()) if paper.is_roll else 0.0
     return Packing(boxes[:, :2] * (1.0, -1.0), tuple(shown), height_mm)
 
 
 def _free_places(
-    boxes: Floats, size: tuple[float, float], width_mm: float, paper: Paper
+    boxes: Floats, size: Size, width_mm: float, paper: Paper
 ) -> list[tuple[float, float]]:
     """Places beside and below the other boxes, and at the corners of papers, that are free."""
     rows = range(1 + int(boxes[:, 3].max(initial=0.0) // paper.pitch_mm[1]) + 1)
@@ -79,15 +90,16 @@ def _free_places(
     if not paper.is_roll:
         lefts |= {column * paper.pitch_mm[0] for column in range(MOST_COLUMNS)}
         tops |= {row * paper.pitch_mm[1] for row in rows}
+        tops |= {row * paper.pitch_mm[1] + UNDER_CROSS_MM for row in rows if size.is_text}
     free = []
     for left in sorted(lefts):
-        if left + size[0] > width_mm + 1e-9:
+        if left + size.width > width_mm + 1e-9:
             continue
         for top in sorted(tops):
             apart = (
-                (boxes[:, 0] >= left + size[0] - 1e-9)
+                (boxes[:, 0] >= left + size.width - 1e-9)
                 | (boxes[:, 2] <= left + 1e-9)
-                | (boxes[:, 1] >= top + size[1] + BELOW_MM - 1e-9)
+                | (boxes[:, 1] >= top + size.height + BELOW_MM - 1e-9)
                 | (boxes[:, 3] <= top - BELOW_MM + 1e-9)
             )
             if apart.all():

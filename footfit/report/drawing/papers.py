@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Iterable
 from dataclasses import dataclass
 from typing import Literal
 
@@ -16,6 +17,8 @@ BAR_MM = 100.0
 BAR_FROM_EDGE_MM = 8.5  # printers reach to some 4.3 mm of the paper's edge
 TICK_MM = 1.2
 CROSS_MM = 3.0
+UNDER_CROSS_MM = 0.5 * OVERLAP_MM + CROSS_MM
+"""From the upper edge of a paper's window to the lower end of its upper crosses."""
 PRINT_WORDS = "print at 100 %, do not fit to page"
 
 
@@ -137,3 +140,25 @@ def crosses(width_mm: float, height_mm: float) -> tuple[Line, ...]:
             straight((x, y - CROSS_MM), (x, y + CROSS_MM)),
         )
     )
+
+
+def crosses_in(box: tuple[float, float, float, float], tiles: Iterable[Tile], paper: Paper) -> int:
+    """How many crosses of some tiles a box (left, top, right, bottom; y down) touches.
+
+    Examples
+    --------
+    >>> crosses_in((0.0, 0.0, 90.0, 50.0), {Tile(0, 0)}, PAPERS["a4"])
+    1
+    >>> crosses_in((0.0, UNDER_CROSS_MM, 90.0, 50.0), {Tile(0, 0)}, PAPERS["a4"])
+    0
+    """
+    width, height = paper.window_mm
+    inset = 0.5 * OVERLAP_MM
+    count = 0
+    for tile in () if paper.is_roll else tiles:
+        left, up = tile.top_left_mm(paper)
+        for x in (left + inset, left + width - inset):
+            for y in (inset - up, height - inset - up):
+                across = box[0] < x + CROSS_MM and x - CROSS_MM < box[2]
+                count += across and box[1] < y + CROSS_MM and y - CROSS_MM < box[3]
+    return count

@@ -17,8 +17,6 @@ from footfit.version import __version__
 COLUMNS_MM = (0.0, 46.0, 56.0, 70.0, 73.0)
 """Where the columns of the table of measures are: name, value, spread, total, unit."""
 ROW_MM = 3.7
-CROSS_SIDE_MM = 6.5
-"""The title begins so far to the right: beside a cross, if it stands in a corner."""
 LETTERS = 56
 """Of a line of text."""
 ACCEPT_WORDS = "both bars must measure 99.5 to 100.5 mm, on every sheet"
@@ -43,7 +41,7 @@ def title_words(drawing: Drawing) -> str:
 
 def title_block(drawing: Drawing) -> Block:
     """The block of text: what is drawn, how to print it, and the table of measures."""
-    head = paragraph([title_words(drawing)], (CROSS_SIDE_MM, 0.0), 5.0, bold=True)
+    head = paragraph([title_words(drawing)], (0.0, 0.0), 5.0, bold=True)
     notes = [line for text in _notes(drawing) for line in textwrap.wrap(text, LETTERS)]
     text = paragraph(notes, (0.0, -9.0), 2.4)
     table = _table(drawing.measures, -9.0 - 1.45 * 2.4 * len(notes) - 3.0)

@@ -7,6 +7,7 @@ import numpy as np
 from footfit.geometry.drawing.views import SOLE_HEIGHT_MM, Mark, View, chord
 from footfit.geometry.numeric.arrays import Floats
 from footfit.number_words import plain
+from footfit.report.drawing.papers import TICK_MM
 from footfit.report.drawing.parts import (
     BOUNDARY,
     EDGE_MM,
@@ -22,6 +23,8 @@ from footfit.results import Drawing, Measure
 
 TITLE_MM, SMALL_MM = 3.5, 2.4
 BESIDE_MM = 2.0
+HEIGHT_MM, END_MM = 2.5, 3.7
+"""How far beyond the heel and the toe a height stands, and the ground ends."""
 TITLE_ABOVE_MM = 9.0
 """How far over the middle of its gap a title inside an outline begins."""
 IN_SECTION = {"heel": "heel_width", "instep": "instep_girth", "ball": "ball_girth"}
@@ -121,13 +124,13 @@ def _standing_mark(mark: Mark) -> Block:
 def _ground(drawing: Drawing, low: Floats, high: Floats) -> Block:
     """The ground, and how high the heel and the tip of a last stand over it."""
     rear, front = float(low[0]), float(high[0])
-    lines = [straight((rear - 5.0, 0.0), (front + 5.0, 0.0), "ground")]
-    for name, x in (("heel_height", rear - 3.0), ("toe_spring_tip", front + 3.0)):
+    lines = [straight((rear - END_MM, 0.0), (front + END_MM, 0.0), "ground")]
+    for name, x in (("heel_height", rear - HEIGHT_MM), ("toe_spring_tip", front + HEIGHT_MM)):
         measure = drawing.value_of(name)
         if measure is not None and measure.measured.value is not None:
             height = measure.measured.value
             lines += [
                 straight((x, 0.0), (x, height), name),
-                straight((x - 1.5, height), (x + 1.5, height)),
+                straight((x - TICK_MM, height), (x + TICK_MM, height)),
             ]
     return Block(tuple(lines))
