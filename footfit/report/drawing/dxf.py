@@ -15,8 +15,6 @@ if TYPE_CHECKING:
 
 CAPITAL = 0.72
 """How high a capital letter is, over the size of the font: a DXF text is as high."""
-NO_DAY = 2451545.0
-"""1 January 2000, as a Julian day: a file that depends on its mesh alone has no date."""
 UNIT_WORDS = "units: mm, scale 1:1"
 
 
@@ -27,7 +25,6 @@ def dxf_bytes(layout: Layout) -> bytes:
 
     with _no_dates():
         document = new("R2000", units=units.MM)
-        document.header["$TDCREATE"] = NO_DAY
         for layer in (BOUNDARY, INTERNAL, NOTE):
             document.layers.add(str(layer))
         space = document.modelspace()
