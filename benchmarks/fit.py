@@ -23,12 +23,14 @@ from benchmarks.tables import markdown, put
 from footfit.geometry.flare.profile_distance import profile_distances
 from footfit.geometry.measures.landmarks import Shape
 from footfit.pipeline.fit.fit_profile import fit_profile
+from footfit.pipeline.fit.judging.clearances import last_gain
 from footfit.pipeline.fit.match import Question, matched
 from footfit.pipeline.fit.scoring import scales
-from footfit.pipeline.fit.zones import bottom_gain, last_shape
 from footfit.pipeline.scan.flare import profiled_scan
 from footfit.pipeline.scan.measure import last_record, shape_measures
+from footfit.pipeline.shelf.shelf import record_lasts
 from footfit.results import LastLabels, LastRecord, Library, Profiled
+from footfit.results.columns.vocabulary import Words
 from tests.distortions import decimated, moved, random_pose, white_noise
 from tests.reading import read_scan
 from tests.scans import aligned, right_shape
@@ -144,9 +146,8 @@ def grid_rows(count: int, seed: int) -> Iterator[list[str]]:
     meshes = {name: last_mesh(spec) for name, spec in specs.items()}
     girths = {name: girth_mm(mesh, "last") for name, mesh in meshes.items()}
     lasts = tuple(stored(mesh, name, rng) for name, mesh in meshes.items())
-    gains = np.array(
-        [bottom_gain(last_shape(last)).value for last in lasts[:: len(lasts) // LENGTHS]]
-    )
+    some = lasts[:: len(lasts) // LENGTHS]
+    gains = last_gain(record_lasts(some).base, Words()).value
     library = Library(lasts, len(lasts), None)
     feet = true_feet(sorted(SCANS.glob("*.stl")))
     length, width, both, verdicts, missed = 0, 0, 0, [], []

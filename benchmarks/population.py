@@ -24,6 +24,7 @@ from footfit.geometry.fit.sizes import SYSTEMS
 from footfit.geometry.measures.measure_table import MEASURES
 from footfit.geometry.numeric.arrays import Floats, Ints
 from footfit.pipeline.fit.fit_profile import fit_profile, shipped
+from footfit.pipeline.fit.judging.clearances import BALL_SHARE
 from footfit.pipeline.fit.scoring import (
     ACCEPTABLE,
     GOOD,
@@ -33,7 +34,6 @@ from footfit.pipeline.fit.scoring import (
     scores,
     worst_levels,
 )
-from footfit.pipeline.fit.zones import BALL_SHARE
 from footfit.results import FitProfile
 
 PEOPLE = Path(__file__).resolve().parents[2] / "shared" / "population"

@@ -24,8 +24,8 @@ from footfit.pipeline.fit.compare import (
 )
 from footfit.pipeline.fit.heel_model import heel_question
 from footfit.pipeline.fit.match import Question, matched
-from footfit.pipeline.library.lasts import library
 from footfit.pipeline.scan.reading import profiled_source
+from footfit.pipeline.shelf.candidates import choice
 from footfit.results.heel import AS_SCANNED
 from tests import answers
 from tests.answers import turned
@@ -108,7 +108,7 @@ def test_a_last_without_a_bottom_is_refused():
 
 
 def test_a_match_is_shown_in_its_best_last(scan, stocked):
-    match = matched([scan], library(stocked))
+    match = matched([scan], choice(stocked, None, None))
     best = best_comparison(stocked, match)
     shown = match.candidates or match.nearest
     assert best.last.labels.name == shown[0].last
@@ -123,7 +123,7 @@ def test_a_match_is_shown_in_its_best_last(scan, stocked):
 
 def test_a_comparison_says_what_a_match_says(scan, stocked):
     """One number for one thing: toe room, flare, what the heel changes, and the surfaces."""
-    lasts = library(stocked)
+    lasts = choice(stocked, None, None)
     for heel in (heel_question(), heel_question(scanned_at_drop_mm=60.0), AS_SCANNED):
         match = matched([scan], lasts, Question(top=0, by="flare", heel=heel))
         chosen = {c.last: c for c in match.candidates if c.last in (LAST, "derby-40")}
@@ -138,7 +138,7 @@ def test_a_comparison_says_what_a_match_says(scan, stocked):
 
 def test_the_page_of_a_match_shows_the_foot_that_was_ranked(scan, stocked):
     for heel in (heel_question(), AS_SCANNED):
-        match = matched([scan], library(stocked), Question(heel=heel))
+        match = matched([scan], choice(stocked, None, None), Question(heel=heel))
         (best,) = best_comparisons(stocked, match)
         first = (match.candidates or match.nearest)[0]
         assert best.heel == first.fits[0].heel

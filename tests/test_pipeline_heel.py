@@ -17,9 +17,9 @@ from footfit.geometry.fit.along_the_bottom import (
 )
 from footfit.pipeline.fit.heel_model import FILE, heel_model, heel_model_of, heel_question
 from footfit.pipeline.fit.heels import heel_change, heels_of
+from footfit.pipeline.fit.judging.clearances import LENGTHS
 from footfit.pipeline.fit.match import Question, matched, meets
 from footfit.pipeline.fit.scoring import distance_spread, fit_distance, scores
-from footfit.pipeline.fit.zones import LENGTHS
 from footfit.results import Candidate, HeelQuestion, LastRecord, Match, Measure, Measured
 from footfit.results.heel import AS_SCANNED, FLARE
 from tests import answers

@@ -17,13 +17,13 @@ from footfit.errors import BadOption, NoCandidate
 from footfit.geometry.measures.measure_table import measure_named
 from footfit.number_words import signed
 from footfit.pipeline.batch.sources import ReadingOptions, Source
-from footfit.pipeline.fit.candidates import choice
 from footfit.pipeline.fit.compare import best_comparison
 from footfit.pipeline.fit.fit_profile import fit_profile
+from footfit.pipeline.fit.judging.clearances import BALL_SHARE, ball_line_mm
 from footfit.pipeline.fit.match import Question, matched, meets
 from footfit.pipeline.fit.scoring import rescan_spread
-from footfit.pipeline.fit.zones import BALL_SHARE, ball_line_mm
 from footfit.pipeline.scan.reading import profiled_source
+from footfit.pipeline.shelf.candidates import choice
 from footfit.report.page.match_page import match_page
 from footfit.report.terminal.match_tables import match_table
 from footfit.report.terminal.scan_tables import terminal_text
@@ -471,7 +471,7 @@ def test_no_last_at_all_is_an_error() -> None:
 
 def test_a_size_system_that_no_last_has_ranks_all_and_says_so(stocked: Any) -> None:
     found = choice(stocked, None, "us-women")
-    assert found.lasts
+    assert found.names
     assert [notice.code for notice in found.warnings] == ["other_systems"]
     assert choice(stocked, None, "EU").warnings == ()
     with pytest.raises(BadOption, match=r"'shop size'.*there are eu, uk, us-men"):
@@ -484,8 +484,8 @@ def test_a_size_system_of_the_shops_own_is_one_where_a_last_is_labelled_in_it(
     path = tmp_path / "own.footfit"
     with open_catalogue(path, write=True) as catalogue:
         catalogue.add(records.last("a", size="7", size_system="house"), records.mesh_copy(1))
-    assert [last.labels.name for last in choice(path, None, "house").lasts] == ["a"]
-    assert not choice(path, "no such style", "house").lasts
+    assert choice(path, None, "house").names == ("a",)
+    assert not choice(path, "no such style", "house").names
 
 
 def test_lasts_that_were_measured_otherwise_are_said(stocked: Any, tmp_path: Path) -> None:

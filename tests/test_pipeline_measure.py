@@ -10,10 +10,10 @@ import numpy as np
 import pytest
 
 from footfit.errors import HalfScan, SideUndecided
-from footfit.pipeline.fit.candidates import choice
 from footfit.pipeline.fit.match import Question, matched
 from footfit.pipeline.scan.flare import profiled_scan
 from footfit.pipeline.scan.measure import measured_scan, unusual_measures
+from footfit.pipeline.shelf.candidates import choice
 from footfit.results import Measure, Measured
 from tests.bounds import POSED, ROUNDING
 from tests.conftest import SAMPLES, Footfit

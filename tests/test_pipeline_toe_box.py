@@ -16,9 +16,9 @@ from footfit.api.catalogues import open_catalogue
 from footfit.catalogue.store import open_catalogue as catalogue_at
 from footfit.meshes.write import encoded_mesh
 from footfit.pipeline.batch.sources import ReadingOptions, Source
-from footfit.pipeline.fit import toe_box
 from footfit.pipeline.fit.fit_profile import fit_profile, shipped
 from footfit.pipeline.fit.heels import heels_of
+from footfit.pipeline.fit.judging import toe_box
 from footfit.pipeline.fit.scoring import GOOD, REJECT, levels
 from footfit.pipeline.fit.zones import NOT_READ, TOE_BOX, TOE_HEIGHT, TOES
 from footfit.pipeline.scan.reading import profiled_source
@@ -54,8 +54,8 @@ def in_last(foot: Profiled | list[Profiled], catalogue: Path, name: str = "derby
 
 
 def asked(foot: Profiled | list[Profiled], catalogue: Path, **question: object) -> Match:
-    from footfit.pipeline.fit.candidates import choice
     from footfit.pipeline.fit.match import Question, matched
+    from footfit.pipeline.shelf.candidates import choice
 
     feet = foot if isinstance(foot, list) else [foot]
     return matched(feet, choice(catalogue, None, None), Question(top=0, **question))  # type: ignore[arg-type]

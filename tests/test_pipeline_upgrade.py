@@ -16,8 +16,8 @@ from footfit.catalogue.rows.writing import driver_of, seal, update_row
 from footfit.catalogue.store import open_catalogue
 from footfit.errors import NoCatalogue
 from footfit.geometry.flare.definition import FlareDefinition
-from footfit.pipeline.library.lasts import library
 from footfit.pipeline.library.upgrade import upgrade
+from footfit.pipeline.shelf.candidates import choice
 
 ON_THE_GROUND = ("heel_height", "toe_spring_tip", "tread_from", "tread_to", "bottom_length")
 
@@ -28,12 +28,12 @@ def test_profiles_of_another_definition_are_recomputed_and_marked(catalogue: Pat
         definition = replace(record.flare.definition, version="flare/0", band_height=0.2)
         older = replace(record.flare, definition=definition, angle_deg=99.0)
         opened.update_measured(replace(record, flare=older))
-    assert [notice.code for notice in library(catalogue).warnings] == ["outdated_last"]
+    assert [notice.code for notice in choice(catalogue, None, None).warnings] == ["outdated_last"]
 
     outcome = upgrade(catalogue)
     assert outcome.recomputed == (record.labels.name,)
     assert outcome.backup is None
-    assert library(catalogue).warnings == ()
+    assert choice(catalogue, None, None).warnings == ()
     with open_catalogue(catalogue) as opened:
         again = opened.record(record.labels.name)
     assert again.upgraded_from == "flare/0"
@@ -55,7 +55,7 @@ def test_a_parameter_more_or_less_is_another_definition_whatever_its_version(
             key = last_id(driver_of(connection), record.labels.name)
             update_row(connection, FLARE, key, {"definition": text, "angle_deg": 19.0})
             seal(connection, key)
-    assert [notice.code for notice in library(catalogue).warnings] == ["outdated_last"]
+    assert [notice.code for notice in choice(catalogue, None, None).warnings] == ["outdated_last"]
     with open_catalogue(catalogue) as opened:
         assert (
             opened.record(record.labels.name).flare.definition.version == FlareDefinition().version
@@ -63,7 +63,7 @@ def test_a_parameter_more_or_less_is_another_definition_whatever_its_version(
         assert [finding.code for finding in opened.findings()] == ["definition"]
 
     assert upgrade(catalogue).recomputed == (record.labels.name,)
-    assert library(catalogue).warnings == ()
+    assert choice(catalogue, None, None).warnings == ()
     with open_catalogue(catalogue) as opened:
         assert opened.record(record.labels.name).flare.angle_deg != 19.0
 

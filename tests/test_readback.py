@@ -21,8 +21,8 @@ from footfit.pipeline.batch.sources import ReadingOptions, Source
 from footfit.pipeline.customers.customer import alone, one_pair
 from footfit.pipeline.customers.matches import matches
 from footfit.pipeline.drawables import best_comparisons
-from footfit.pipeline.fit.candidates import choice
 from footfit.pipeline.fit.match import Question
+from footfit.pipeline.shelf.candidates import choice
 from footfit.pipeline.width.foot_width import foot_widths
 from footfit.report.csv import csv_text
 from footfit.report.page.compare_page import compare_page

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from footfit import results
 from footfit.api.inputs import FilePath
@@ -10,13 +11,16 @@ from footfit.catalogue import store
 from footfit.pipeline.batch.runs import HERE
 from footfit.pipeline.library import backup, check
 
+if TYPE_CHECKING:
+    from footfit.pipeline.shelf.shelf import Shelf
+
 
 class CatalogueFile:
     """A catalogue's file. ``_chosen`` keeps the lasts that were read, until one is changed."""
 
     def __init__(self, path: Path) -> None:
         self.path = path
-        self._chosen: dict[tuple[str | None, str | None], results.Library] = {}
+        self._chosen: dict[tuple[str | None, str | None], Shelf] = {}
 
     def info(self) -> results.CatalogueFacts:
         """Where the file is, and what it holds."""

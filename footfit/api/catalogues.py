@@ -37,6 +37,7 @@ from footfit.pipeline.library import lasts
 if TYPE_CHECKING:
     from footfit.pipeline.fit.match import Question
     from footfit.pipeline.library.ingest import Entry, HoldSignals, KeepMesh
+    from footfit.pipeline.shelf.shelf import Shelf
     from footfit.results.last_making.section_table import SectionTable
 
 NO_LABELS = results.LastLabels("")
@@ -167,8 +168,8 @@ class Catalogue(CatalogueFile):
             growth=growth_options(question),
         )
 
-    def _choice(self, question: MatchKeywords) -> results.Library:
-        from footfit.pipeline.fit.candidates import choice, in_stock
+    def _choice(self, question: MatchKeywords) -> Shelf:
+        from footfit.pipeline.shelf.candidates import choice, in_stock
 
         filters = question.get("style"), question.get("size_system")
         if filters not in self._chosen:

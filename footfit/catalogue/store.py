@@ -8,6 +8,8 @@ from contextlib import contextmanager
 from dataclasses import dataclass, replace
 from pathlib import Path
 
+from footfit.catalogue.blocks.reading import BlockLasts, block_lasts
+from footfit.catalogue.blocks.writing import fill_blocks, refresh_blocks
 from footfit.catalogue.checks.damage import findings
 from footfit.catalogue.file.copying import copy_into
 from footfit.catalogue.file.engine import SETTINGS, CatalogueFile, sqlite_errors_in_words
@@ -99,7 +101,9 @@ def open_catalogue(
     """
     place, schema = Path(path), schema or Schema()
     if write:
-        file, revisions = open_for_writing(place, schema, busy_timeout_s, may_create=create)
+        file, revisions = open_for_writing(
+            place, schema, busy_timeout_s, may_create=create, finish=fill_blocks
+        )
     else:
         file, revisions = open_for_reading(place, schema, busy_timeout_s, older=older)
     try:
@@ -158,6 +162,14 @@ class Catalogue:
         """
         with self.file.reading() as connection:
             return verified_records(connection, **labels)
+
+    def block_lasts(self, untrusted: frozenset[int] = frozenset()) -> BlockLasts:
+        """Every intact last by column, from the search blocks; those in ``untrusted`` are not used.
+
+        No mesh is read, and no row of a last whose block is what was stored.
+        """
+        with self.file.reading() as connection:
+            return block_lasts(connection, self.file.path, untrusted)
 
     def reference(self, name: str | None = None) -> Reference | None:
         """The reference last, None in an empty catalogue; or what the last ``name`` would be as it.
@@ -282,6 +294,7 @@ class Catalogue:
             write_sealed(connection, key, SECTION, sections)
             write_parentage(connection, key, parentage, keep=place.same_file)
             express(connection, key)
+            refresh_blocks(driver_of(connection), [key])
 
     def remove(self, name: str) -> RemoveOutcome:
         """Remove a last with everything that the catalogue holds of it.
@@ -301,6 +314,7 @@ class Catalogue:
             if len(names) == 1:  # an empty catalogue has no reference
                 delete_rows(connection, REFERENCE, key)
             delete_rows(connection, LAST, key)
+            refresh_blocks(driver, [key])
         return RemoveOutcome(names[key], len(names) - 1)
 
     def rename(self, name: str, new_name: str) -> RenameOutcome:
@@ -319,6 +333,7 @@ class Catalogue:
             update_row(connection, LAST, stored.id, {"name": new_name})
             seal(connection, stored.id)
             rename_base(connection, stored, new_name)
+            refresh_blocks(driver, [stored.id])
         return RenameOutcome(new_name, stored.name)
 
     def edit(
@@ -357,6 +372,7 @@ class Catalogue:
             if after.labels != before.labels:
                 write_labels(connection, stored.id, after)
                 write_measured(connection, stored.id, after, sections)
+                refresh_blocks(driver, [stored.id])
         return before, after
 
     def set_reference(self, name: str) -> ReferenceOutcome:
@@ -386,3 +402,9 @@ class Catalogue:
             driver = driver_of(connection)
             key = intact_last(driver, last_id(driver, record.labels.name)).id
             write_measured(connection, key, record, sections)
+            refresh_blocks(driver, [key])
+
+    def renew_blocks(self) -> int:
+        """Make every search block anew that is missing or not what was stored; return how many."""
+        with self.file.atomic() as connection:
+            return fill_blocks(driver_of(connection))

@@ -9,10 +9,11 @@ from collections.abc import Callable
 from contextlib import closing
 from pathlib import Path
 
+from footfit.catalogue.blocks.reading import BadBlocks
 from footfit.catalogue.file.engine import connect
 from footfit.errors import ExitCode, FootfitError
-from footfit.pipeline.library import lasts
 from footfit.pipeline.library.check import check
+from footfit.pipeline.shelf.candidates import choice
 from tests import records
 from tests.torture.scripts import MAIN, filling, values
 from tests.torture.tally import Tally
@@ -98,9 +99,14 @@ def _code(path: Path) -> int:
 
 
 def ranked(path: Path) -> dict[str, object]:
-    """The lasts that a match ranks; none where it is refused."""
+    """The lasts that a match can show; none where it is refused."""
     try:
-        return {record.labels.name: records.plain(record) for record in lasts.library(path).lasts}
+        shelf = choice(path, None, None)
+        try:
+            shown = shelf.records()
+        except BadBlocks as error:
+            shown = shelf.anew(error.blocks).records()
+        return {record.labels.name: records.plain(record) for record in shown}
     except FootfitError:
         return {}
 

@@ -8,6 +8,7 @@ from functools import partial
 
 import numpy as np
 
+from footfit.catalogue.blocks.writing import BLOCKS_ANEW, wrong_blocks
 from footfit.catalogue.checks.plausible_values import implausible, implausible_values
 from footfit.catalogue.checks.schema_comparison import expected_objects, stored_objects
 from footfit.catalogue.file.migrate import Schema
@@ -127,6 +128,15 @@ def _sealed_rows(connection: sqlite3.Connection) -> Iterator[Finding]:
                 yield Finding("range", words, name)
 
 
+def _blocks(connection: sqlite3.Connection) -> Iterator[Finding]:
+    """The search blocks against the rows that they are made of; an older schema has none."""
+    if not connection.execute("SELECT 1 FROM sqlite_master WHERE name = 'search_block'").fetchone():
+        return
+    for block in wrong_blocks(connection):
+        words = f"search block {block} does not say what its lasts say; {BLOCKS_ANEW}"
+        yield Finding("search_block", words)
+
+
 def _fits(connection: sqlite3.Connection) -> Iterator[Finding]:
     """The entries of the fit log; an older schema has none."""
     if not connection.execute("SELECT 1 FROM sqlite_master WHERE name = 'fit'").fetchone():
@@ -172,6 +182,7 @@ CHECKS: tuple[Check, ...] = (
     _lasts,
     _definitions,
     _sealed_rows,
+    _blocks,
     _fits,
     _reference,
 )

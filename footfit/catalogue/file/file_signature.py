@@ -26,7 +26,7 @@ class Signature:
     application_id_at: int = 68
     header_bytes: int = 100
     application_id: int = 0x466F6F74
-    revisions: tuple[str, ...] = ("0001", "0002", "0003", "0004")
+    revisions: tuple[str, ...] = ("0001", "0002", "0003", "0004", "0005")
 
 
 SIGNATURE = Signature()

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import sqlite3
+from collections.abc import Callable
 from contextlib import closing
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -16,6 +17,9 @@ from footfit.whole_files import give_name
 
 if TYPE_CHECKING:
     from sqlalchemy import Connection
+
+Finish = Callable[[sqlite3.Connection], object]
+"""What is done after the migrations of an older catalogue, in their transaction."""
 
 
 def migrations_folder() -> Path:
@@ -111,12 +115,13 @@ def create(connection: sqlite3.Connection, schema: Schema) -> None:
         _run_migrations(begun, schema)
 
 
-def upgrade(path: Path, schema: Schema, busy_timeout_s: float) -> Revisions:
+def upgrade(path: Path, schema: Schema, busy_timeout_s: float, finish: Finish) -> Revisions:
     """Bring a catalogue to the newest schema; a whole copy is put beside it first.
 
     The lock is held from before the copy until the commit, so that the copy is what was
     migrated. Foreign keys are off meanwhile: SQLite changes a table by making a new one, and
-    with them on, dropping the old one would delete every row that depends on it.
+    with them on, dropping the old one would delete every row that depends on it. ``finish``
+    fills what the migrations cannot, in the same transaction.
 
     Raises
     ------
@@ -136,6 +141,7 @@ def upgrade(path: Path, schema: Schema, busy_timeout_s: float) -> Revisions:
                 copy_into(path, partial, busy_timeout_s)
                 give_name(partial, backup, replace=True)
             _run_migrations(begun, schema)
+            finish(connection)
             if connection.execute("PRAGMA foreign_key_check").fetchone():
                 raise CatalogueDamaged(
                     "has rows that belong to no last; it was not upgraded", str(path)

@@ -13,6 +13,7 @@ from footfit.catalogue.file.engine import (
 )
 from footfit.catalogue.file.file_signature import FileKind, has_live_journal, kind_of_file
 from footfit.catalogue.file.migrate import (
+    Finish,
     Revisions,
     Schema,
     create,
@@ -72,9 +73,16 @@ def open_for_reading(
 
 
 def open_for_writing(
-    path: Path, schema: Schema, busy_timeout_s: float, *, may_create: bool = True
+    path: Path,
+    schema: Schema,
+    busy_timeout_s: float,
+    *,
+    may_create: bool = True,
+    finish: Finish = lambda _: None,
 ) -> tuple[CatalogueFile, Revisions]:
     """A catalogue to write: made if there is none, upgraded if its schema is older.
+
+    ``finish`` is the last step of an upgrade.
 
     Raises
     ------
@@ -89,7 +97,7 @@ def open_for_writing(
     """
     with sqlite_errors_in_words(path):
         if recovered_kind(path, busy_timeout_s) == "catalogue":
-            revisions = _upgrade_if_older(path, schema, busy_timeout_s)
+            revisions = _upgrade_if_older(path, schema, busy_timeout_s, finish)
             connection = connect(path, "rw", busy_timeout_s)
         elif may_create:
             revisions = Revisions(schema.head, schema.head, made=True)
@@ -103,7 +111,9 @@ def _no_catalogue(path: Path) -> NoCatalogue:
     return NoCatalogue(f"there is no catalogue; {FIRST_STEPS}", str(path))
 
 
-def _upgrade_if_older(path: Path, schema: Schema, busy_timeout_s: float) -> Revisions:
+def _upgrade_if_older(
+    path: Path, schema: Schema, busy_timeout_s: float, finish: Finish
+) -> Revisions:
     """Upgrade if needed, and find a read-only file or folder before the work, not after it.
 
     SQLite opens a file that it cannot write without an error. Setting a mark to the value that
@@ -119,7 +129,7 @@ def _upgrade_if_older(path: Path, schema: Schema, busy_timeout_s: float) -> Revi
             return Revisions(revision, revision)
     finally:
         connection.close()
-    return upgrade(path, schema, busy_timeout_s)
+    return upgrade(path, schema, busy_timeout_s, finish)
 
 
 def _make(path: Path, schema: Schema, busy_timeout_s: float) -> sqlite3.Connection:

@@ -369,4 +369,19 @@ FIT = Table(
 )
 """One entry of the fit log. It names its last by name and hash, and outlives it."""
 
-TABLES = (LAST, FRAME, FLARE, MEASURE, NOTICE, MESH_COPY, SECTION, REFERENCE, FIT, PARENTAGE)
+SEARCH_BLOCK = Table(
+    "search_block",
+    (
+        Column("block", INTEGER, key=True, hashed=False),
+        Column("part", TEXT, key=True, hashed=False),
+        Column("layout", TEXT, hashed=False),
+        Column("data", BYTES, hashed=False),
+        Column("hash", TEXT, hashed=False),
+    ),
+)
+"""What ranking reads of some lasts, packed (`catalogue.blocks`); made from the other tables."""
+
+TABLES = (
+    *(LAST, FRAME, FLARE, MEASURE, NOTICE, MESH_COPY, SECTION, REFERENCE, FIT, PARENTAGE),
+    SEARCH_BLOCK,
+)

@@ -16,6 +16,7 @@ from footfit.catalogue.rows.verified_rows import (
     last_names,
     row_digest,
     rows,
+    shown_name,
     stored_lasts,
 )
 from footfit.catalogue.rows.writing import driver_of, seal, update_row, write_reference
@@ -45,12 +46,13 @@ def stored_reference(connection: sqlite3.Connection) -> tuple[int, Reference] | 
     if not single:
         return None
     row = single[0]
-    name = last_names(connection).get(row["last_id"])
-    if name is None or row.get("sha256") != row_digest(REFERENCE, row):
+    select = "SELECT name FROM last NOT INDEXED WHERE id = ?"
+    names = connection.execute(select, (row["last_id"],)).fetchall()
+    if not names or row.get("sha256") != row_digest(REFERENCE, row):
         raise CatalogueDamaged(
             "has a damaged reference; type: footfit set-reference LAST, which makes it anew"
         )
-    return row["last_id"], reference_from(row, name)
+    return row["last_id"], reference_from(row, shown_name(names[0][0]))
 
 
 def reference_of(record: LastRecord) -> Reference:

@@ -5,7 +5,8 @@ from __future__ import annotations
 import sqlite3
 from collections import Counter
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import asdict, dataclass
+from typing import Any
 
 from footfit.catalogue.rows.array_blobs import definition_text
 from footfit.catalogue.rows.last_names import caseless
@@ -42,7 +43,7 @@ def verified_records(connection: sqlite3.Connection, **filters: str | None) -> S
             damaged.append(stored.name)
             continue
         record = record_of(stored, names)
-        reason = rejection(record, filters)
+        reason = rejection(asdict(record.labels), filters)
         if reason is not None:
             rejected.append(reason)
             continue
@@ -53,13 +54,13 @@ def verified_records(connection: sqlite3.Connection, **filters: str | None) -> S
     return StoredLasts(tuple(records), tuple(counts), tuple(damaged), tuple(outdated))
 
 
-def rejection(record: LastRecord, filters: Mapping[str, str | None]) -> str | None:
-    """The first filter that a last does not pass, or None.
+def rejection(labels: Mapping[str, Any], filters: Mapping[str, str | None]) -> str | None:
+    """The first filter that a last with these labels does not pass, or None.
 
     A filter names a label and what it must be, whatever the case; None lets every last pass.
     """
     for name, wanted in filters.items():
-        label = getattr(record.labels, name)
+        label = labels[name]
         if wanted is not None and (label is None or not _same(name, label, wanted)):
             return name
     return None

@@ -6,10 +6,13 @@ plane, a last with a heel is shorter than its bottom.
 
 from __future__ import annotations
 
-import math
 from dataclasses import dataclass
 
 import numpy as np
+
+from footfit.geometry.numeric.arrays import Floats
+
+Number = float | Floats
 
 
 @dataclass(frozen=True, slots=True)
@@ -58,21 +61,22 @@ _PLACES = [
 
 @dataclass(frozen=True, slots=True)
 class LastLengths:
-    """Measures of a last by their names, in mm, and ``seat_angle_deg``."""
+    """Measures of a last by their names, in mm, and ``seat_angle_deg``; or (n,) of n lasts."""
 
-    bottom_length: float
-    stick_length: float
-    heel_height: float
-    seat_angle_deg: float
-    tread_from: float
-    tread_to: float
-    toe_spring_tip: float
+    bottom_length: Number
+    stick_length: Number
+    heel_height: Number
+    seat_angle_deg: Number
+    tread_from: Number
+    tread_to: Number
+    toe_spring_tip: Number
 
 
 def length_along_bottom(
-    level_mm: float, last: LastLengths, settings: AlongBottomSettings = ALONG_BOTTOM
-) -> tuple[float, float]:
-    """A last's length along its bottom with both overhangs, and its standard deviation, in mm.
+    level_mm: Number, last: LastLengths, settings: AlongBottomSettings = ALONG_BOTTOM
+) -> tuple[Number, Number]:
+    """A last's length along its bottom with both overhangs, and its standard deviation, in mm; of
+    n lasts (n,) each.
 
     It is ``bottom_length`` and what stands out over the feather edges. How much that is, the stick
     length says, if what the bottom's bend takes from it is added. On a high heel this is less sure
@@ -82,38 +86,38 @@ def length_along_bottom(
     Examples
     --------
     >>> last = LastLengths(249.7, 229.7, 83.1, 20.2, 139.8, 182.8, 6.0)
-    >>> [round(mm, 1) for mm in length_along_bottom(255.0, last)]
+    >>> [round(float(mm), 1) for mm in length_along_bottom(255.0, last)]
     [255.6, 1.2]
     """
     part = (last.heel_height - settings.level_mm) / (settings.raised_mm - settings.level_mm)
-    part = min(max(part, 0.0), 1.0)
-    if part == 0.0:
-        return level_mm, 0.0
-    toe_mm = max(last.stick_length - last.tread_to, settings.least_toe * last.stick_length)
+    part = np.clip(part, 0.0, 1.0)
+    toe_mm = np.maximum(last.stick_length - last.tread_to, settings.least_toe * last.stick_length)
     spring_mm = 2.0 * last.toe_spring_tip**2 / (3.0 * toe_mm)  # a parabola's arc over its run
-    pitch = math.sin(math.radians(last.seat_angle_deg)) * last.bottom_length
+    pitch = np.sin(np.radians(last.seat_angle_deg)) * last.bottom_length
     run_mm = last.stick_length + _bend_mm(last, settings) + settings.turned * pitch
     overhang_mm = run_mm + spring_mm - last.bottom_length
-    sd_mm = math.hypot(settings.bend_sd * last.heel_height, settings.turned_sd * pitch)
+    sd_mm = np.hypot(settings.bend_sd * last.heel_height, settings.turned_sd * pitch)
     usual_mm = settings.overhang * last.bottom_length
     usual_sd_mm = settings.overhang_sd * last.bottom_length
     trust = usual_sd_mm**2 / (usual_sd_mm**2 + sd_mm**2)
     along_mm = last.bottom_length - spring_mm + usual_mm + trust * (overhang_mm - usual_mm)
     between_sd_mm = (1.0 - part) * settings.between_sd_mm
-    spread_mm = part * math.hypot(math.sqrt(trust) * sd_mm, between_sd_mm)
-    return level_mm + part * (along_mm - level_mm), spread_mm
+    spread_mm = part * np.hypot(np.sqrt(trust) * sd_mm, between_sd_mm)
+    level = part == 0.0
+    whole_mm = np.where(level, level_mm, level_mm + part * (along_mm - level_mm))
+    return whole_mm[()], np.where(level, 0.0, spread_mm)[()]
 
 
-def _bend_mm(last: LastLengths, settings: AlongBottomSettings) -> float:
+def _bend_mm(last: LastLengths, settings: AlongBottomSettings) -> Number:
     """How much longer the bottom's curve is than its run, from the rearmost point to the tread.
 
     The seat is straight. From its end a cubic runs to the level tread.
     """
-    seat_mm, slope = settings.seat * last.stick_length, -math.tan(math.radians(last.seat_angle_deg))
-    run_mm = max(last.tread_from - seat_mm, seat_mm)
+    seat_mm, slope = settings.seat * last.stick_length, -np.tan(np.radians(last.seat_angle_deg))
+    run_mm = np.maximum(last.tread_from - seat_mm, seat_mm)
     fall = -(last.heel_height + slope * seat_mm) / run_mm
-    arc = 0.0
+    arc: Number = 0.0
     for place, weight in _PLACES:
         steep = 6.0 * place * (1.0 - place) * fall + (3.0 * place - 1.0) * (place - 1.0) * slope
-        arc += weight * math.hypot(1.0, steep)
-    return seat_mm * (math.hypot(1.0, slope) - 1.0) + run_mm * (arc - 1.0)
+        arc += weight * np.hypot(1.0, steep)
+    return seat_mm * (np.hypot(1.0, slope) - 1.0) + run_mm * (arc - 1.0)

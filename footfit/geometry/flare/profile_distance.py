@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from footfit.geometry.flare.definition import CHANNELS, FlareProfile
-from footfit.geometry.numeric.arrays import Floats
+from footfit.geometry.numeric.arrays import Floats, Ints
 
 
 @dataclass(frozen=True, slots=True)
@@ -40,6 +40,15 @@ class ProfileDistances:
     parts: dict[str, Floats]
 
 
+def inside(stations: Floats) -> slice:
+    """The stations of a profile that count."""
+    low, high = (
+        np.searchsorted(stations, DISTANCE.stations[0], side="left"),
+        np.searchsorted(stations, DISTANCE.stations[1], side="right"),
+    )
+    return slice(int(low), int(high))
+
+
 def profile_distances(profile: FlareProfile, many: Sequence[FlareProfile]) -> ProfileDistances:
     """The distance D of one profile to each of many.
 
@@ -62,25 +71,53 @@ def profile_distances(profile: FlareProfile, many: Sequence[FlareProfile]) -> Pr
         A profile has other stations: it follows another definition.
     """
     count = len(profile.stations)
-    if any(len(other.stations) != count for other in many):
+    require_same_stations(count, [len(other.stations) for other in many])
+    curves = stacked(many, count)
+    parts = distance_parts(profile, [curves[:, channel] for channel in range(len(CHANNELS))])
+    return ProfileDistances(
+        total_distance(parts), {name: parts[:, i] for i, name in enumerate(CHANNELS)}
+    )
+
+
+def require_same_stations(count: int, counts: Sequence[int] | Ints) -> None:
+    """Raise ValueError unless all profiles have so many stations."""
+    if any(other != count for other in np.unique(counts)):
         raise ValueError("profiles of different definitions cannot be compared: upgrade the older")
-    low, high = DISTANCE.stations
-    inside = (profile.stations >= low) & (profile.stations <= high)
-    here = _stacked([profile])[0][:, inside]
-    there = _stacked(many).reshape(len(many), len(CHANNELS), count)[:, :, inside]
-    squared = ((there - here) ** 2).mean(axis=2) / np.square(DISTANCE.sd)
+
+
+def distance_parts(profile: FlareProfile, curves: Sequence[Floats]) -> Floats:
+    """What each channel adds to D^2, (k, channels), NaN where it is not known.
+
+    ``curves`` are the channels of k profiles in their order, (k, stations) each. The channels that
+    both profiles have share the weight of the others.
+    """
+    part = inside(profile.stations)
+    squared = np.empty((len(curves[0]), len(CHANNELS)))
+    for channel, name in enumerate(CHANNELS):
+        here = profile.curvature.get(name)
+        if here is None:
+            squared[:, channel] = np.nan
+            continue
+        difference = curves[channel][:, part] - here[part]
+        squared[:, channel] = np.square(difference, out=difference).mean(axis=1)
+    squared /= np.square(DISTANCE.sd)
     weights = np.where(np.isfinite(squared), np.array(DISTANCE.weights), 0.0)
     carried = weights.sum(axis=1, keepdims=True)
-    parts = squared * np.array(DISTANCE.weights) / np.where(carried > 0.0, carried, np.nan)
-    total = np.sqrt(np.where(weights > 0.0, parts, 0.0).sum(axis=1))
-    total = np.where(carried[:, 0] > 0.0, total, np.nan)
-    return ProfileDistances(total, {name: parts[:, i] for i, name in enumerate(CHANNELS)})
+    return np.asarray(
+        squared * np.array(DISTANCE.weights) / np.where(carried > 0.0, carried, np.nan)
+    )
 
 
-def _stacked(profiles: Sequence[FlareProfile]) -> Floats:
+def total_distance(parts: Floats) -> Floats:
+    """D (k,) of its parts; NaN where no channel is known."""
+    known = np.isfinite(parts)
+    total = np.sqrt(np.where(known, parts, 0.0).sum(axis=1))
+    return np.where(known.any(axis=1), total, np.nan)
+
+
+def stacked(profiles: Sequence[FlareProfile], stations: int) -> Floats:
     """Their channels, (k, channels, stations); NaN where one is missing."""
-    if not profiles:
-        return np.empty(0)
-    missing = np.full(len(profiles[0].stations), np.nan)
+    missing = np.full(stations, np.nan)
     rows = [[p.curvature.get(name) for name in CHANNELS] for p in profiles]
-    return np.array([[missing if c is None else c for c in row] for row in rows], dtype=np.float64)
+    curves = [[missing if c is None else c for c in row] for row in rows]
+    return np.array(curves, dtype=np.float64).reshape(len(profiles), len(CHANNELS), stations)

@@ -18,12 +18,13 @@ from footfit.pipeline.customers.pair_sides import Foot, pair_of_feet, with_named
 from footfit.pipeline.fit.match import Question, matched
 from footfit.pipeline.scan.flare import profiled_scan
 from footfit.pipeline.scan.reading import aligned_source
+from footfit.pipeline.shelf.shelf import Shelf
 
 
 def matches(
     customers: Sequence[Customer],
     reading: ReadingOptions,
-    library: results.Library,
+    library: results.Library | Shelf,
     question: Question,
     *,
     jobs: Jobs = 1,
@@ -55,7 +56,7 @@ def read_foot(foot: CustomerFoot, reading: ReadingOptions) -> Foot:
 def _answered(
     customer: Customer,
     feet: Sequence[Outcome[CustomerFoot, Foot]],
-    library: results.Library,
+    library: results.Library | Shelf,
     question: Question,
 ) -> Outcome[Customer, results.Match]:
     """One customer's outcome; the first foot that failed is the customer's failure."""
@@ -72,7 +73,7 @@ def _answered(
 
 
 def answered(
-    feet: Sequence[results.Profiled], library: results.Library, question: Question
+    feet: Sequence[results.Profiled], library: results.Library | Shelf, question: Question
 ) -> results.Match:
     """All that is asked of one customer's feet: the match, a child's growth, the surfaces.
 

@@ -13,7 +13,8 @@ from footfit.errors import BadOption, HalfScan
 from footfit.geometry.flare.definition import FlareDefinition
 from footfit.geometry.measures.measure_table import MEASURES
 from footfit.pipeline.evidence.zone_ratings import place_ratings
-from footfit.pipeline.fit.ranking import foot_fits, judged_lasts
+from footfit.pipeline.fit.judging.judged_lasts import asked_of
+from footfit.pipeline.fit.ranking import fits_in_last
 from footfit.pipeline.fit.worn_shifts import measure_of
 from footfit.results import (
     FitEntry,
@@ -98,7 +99,7 @@ def fit_entry(
     if alignment.length.value is None:
         words = f"{alignment.length.reason}; its clearances are not known: scan again"
         raise HalfScan(words, alignment.info.path)
-    (fit,) = foot_fits(judged_lasts([foot], [last], profile, "fit", heel, file, worn), 0)
+    (fit,) = fits_in_last(asked_of([foot], profile, "fit", heel, worn), last, file)
     known = definitions()
     zones = [
         RatedZone(

@@ -21,8 +21,8 @@ from footfit.number_words import plain
 from footfit.pipeline.batch.sources import ReadingOptions, Source
 from footfit.pipeline.fit.heel_model import heel_question
 from footfit.pipeline.fit.heels import Heels, heel_change, heels_of, share_sd, surface_change
+from footfit.pipeline.fit.judging.clearances import measured_clearances, toe_room
 from footfit.pipeline.fit.worn_shifts import with_unknown_load
-from footfit.pipeline.fit.zones import measured_clearances, toe_room
 from footfit.pipeline.scan.measure import last_record
 from footfit.pipeline.scan.preparation import stored_shape
 from footfit.pipeline.scan.reading import profiled_source

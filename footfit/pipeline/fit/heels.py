@@ -8,7 +8,7 @@ from dataclasses import dataclass, fields
 import numpy as np
 
 from footfit.geometry.fit.foot_in_heel import SurfaceChange
-from footfit.geometry.numeric.arrays import Bools, Floats
+from footfit.geometry.numeric.arrays import Bools, Floats, Ints
 from footfit.results import (
     HeelChange,
     HeelModel,
@@ -37,19 +37,24 @@ class Heels:
     share: Floats
     length_only: Bools
 
+    def taken(self, rows: Ints) -> Heels:
+        """Those of some lasts."""
+        return Heels(self.question, self.drop_mm[rows], self.share[rows], self.length_only[rows])
+
 
 def heels_of(question: HeelQuestion, lasts: Sequence[LastRecord]) -> Heels:
-    """The heels of lasts: how much of the model's full change each of them asks for.
-
-    A share is the drop over the full drop, up to the model's largest drop, minus that of the drop
-    that the foot was scanned at. It is 0 where the drop is not known.
-    """
+    """The heels of lasts of which there are records."""
     drops_mm = (last.drop_mm for last in lasts)
     return heels_at(question, np.array([np.nan if mm is None else mm for mm in drops_mm]))
 
 
 def heels_at(question: HeelQuestion, drop_mm: Floats) -> Heels:
-    """The heels of lasts with these drops (n,), NaN where they are not known; see `heels_of`."""
+    """How much of the model's full change the heels of n lasts ask for; a drop is NaN if it is not
+    known.
+
+    A share is the drop over the full drop, up to the model's largest drop, minus that of the drop
+    that the foot was scanned at. It is 0 where the drop is not known.
+    """
     drop_mm = drop_mm + question.heel_lift_mm
     model = question.model
     if model is None:
@@ -62,11 +67,18 @@ def heels_at(question: HeelQuestion, drop_mm: Floats) -> Heels:
     return Heels(question, drop_mm, share, apart & (np.maximum(known_mm, scanned_mm) > largest_mm))
 
 
+def joined_heels(parts: Sequence[Heels]) -> Heels:
+    """The heels of lasts one after the other."""
+    names = ("drop_mm", "share", "length_only")
+    arrays = (np.concatenate([getattr(part, name) for part in parts]) for name in names)
+    return Heels(parts[0].question, *arrays)
+
+
 def full_change(model: HeelModel | None, foot: Profiled, measure: str) -> tuple[float, float]:
     """How a foot's measure changes at the model's full drop, and the standard deviation of that:
     in mm, or in degrees for the flare angle. It is 0 where the model has no rule.
     """
-    rule = rule_of(model, measure)
+    rule = _rule_of(model, measure)
     size = 1.0 if measure == FLARE else _value_mm(foot, measure)
     return rule.change * size, rule.sd * size
 
@@ -97,7 +109,7 @@ def surface_change(heels: Heels, row: int) -> SurfaceChange:
     """How the surface of any foot changes in the heel of one last."""
     return SurfaceChange(
         **{
-            field.name: float(heels.share[row]) * rule_of(heels.question.model, field.name).change
+            field.name: float(heels.share[row]) * _rule_of(heels.question.model, field.name).change
             for field in fields(SurfaceChange)
         }
     )
@@ -105,10 +117,10 @@ def surface_change(heels: Heels, row: int) -> SurfaceChange:
 
 def share_sd(heels: Heels, row: int, measure: str) -> float:
     """The standard deviation, as a share, of how a measure changes in the heel of one last."""
-    return abs(float(heels.share[row])) * rule_of(heels.question.model, measure).sd
+    return abs(float(heels.share[row])) * _rule_of(heels.question.model, measure).sd
 
 
-def rule_of(model: HeelModel | None, measure: str) -> HeelRule:
+def _rule_of(model: HeelModel | None, measure: str) -> HeelRule:
     """The rule of a measure, or one that changes nothing."""
     rule = None if model is None else model.rule_of(measure)
     return rule or HeelRule(measure, 0.0, 0.0, "", "")

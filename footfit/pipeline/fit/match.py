@@ -9,18 +9,21 @@ from pathlib import Path
 import numpy as np
 
 from footfit import results
+from footfit.catalogue.blocks.block_bytes import BOTTOM, PLAN
+from footfit.catalogue.blocks.reading import BadBlocks, OtherCatalogue
 from footfit.errors import BadOption, HalfScan, NoCandidate
 from footfit.geometry.fit.sizes import label_in
-from footfit.geometry.numeric.arrays import Bools
 from footfit.number_words import signed
 from footfit.pipeline.fit import ranking, reasons
 from footfit.pipeline.fit.fit_profile import fit_profile
 from footfit.pipeline.fit.heel_model import heel_question
+from footfit.pipeline.fit.judging.judged_lasts import Asked, Gated, JudgedLasts, asked_of
+from footfit.pipeline.fit.judging.toe_box import NOT_STORED
 from footfit.pipeline.fit.scoring import UNKNOWN_SCORE, VERDICTS
-from footfit.pipeline.fit.toe_box import NOT_STORED
 from footfit.pipeline.fit.worn_shifts import worn_with
-from footfit.pipeline.fit.zones import NOT_READ, TOE_BOX
+from footfit.pipeline.fit.zones import TOE_BOX
 from footfit.pipeline.scan.measure import unusual_measures, usual_alignment
+from footfit.pipeline.shelf.shelf import Shelf, shelf_of
 from footfit.pipeline.width.foot_width import foot_widths
 from footfit.results.heel import FLARE, heel_words
 from footfit.results.values import notices_about
@@ -57,9 +60,14 @@ class Question:
 
 
 def matched(
-    feet: Sequence[results.Profiled], library: results.Library, question: Question | None = None
+    feet: Sequence[results.Profiled],
+    library: results.Library | Shelf,
+    question: Question | None = None,
 ) -> results.Match:
     """Rank the library for one customer: one foot, or two whose larger governs the length.
+
+    The lasts that are shown are read from their rows. One that is damaged is left out, with a
+    warning, and the next one takes its place.
 
     Raises
     ------
@@ -73,49 +81,97 @@ def matched(
     question = question or Question()
     if question.by != "shape":
         _refuse_stored_lasts(feet)
-    if not library.lasts:
+    shelf = shelf_of(library) if isinstance(library, results.Library) else library
+    if not shelf.ranked.any():
         nothing = "no last passes these filters; see footfit list-lasts"
-        raise NoCandidate(next((notice.message for notice in library.warnings), nothing))
+        raise NoCandidate(next((notice.message for notice in shelf.warnings), nothing))
     if question.by == "fit":
         _refuse_unknown_length(feet)
     profile = question.profile or fit_profile()
     usual_mm = profile.usual_length_mm
     feet = feet if usual_mm is None else [_usual_foot(foot, usual_mm) for foot in feet]
     worn = worn_with(profile, question.worn)
-    judged = ranking.judged_lasts(
-        feet, library.lasts, profile, question.by, question.heel, library.file, worn
-    )
-    ranked = ranking.ranking(judged, profile.tie_sds)
-    missing = _best_out_of_stock(feet, library, profile, question, worn)
-    shown = range(len(ranked.rows))[: question.top or None]
-    best = (_ranked(judged, ranked, place) for place in shown)
-    near = [] if ranked.rows else ranking.nearest(judged, NEAREST_NAMED)
-    missed = tuple(_missed(judged, rank, row) for rank, row in enumerate(near, start=1))
-    rejected = ranking.refusals(judged) if question.by == "fit" else {}
+    asked = asked_of(feet, profile, question.by, question.heel, worn)
+    shelf, shown = _shown(asked, shelf, question.top)
+    missing = _best_out_of_stock(asked, shelf)
+    ranked = shown.ranked
+    candidates = [_with_size(_candidate(shown, place), question) for place in shown.places]
+    nearest = tuple(candidates) if ranked.nearest else ()
+    rejected = ranked.gated.refusals if question.by == "fit" else {}
     return results.Match(
-        feet=tuple(feet),
+        feet=asked.feet,
         by=question.by,
         profile=profile.name,
-        catalogue_lasts=library.total,
-        reference=library.reference,
-        candidates=tuple(_with_size(candidate, question) for candidate in best),
-        rejected=tuple(sorted((*library.rejected, *rejected.items()))),
+        catalogue_lasts=shelf.total,
+        reference=shelf.reference,
+        candidates=() if ranked.nearest else tuple(candidates),
+        rejected=tuple(sorted((*shelf.rejected, *rejected.items()))),
         warnings=(
-            *library.warnings,
+            *shelf.warnings,
             *_worn_notice(worn),
             *_stock_notice(missing),
-            *_notices(judged, missed, question.size_system, usual_mm),
+            *_notices(ranked, nearest, question.size_system, usual_mm),
         ),
         fit_profile=profile,
-        nearest=tuple(_with_size(candidate, question) for candidate in missed),
+        nearest=nearest,
         size_system=question.size_system,
-        best_verdict=_best_verdict(judged, ranked),
-        heel=judged.heels.question,
+        best_verdict=_best_verdict(ranked),
+        heel=asked.heel,
         widths=foot_widths(feet, profile.usual_length_mm),
         worn=worn,
         not_in_stock=missing,
-        rated=dict(library.rated).get(profile.name, 0),
+        rated=dict(shelf.rated).get(profile.name, 0),
     )
+
+
+@dataclass(frozen=True, slots=True)
+class Shown:
+    """The lasts that are shown to a customer, with their records and how their flare differs."""
+
+    ranked: ranking.Ranking
+    records: tuple[results.LastRecord, ...]
+    flare: tuple[results.FlareDifference, ...]
+
+    @property
+    def places(self) -> range:
+        """Their places in the ranking."""
+        return range(len(self.records))
+
+
+def _shown(asked: Asked, shelf: Shelf, top: int) -> tuple[Shelf, Shown]:
+    """The ranking whose shown lasts are intact, and the shelf as it then is.
+
+    Rows are the truth. A last whose rows are damaged is taken from the shelf. If a search block is
+    not what was stored, or somebody changed the catalogue meanwhile, the shelf is made anew.
+
+    Raises
+    ------
+    NoCandidate
+        No last is left.
+    """
+    bad: frozenset[int] = frozenset()
+    while shelf.ranked.any():
+        try:
+            ranked = ranking.ranking(asked, shelf.lasts, shelf.ranked, top, NEAREST_NAMED)
+            rows = ranked.judged.rows
+            seen = shelf.lasts.shown(rows.tolist())
+            damaged = [
+                row for row, last in zip(rows.tolist(), seen, strict=True) if not last.record
+            ]
+            spoilt = [row for row, last in zip(rows.tolist(), seen, strict=True) if last.spoilt]
+            if damaged or spoilt:
+                shelf = shelf.without(damaged).with_spoilt(spoilt)
+                continue
+            profiles = shelf.lasts.taken(rows, (PLAN, BOTTOM))
+            flare = ranking.flare_differences(asked.feet, profiles, ranked.judged.heels)
+            records = tuple(last.record for last in seen if last.record is not None)
+            return shelf, Shown(ranked, records, tuple(flare))
+        except OtherCatalogue:
+            shelf = shelf.anew(bad)
+        except BadBlocks as error:
+            bad |= error.blocks
+            shelf = shelf.anew(bad)
+    raise NoCandidate(shelf.warnings[0].message if shelf.warnings else "no last is left to rank")
 
 
 def _usual_foot(foot: results.Profiled, usual_mm: tuple[float, float]) -> results.Profiled:
@@ -148,15 +204,15 @@ def _refuse_unknown_length(feet: Sequence[results.Profiled]) -> None:
             raise HalfScan(words, alignment.info.path)
 
 
-def _best_verdict(judged: ranking.JudgedLasts, ranked: ranking.Ranking) -> results.Verdict | None:
+def _best_verdict(ranked: ranking.Ranking) -> results.Verdict | None:
     """The verdict of the first last, if it was judged in every required zone.
 
     What is not known is not a pass. By fit no other last has a better verdict.
     """
-    if judged.by == "shape" or not ranked.rows:
+    judged = ranked.judged
+    if judged.asked.by == "shape" or ranked.nearest or not len(judged.rows):
         return None
-    first = ranked.rows[0]
-    return VERDICTS[judged.level[first]] if judged.sound[first] else None
+    return VERDICTS[judged.level[0]] if judged.sound[0] else None
 
 
 def meets(match: results.Match, least: results.Verdict) -> bool:
@@ -168,51 +224,38 @@ def meets(match: results.Match, least: results.Verdict) -> bool:
 # ---------------------------------------------------------------- candidates
 
 
-def _ranked(judged: ranking.JudgedLasts, ranked: ranking.Ranking, place: int) -> results.Candidate:
-    """The last at a place of the ranking."""
-    row = ranked.rows[place]
-    fits = ranking.foot_fits(judged, row)
-    tied = tuple(judged.lasts[i].labels.name for i in ranked.tied(place))
-    return _candidate(judged, row, place + 1, fits, _why(judged, ranked, place, _flat(fits)), tied)
-
-
-def _missed(judged: ranking.JudgedLasts, rank: int, row: int) -> results.Candidate:
-    """One of the lasts that come nearest if none fits."""
-    fits = ranking.foot_fits(judged, row)
-    rules = [column.rule for column in judged.columns]
-    return _candidate(judged, row, rank, fits, reasons.missed_sentence(_flat(fits), rules))
-
-
-def _candidate(
-    judged: ranking.JudgedLasts,
-    row: int,
-    rank: int,
-    fits: tuple[results.FootFit, ...],
-    why: str,
-    tied: tuple[str, ...] = (),
-) -> results.Candidate:
-    last, by_shape = judged.lasts[row], judged.by == "shape"
-    labels, governed = last.labels, fits[judged.longer]
-    heel = heel_words(governed.heel, HEEL_WORDS[judged.by])
+def _candidate(shown: Shown, place: int) -> results.Candidate:
+    """The last at a place of the ranking, or one of those that come nearest if none fits."""
+    ranked, last = shown.ranked, shown.records[place]
+    judged = ranked.judged
+    asked = judged.asked
+    by_shape, labels = asked.by == "shape", last.labels
+    fits = ranking.foot_fits(judged, place, last)
+    zones, governed = _flat(fits), fits[asked.longer]
+    if ranked.nearest:
+        why = reasons.missed_sentence(zones, [column.rule for column in asked.columns])
+    else:
+        why = _why(shown, place, zones)
+    heel = heel_words(governed.heel, HEEL_WORDS[asked.by])
     return results.Candidate(
-        rank=rank,
+        rank=place + 1,
         last=labels.name,
         style=labels.style,
         size=labels.size,
         size_system=labels.size_system,
         width_label=labels.width_label,
         side=last.side.side,
-        mirrored=judged.mirrored(row),
-        distance=float(judged.distance[row]),
-        flare=judged.flare[row],
+        mirrored=judged.mirrored(place),
+        distance=float(judged.distance[place]),
+        flare=shown.flare[place],
         clearance_mm=tuple((z.zone, z.clearance) for z in governed.zones if z.unit == "mm"),
-        verdict=None if by_shape else VERDICTS[judged.level[row]],
+        verdict=None if by_shape else VERDICTS[judged.level[place]],
         why="; ".join(words for words in (why, heel) if words),
-        tied_with=tied,
+        tied_with=() if ranked.nearest else ranked.tied(place),
         record=last,
-        distance_sd=float(judged.spread.alone()[row]) if judged.by == "fit" else None,
+        distance_sd=float(judged.spread.alone()[place]) if asked.by == "fit" else None,
         fits=() if by_shape else fits,
-        not_judged=() if by_shape else reasons.not_judged(_flat(fits)),
+        not_judged=() if by_shape else reasons.not_judged(zones),
     )
 
 
@@ -227,47 +270,41 @@ def _flat(fits: Sequence[results.FootFit]) -> list[results.ZoneFit]:
     return [zone for fit in fits for zone in fit.zones]
 
 
-def _why(
-    judged: ranking.JudgedLasts,
-    ranked: ranking.Ranking,
-    place: int,
-    zones: Sequence[results.ZoneFit],
-) -> str:
+def _why(shown: Shown, place: int, zones: Sequence[results.ZoneFit]) -> str:
     """Why a last stands at its place."""
-    row, first = ranked.rows[place], ranked.rows[0]
-    delta_deg = judged.flare[row].delta_deg
-    if judged.by == "flare":
+    ranked, judged = shown.ranked, shown.ranked.judged
+    by, delta_deg = judged.asked.by, shown.flare[place].delta_deg
+    if by == "flare":
         sds = [z.clearance.sd or 0.0 for z in zones if z.zone == "flare" and z.counts]
         return reasons.flare_words(delta_deg, sds[0] if sds else 0.0)
-    if judged.by == "shape":
+    if by == "shape":
         more = next((z.clearance.value for z in zones if z.zone == "length"), None)
         if more is None:
             return f"flare differs by {signed(delta_deg)} deg; one of the lengths is not known"
         return f"length differs by {signed(more)} mm, flare by {signed(delta_deg)} deg"
-    required = [column.rule.required for column in judged.columns]
+    required = [column.rule.required for column in judged.asked.columns]
     unknown = reasons.unknown_words(zones, required)
     if ranked.tier[place] == ranked.tier[0]:
         return reasons.best_sentence(zones) + unknown
-    name = judged.lasts[first].labels.name
-    costs = _costs(judged, row, first)
-    if not judged.sound[row] and judged.sound[first] and max(costs) < WORSE_VERDICT:
+    costs = _costs(judged, place)
+    if not judged.sound[place] and judged.sound[0] and max(costs) < WORSE_VERDICT:
         return reasons.toe_room_words(zones) + unknown
-    return reasons.behind_sentence(zones, costs, name) + unknown
+    return reasons.behind_sentence(zones, costs, ranked.names[0]) + unknown
 
 
-def _costs(judged: ranking.JudgedLasts, row: int, first: int) -> list[float]:
+def _costs(judged: JudgedLasts, row: int) -> list[float]:
     """How much more each column adds to a last's distance than to the first's; 0 if it does not
     count. Zones that make the last's verdict worse than the first's, or else its toe room, come
     before all others.
     """
-    score = np.square(np.nan_to_num(judged.scores.score[[row, first]], nan=UNKNOWN_SCORE))
+    score = np.square(np.nan_to_num(judged.scores.score[[row, 0]], nan=UNKNOWN_SCORE))
     level = judged.scores.level[row]
-    worse = np.zeros(len(judged.columns), dtype=bool)
-    if judged.level[row] > judged.level[first]:
+    worse = np.zeros(len(judged.asked.columns), dtype=bool)
+    if judged.level[row] > judged.level[0]:
         worse = level == judged.level[row]
-    elif judged.toe_room_level[row] > judged.toe_room_level[first]:
-        worse[judged.length_column] = True
-    counts = np.array([column.counts for column in judged.columns])
+    elif judged.toe_room_level[row] > judged.toe_room_level[0]:
+        worse[judged.asked.length_column] = True
+    counts = np.array([column.counts for column in judged.asked.columns])
     cost = judged.scores.weight * (score[0] - score[1]) + np.where(worse, WORSE_VERDICT, 0.0)
     return np.where(counts, cost, 0.0).tolist()  # type: ignore[no-any-return]
 
@@ -275,23 +312,18 @@ def _costs(judged: ranking.JudgedLasts, row: int, first: int) -> list[float]:
 # ---------------------------------------------------------------- notices
 
 
-def _best_out_of_stock(
-    feet: Sequence[results.Profiled],
-    library: results.Library,
-    profile: results.FitProfile,
-    question: Question,
-    worn: results.Worn,
-) -> results.NotInStock | None:
+def _best_out_of_stock(asked: Asked, shelf: Shelf) -> results.NotInStock | None:
     """The best of the lasts that are not in stock, if one fits."""
-    if not library.out_of_stock or question.by == "shape":
+    if not shelf.out_of_stock.any() or asked.by == "shape":
         return None
-    judged = ranking.judged_lasts(
-        feet, library.out_of_stock, profile, question.by, question.heel, library.file, worn
-    )
-    rows = ranking.ranking(judged, profile.tie_sds).rows
-    if not rows:
+    try:
+        _, shown = _shown(asked, shelf.swapped(), 1)
+    except NoCandidate:  # all of them are damaged
         return None
-    return results.NotInStock(judged.lasts[rows[0]].labels.name, VERDICTS[judged.level[rows[0]]])
+    judged = shown.ranked.judged
+    if shown.ranked.nearest or not shown.records:
+        return None
+    return results.NotInStock(shown.records[0].labels.name, VERDICTS[judged.level[0]])
 
 
 def _stock_notice(missing: results.NotInStock | None) -> tuple[results.Notice, ...]:
@@ -310,22 +342,23 @@ def _worn_notice(worn: results.Worn) -> tuple[results.Notice, ...]:
 
 
 def _notices(
-    judged: ranking.JudgedLasts,
+    ranked: ranking.Ranking,
     missed: Sequence[results.Candidate],
     size_system: str | None,
     usual_mm: tuple[float, float] | None,
 ) -> tuple[results.Notice, ...]:
     """What the reader must know beside the table; ``usual_mm`` are the profile's lengths."""
-    feet = judged.feet
+    asked = ranked.judged.asked
+    feet = asked.feet
     kinds = [foot.aligned.alignment.pose.kind for foot in feet]
     notices: list[results.Notice] = []
     for foot, kind in zip(feet, kinds, strict=True):
         of_foot = [*foot.unusual, *unusual_measures(foot.measures, kind, usual_mm)]
-        if judged.by != "shape" and kind == "last":
+        if asked.by != "shape" and kind == "last":
             words = "its shape is like a last's; use --by shape for a last"
             of_foot.append(results.Notice("looks_like_a_last", words))
         notices += notices_about(foot.aligned.alignment.info.path, of_foot)
-    if judged.by == "flare":
+    if asked.by == "flare":
         words = "a search by flare knows no size: look at the length too"
         notices.append(results.Notice("scale_free", words))
     differ = reasons.pair_notice(feet, size_system)
@@ -334,33 +367,27 @@ def _notices(
     if missed:
         names = ", ".join(candidate.last for candidate in missed)
         notices.append(results.Notice("nothing_fits", f"no last fits: the nearest are {names}"))
-    elif judged.by == "fit" and not ranking.with_toe_room(judged):
+    elif asked.by == "fit" and not ranked.gated.rooms:
         notices.append(
             results.Notice("nothing_fits", "no last fits: the length of no last is known")
         )
-    if judged.by == "fit":
-        notices += _not_judged(judged)
+    if asked.by == "fit":
+        notices += _not_judged(asked, ranked.gated)
     return tuple(notices)
 
 
-def _not_judged(judged: ranking.JudgedLasts) -> list[results.Notice]:
+def _not_judged(asked: Asked, gated: Gated) -> list[results.Notice]:
     """The zones that count and that no last was judged in, and what to do about the toe box."""
-    reasons_of = list(zip(*judged.clearances.reasons, strict=True))
-    known: Bools = np.any(judged.known, axis=0)
     unknown = [
         column.rule.zone
-        for place, column in enumerate(judged.columns)
-        if column.counts and not known[place] and set(reasons_of[place]) != {NOT_READ}
+        for column, known in zip(asked.columns, gated.known.tolist(), strict=True)
+        if column.counts and not known and (gated.looked_at or column.rule.zone not in TOE_BOX)
     ]
-    stored_not = {
-        judged.lasts[row].labels.name
-        for row, reasons_there in enumerate(judged.clearances.reasons)
-        if NOT_STORED in reasons_there
-    }
     notices = []
-    if stored_not:
+    if gated.without_sections:
         unknown = [zone for zone in unknown if zone not in TOE_BOX]
-        lasts = "1 last" if len(stored_not) == 1 else f"{len(stored_not)} lasts"
+        many = gated.without_sections
+        lasts = "1 last" if many == 1 else f"{many} lasts"
         words = f"the toe box of {lasts} is not judged: {NOT_STORED}"
         notices.append(results.Notice("sections_not_stored", words))
     if unknown:

@@ -7,7 +7,7 @@ clearance should be stands in the fit profile (``docs/fit.md``).
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, fields, replace
 
 import numpy as np
 
@@ -19,6 +19,8 @@ VERDICTS: tuple[Verdict, ...] = ("good", "acceptable", "poor", "reject")
 GOOD, ACCEPTABLE, POOR, REJECT = range(4)
 NOT_JUDGED = -1
 SURE_SDS = 2.0
+TIER_LOOK = 16
+"""So many lasts are compared with the best of a tier at first."""
 UNKNOWN_SCORE = 1.0
 """The score of a zone that one last lacks and others have: the edge of good."""
 
@@ -39,7 +41,8 @@ class Scores:
     ``score`` (n, z) is 0 at the target and 1 at the edge of good, - tight, + loose; NaN where it
     is not measured. ``level`` (n, z) indexes VERDICTS, NOT_JUDGED where it is not measured.
     ``foot_sd`` and ``last_sd`` (n, z) are the score's, from the foot's and the last's measures,
-    ``heel_sd`` (n, z) from the heel model.
+    ``heel_sd`` (n, z) from the heel model. ``weight`` (z,) is 0 for a zone that does not count, or
+    that no last is judged in.
     """
 
     score: Floats
@@ -49,45 +52,10 @@ class Scores:
     heel_sd: Floats
     weight: Floats
 
-
-@dataclass(frozen=True, slots=True)
-class Asked:
-    """What rules ask, as arrays that go with clearances (..., z).
-
-    They are (z,) for the lasts of one customer, and (f, 1, z) if f feet are asked different things.
-    ``below`` and ``above`` are the scales of a score. A range has a low and a high end; it is
-    endless where a rule has none. A reject must be past its limit by ``doubt`` standard deviations.
-    """
-
-    target: Floats
-    below: Floats
-    above: Floats
-    good: tuple[Floats, Floats]
-    acceptable: tuple[Floats, Floats]
-    poor: tuple[Floats, Floats]
-    doubt: Floats
-    weight: Floats
-    counts: Bools
-    required: Bools
-
-
-def asked(columns: Sequence[Column]) -> Asked:
-    """What the rules of columns ask, (z,) each."""
-    rules = [column.rule for column in columns]
-    below, above = np.array([scales(rule) for rule in rules]).reshape(-1, 2).T
-    counts = np.array([column.counts for column in columns], dtype=bool)
-    return Asked(
-        target=np.array([rule.target for rule in rules]),
-        below=below,
-        above=above,
-        good=_ends(rules, "good"),
-        acceptable=_ends(rules, "acceptable"),
-        poor=_ends(rules, "poor"),
-        doubt=np.array([0.0 if rule.zone == "length" else SURE_SDS for rule in rules]),
-        weight=np.array([column.rule.weight if column.counts else 0.0 for column in columns]),
-        counts=counts,
-        required=counts & np.array([rule.required for rule in rules], dtype=bool),
-    )
+    def taken(self, rows: Ints) -> Scores:
+        """Those of some lasts."""
+        names = ("score", "level", "foot_sd", "last_sd", "heel_sd")
+        return replace(self, **{name: getattr(self, name)[rows] for name in names})
 
 
 def scores(
@@ -96,27 +64,37 @@ def scores(
     last_sd: Floats,
     columns: Sequence[Column],
     heel_sd: Floats | None = None,
+    known: Bools | None = None,
 ) -> Scores:
-    """The scores of clearances (n, z) with their spreads (n, z), by the columns' rules."""
-    rules = asked(columns)
-    width = score_scale(clearance, rules)
+    """The scores of clearances (n, z) with their spreads (n, z), by the columns' rules.
+
+    ``known`` (z,) says in which zones any last is judged, if there are others than these.
+    """
+    scale = np.array([scales(column.rule) for column in columns]).reshape(-1, 2)
+    target = np.array([column.rule.target for column in columns])
+    over = clearance >= target
+    width = np.where(over, scale[:, 1], scale[:, 0])
     model_sd = np.zeros_like(clearance) if heel_sd is None else heel_sd
     spreads = np.stack([foot_sd, last_sd, model_sd])
     foot, last, heel = np.where(np.isnan(clearance), 0.0, spreads / width)
+    any_known = np.isfinite(clearance).any(axis=0) if known is None else known
+    weight = np.array([column.rule.weight if column.counts else 0.0 for column in columns])
     return Scores(
-        score=(clearance - rules.target) / width,
-        level=clearance_levels(clearance, rules, np.sqrt(np.square(spreads).sum(axis=0))),
+        score=(clearance - target) / width,
+        level=room_levels(clearance, foot_sd, last_sd, model_sd, columns),
         foot_sd=foot,
         last_sd=last,
         heel_sd=heel,
-        weight=rules.weight,
+        weight=np.where(any_known, weight, 0.0),
     )
 
 
-def score_scale(clearance: Floats, rules: Asked) -> Floats:
-    """From the target to the edge of good, on the side of each clearance (..., z)."""
-    width: Floats = np.where(clearance >= rules.target, rules.above, rules.below)
-    return width
+def room_levels(
+    clearance: Floats, foot_sd: Floats, last_sd: Floats, heel_sd: Floats, columns: Sequence[Column]
+) -> Ints:
+    """The verdicts of clearances (n, z) with their spreads (n, z)."""
+    variance = np.square(foot_sd) + np.square(last_sd) + np.square(heel_sd)
+    return levels(clearance, [column.rule for column in columns], np.sqrt(variance))
 
 
 def scales(rule: ZoneRule) -> tuple[float, float]:
@@ -139,17 +117,13 @@ def levels(clearance: Floats, rules: Sequence[ZoneRule], sd: Floats) -> Ints:
     >>> levels(room, [rule], np.ones((5, 1))).ravel().tolist()
     [3, 1, 0, 1, -1]
     """
-    return clearance_levels(clearance, asked([Column(0, rule, True) for rule in rules]), sd)
-
-
-def clearance_levels(clearance: Floats, rules: Asked, sd: Floats) -> Ints:
-    """The verdict of each clearance (..., z); see `levels`."""
     clearance = np.round(clearance, KEPT)
-    doubt = rules.doubt * sd
+    doubt = np.array([0.0 if rule.zone == "length" else SURE_SDS for rule in rules]) * sd
     level = np.zeros(clearance.shape, dtype=np.int64)
-    for low, high in (rules.good, rules.acceptable):
+    for name in ("good", "acceptable"):
+        low, high = _ends(rules, name)
         level += (clearance < low) | (clearance > high)
-    low, high = rules.poor
+    low, high = _ends(rules, "poor")
     level[(clearance < low) | (clearance > high)] = POOR
     level[(clearance < low - doubt) | (clearance > high + doubt)] = REJECT
     level[np.isnan(clearance)] = NOT_JUDGED
@@ -189,13 +163,10 @@ def worst_levels(level: Ints, columns: Sequence[Column]) -> Ints:
 
     It is at best acceptable if a required zone is not judged: what is not known is not good.
     """
-    return worst_level(level, asked(columns))
-
-
-def worst_level(level: Ints, rules: Asked) -> Ints:
-    """The verdict of each last (...,) from its levels (..., z); see `worst_levels`."""
-    worst = np.where(rules.counts, level, GOOD).max(axis=-1, initial=GOOD)
-    unknown = (rules.required & (level == NOT_JUDGED)).any(axis=-1)
+    counts = np.array([column.counts for column in columns], dtype=bool)
+    required = np.array([c.counts and c.rule.required for c in columns], dtype=bool)
+    worst = np.where(counts, level, GOOD).max(axis=1, initial=GOOD)
+    unknown = (required & (level == NOT_JUDGED)).any(axis=1)
     verdict: Ints = np.where(unknown, np.maximum(worst, ACCEPTABLE), worst)
     return verdict
 
@@ -205,34 +176,16 @@ def fit_distance(scores: Scores) -> Floats:
 
     A zone that one last lacks counts as UNKNOWN_SCORE; one that every last lacks counts nothing.
     """
-    return score_distance(scores.score, scores.weight)
-
-
-def score_distance(score: Floats, weight: Floats) -> Floats:
-    """The distance (..., n) of scores (..., n, z) of n lasts with weights (z,); see `fit_distance`.
-
-    Examples
-    --------
-    >>> score_distance(np.array([[1.0, np.nan], [0.0, np.nan]]), np.array([2.0, 1.0])).tolist()
-    [1.0, 0.0]
-    """
-    share = _shares(_carried(score, weight))
-    square = np.square(np.nan_to_num(score, nan=UNKNOWN_SCORE))
-    distance: Floats = np.sqrt((square @ share[..., None])[..., 0])
+    squares = np.square(_known_scores(scores)) * _shares(scores.weight)
+    distance: Floats = np.sqrt(squares.sum(axis=1))
     return distance
 
 
 def _shares(weight: Floats) -> Floats:
-    """Weights (..., z) that add up to 1; none where no last is judged in any zone."""
-    total = weight.sum(axis=-1, keepdims=True)
-    shares: Floats = weight / np.where(total > 0.0, total, 1.0)
+    """Weights (z,) that add up to 1; none where no last is judged in any zone."""
+    total = weight.sum()
+    shares: Floats = weight / total if total else weight
     return shares
-
-
-def _carried(score: Floats, weight: Floats) -> Floats:
-    """The weights (..., z) of the zones that any of n lasts (..., n, z) is judged in."""
-    carried: Floats = np.where(np.isfinite(score).any(axis=-2), weight, 0.0)
-    return carried
 
 
 def _known_scores(scores: Scores) -> Floats:
@@ -263,16 +216,21 @@ class Spread:
         sd: Floats = np.sqrt(foot + heel + self.common + self.own)
         return sd
 
-    def difference(self, i: int, j: int) -> float:
-        """The standard deviation of the difference of two distances.
+    def difference(self, i: int, others: Ints | int) -> Floats:
+        """The standard deviation of the difference of one distance from others.
 
         An error of the foot's measures, or of the heel model, moves both, and counts only by how
         differently.
         """
-        sd = 0.5 * (self.foot_sd[i] + self.foot_sd[j])
-        foot = np.square((self.slope[i] - self.slope[j]) * sd).sum()
-        moved = self.slope[i] * self.heel_sd[i] - self.slope[j] * self.heel_sd[j]
-        return float(np.sqrt(foot + np.square(moved).sum() + self.own[i] + self.own[j]))
+        sd = 0.5 * (self.foot_sd[i] + self.foot_sd[others])
+        foot = np.square((self.slope[i] - self.slope[others]) * sd).sum(axis=-1)
+        moved = self.slope[i] * self.heel_sd[i] - self.slope[others] * self.heel_sd[others]
+        own = self.own[i] + self.own[others]
+        return np.asarray(np.sqrt(foot + np.square(moved).sum(axis=-1) + own))
+
+    def taken(self, rows: Ints) -> Spread:
+        """Those of some lasts."""
+        return Spread(*(getattr(self, known.name)[rows] for known in fields(self)))
 
 
 def rescan_spread(count: int) -> Spread:
@@ -287,11 +245,12 @@ def distance_spread(scores: Scores) -> Spread:
     With Q = D^2 = sum w u^2 / W and u of variance s^2: var Q = sum (w/W)^2 (4 u^2 s^2 + 2 s^4),
     and var D = var Q / 4 Q with the noise's own share, sum w s^2 / W, added to Q.
     """
-    share = _shares(_carried(scores.score, scores.weight))
+    share = _shares(scores.weight)
     foot = np.square(scores.foot_sd) + np.square(scores.heel_sd)
     last = np.square(scores.last_sd)
     score = _known_scores(scores)
-    base = np.maximum(np.square(score) @ share + (foot + last) @ share, 1e-18)[:, None]
+    base = (np.square(score) * share).sum(axis=1) + ((foot + last) * share).sum(axis=1)
+    base = np.maximum(base, 1e-18)[:, None]
     slope = share * score / np.sqrt(base)
     quarter = np.square(share) / (2.0 * base)
     own = np.square(slope) * last + quarter * last * (last + 2.0 * foot)
@@ -300,20 +259,31 @@ def distance_spread(scores: Scores) -> Spread:
 
 
 def tiers(
-    order: Sequence[int], distance: Floats, group: Ints, spread: Spread, tie_sds: float
+    order: Sequence[int] | Ints,
+    distance: Floats,
+    group: Ints,
+    spread: Spread,
+    tie_sds: float,
+    top: int = 0,
 ) -> list[int]:
     """The tier of each row of ``order``, which is best first within each group.
 
     A tier begins with its best and holds the lasts of its group whose distance the measures do not
-    tell from that one's.
+    tell from that one's. With ``top`` the list ends with the tier of that place.
     """
-    tier: list[int] = []
-    first = -1
-    for i in order:
-        same = first >= 0 and group[i] == group[first]
-        if same and distance[i] - distance[first] <= tie_sds * spread.difference(first, i):
-            tier.append(tier[-1])
-        else:
-            first = i
-            tier.append(tier[-1] + 1 if tier else 0)
+    rows, tier = np.asarray(order, dtype=np.int64), list[int]()
+    while len(tier) < len(rows) and not (top and len(tier) >= top):
+        start, end = len(tier), len(tier) + 1
+        first, looked = rows[start], TIER_LOOK
+        while end < len(rows):
+            some = rows[end : end + looked]
+            apart = distance[some] - distance[first]
+            same = (group[some] == group[first]) & (
+                apart <= tie_sds * spread.difference(first, some)
+            )
+            if not same.all():
+                end += int(np.argmin(same))
+                break
+            end, looked = end + len(some), 2 * looked
+        tier += [tier[-1] + 1 if tier else 0] * (end - start)
     return tier

@@ -3,18 +3,19 @@
 from __future__ import annotations
 
 from collections import defaultdict
-from collections.abc import Iterable
+from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
+from footfit.catalogue.blocks.packing import LABELS
 from footfit.errors import BadManifest
 from footfit.geometry.fit.sizes import label_number
 from footfit.pipeline.batch.csv_rows import csv_rows
-from footfit.results import LastLabels, LastRecord
 
-LABELS = ("style", "size", "size_system", "width_label")
 COLUMNS = ("last", *LABELS, "quantity")
 Key = tuple[str, ...]
+NamedLabels = tuple[str, tuple[str | None, ...]]
+"""The name of a last, and its labels in the order of LABELS."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -25,7 +26,7 @@ class Stock:
     unknown: tuple[str, ...]
 
 
-def stock(path: Path, lasts: Iterable[LastRecord]) -> Stock:
+def stock(path: Path, lasts: Sequence[NamedLabels]) -> Stock:
     """What a stock file says of lasts.
 
     A row names a last, or gives labels: then it means every last that has all of them. Without a
@@ -39,8 +40,7 @@ def stock(path: Path, lasts: Iterable[LastRecord]) -> Stock:
     rows = csv_rows(path, COLUMNS, ())
     if not rows:
         raise BadManifest("has no row; its columns are last, or labels, and quantity", str(path))
-    known = tuple(lasts)
-    by_name = {_plain(record.labels.name): record.labels.name for record in known}
+    by_name = {_plain(name): name for name, _ in lasts}
     indexes: dict[tuple[str, ...], dict[Key, list[str]]] = {}
     there: set[str] = set()
     unknown = []
@@ -51,7 +51,7 @@ def stock(path: Path, lasts: Iterable[LastRecord]) -> Stock:
             names = [] if name is None else [name]
         elif given:
             if given not in indexes:
-                indexes[given] = _index(known, given)
+                indexes[given] = _index(lasts, given)
             names = indexes[given].get(tuple(_label(name, row.values[name]) for name in given), [])
         else:
             raise BadManifest("names no last and gives no style, size or width", row.where)
@@ -62,16 +62,16 @@ def stock(path: Path, lasts: Iterable[LastRecord]) -> Stock:
     return Stock(frozenset(there), tuple(unknown))
 
 
-def _index(lasts: Iterable[LastRecord], given: tuple[str, ...]) -> dict[Key, list[str]]:
+def _index(lasts: Sequence[NamedLabels], given: tuple[str, ...]) -> dict[Key, list[str]]:
     """The names of lasts by some of their labels."""
     index: dict[Key, list[str]] = defaultdict(list)
-    for record in lasts:
-        index[_labels(record.labels, given)].append(record.labels.name)
+    places = [(name, LABELS.index(name)) for name in given]
+    keys: dict[tuple[str | None, ...], Key] = {}
+    for name, labels in lasts:
+        if labels not in keys:
+            keys[labels] = tuple(_label(label, labels[at] or "") for label, at in places)
+        index[keys[labels]].append(name)
     return index
-
-
-def _labels(labels: LastLabels, given: tuple[str, ...]) -> Key:
-    return tuple(_label(name, getattr(labels, name) or "") for name in given)
 
 
 def _label(name: str, text: str) -> str:

@@ -1,0 +1,323 @@
+"""Reading blocks: the lasts of a catalogue by column, and the rows of the few that are shown.
+
+Rows are the truth. A block is used only if its layout is this footfit's and its hash is right;
+the lasts of any other block are read from their rows.
+"""
+
+from __future__ import annotations
+
+import sqlite3
+import struct
+from collections.abc import Iterable, Iterator, Sequence
+from contextlib import contextmanager
+from dataclasses import dataclass, field, replace
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from footfit.catalogue.blocks.block_bytes import (
+    LASTS,
+    LAYOUT,
+    PARTS,
+    READERS,
+    block_of,
+    checksum,
+    lasts_of,
+)
+from footfit.catalogue.blocks.packing import Kept, columns_of
+from footfit.catalogue.file.descriptors import DESCRIPTORS
+from footfit.catalogue.file.engine import SETTINGS
+from footfit.catalogue.file.migrate import Schema
+from footfit.catalogue.file.opening import open_for_reading
+from footfit.catalogue.rows.columns import SECTION
+from footfit.catalogue.rows.records import record_of, sections_of
+from footfit.catalogue.rows.verified_rows import (
+    LastRows,
+    row_digest,
+    rows,
+    shown_name,
+    stored_lasts,
+)
+from footfit.geometry.numeric.arrays import Bools, Ints
+from footfit.results import LastRecord
+from footfit.results.columns.last_columns import (
+    ARRAYS,
+    NOT_KEPT,
+    SPOILT,
+    LastColumns,
+    joined,
+)
+from footfit.results.columns.vocabulary import Vocabulary
+
+CHUNK_BLOCKS = 16
+"""So many blocks are looked at together: 4,096 lasts take some MB."""
+KEPT_BYTES = 100_000_000
+"""What is read of blocks stays in memory for the next question up to this size for each part."""
+
+
+class OtherCatalogue(Exception):
+    """The catalogue was changed since its lasts were read; they must be read again."""
+
+
+class BadBlocks(Exception):
+    """Blocks that are not what was stored: their lasts must be read from their rows."""
+
+    def __init__(self, blocks: Iterable[int]) -> None:
+        super().__init__()
+        self.blocks = frozenset(blocks)
+
+
+@dataclass(frozen=True, slots=True)
+class ShownLast:
+    """A last of an answer: its record, or None if its rows are damaged.
+
+    ``spoilt`` says that its kept sections are damaged, and that its block does not know it.
+    """
+
+    record: LastRecord | None
+    spoilt: bool = False
+
+
+@dataclass
+class BlockLasts:
+    """The lasts of a catalogue file, by their blocks.
+
+    ``base`` are all of them without measures, profiles and toes, block by block: ``blocks`` (b,)
+    and ``starts`` (b + 1,) say where each begins. ``from_rows`` are the lasts whose blocks are not
+    used, with all columns; in ``base`` they come last. ``damaged`` names the lasts that are left
+    out because their rows are damaged, and ``bad`` the blocks that are not what was stored.
+    """
+
+    path: Path
+    stamp: bytes
+    base: LastColumns
+    blocks: Ints
+    starts: Ints
+    from_rows: LastColumns
+    damaged: tuple[str, ...]
+    bad: frozenset[int]
+    spoilt: frozenset[int] = frozenset()
+    _kept: dict[tuple[str, int], bytes] = field(default_factory=dict)
+    _asked: dict[str, int] = field(default_factory=dict)
+
+    def chunks(self, parts: Sequence[str]) -> Iterator[tuple[int, LastColumns]]:
+        """All lasts with these parts, some thousand at a time, each time with the first's row.
+
+        Raises
+        ------
+        OtherCatalogue, BadBlocks
+            The catalogue was changed meanwhile; a part is not what was stored.
+        """
+        with self._snapshot(parts) as connection:
+            for first in range(0, len(self.blocks), CHUNK_BLOCKS):
+                last = min(first + CHUNK_BLOCKS, len(self.blocks))
+                yield int(self.starts[first]), self._read(connection, first, last, parts)
+        if len(self.from_rows):
+            yield int(self.starts[-1]), self.from_rows
+
+    def taken(self, chosen: Ints, parts: Sequence[str]) -> LastColumns:
+        """Some lasts with these parts, in the order of ``chosen``; raises as `chunks`."""
+        order = np.argsort(chosen, kind="stable")
+        wanted = chosen[order]
+        of_block = np.searchsorted(self.starts, wanted, side="right") - 1
+        picked = []
+        with self._snapshot(parts) as connection:
+            for at in np.unique(of_block).tolist():
+                rows_there = wanted[of_block == at] - self.starts[at]
+                there = at < len(self.blocks)
+                lasts = self._read(connection, at, at + 1, parts) if there else self.from_rows
+                picked.append(lasts.taken(rows_there))
+        lasts = joined(picked or [self.from_rows.taken(chosen)]).taken(np.argsort(order))
+        return _spoilt(lasts, np.isin(chosen, list(self.spoilt))) if self.spoilt else lasts
+
+    def with_spoilt(self, chosen: Sequence[int]) -> BlockLasts:
+        """The lasts, where the kept sections of some are damaged."""
+        return replace(self, spoilt=self.spoilt | set(chosen))
+
+    def shown(self, chosen: Sequence[int]) -> list[ShownLast]:
+        """The records of a few lasts, from their rows, which are verified.
+
+        Raises
+        ------
+        OtherCatalogue, BadBlocks
+            The catalogue was changed meanwhile; a block does not say what the rows say.
+        """
+        with self._snapshot(()) as connection:
+            return [self._shown(connection, row) for row in chosen]
+
+    # ------------------------------------------------------------ reading
+
+    def _read(
+        self, connection: sqlite3.Connection, first: int, last: int, parts: Sequence[str]
+    ) -> LastColumns:
+        """The lasts of some neighbouring blocks."""
+        ordered = [part for part in PARTS if part in parts]
+        of_parts = [self._data(connection, part, first, last) for part in ordered]
+        found = []
+        for at in range(first, last):
+            lasts = self.base.taken(slice(int(self.starts[at]), int(self.starts[at + 1])))
+            for part, data in zip(ordered, of_parts, strict=True):
+                try:
+                    lasts = READERS[part](lasts, data[at - first])
+                except (ValueError, IndexError, struct.error) as error:
+                    raise BadBlocks([int(self.blocks[at])]) from error
+            found.append(lasts)
+        return joined(found)
+
+    def _data(
+        self, connection: sqlite3.Connection, part: str, first: int, last: int
+    ) -> list[bytes]:
+        """One part of some neighbouring blocks, verified."""
+        blocks = self.blocks[first:last].tolist()
+        if all((part, block) in self._kept for block in blocks):
+            return [self._kept[part, block] for block in blocks]
+        select = f"SELECT {STORED} FROM search_block WHERE part = ? AND block BETWEEN ? AND ?"
+        stored = connection.execute(select, (part, blocks[0], blocks[-1]))
+        found = {
+            block: data for block, layout, data, digest in stored if is_sound(layout, data, digest)
+        }
+        bad = frozenset(blocks) - found.keys()
+        if bad:
+            raise BadBlocks(bad)
+        often = self._asked[part] > 1
+        if often or len(self.blocks) * len(found[blocks[0]]) < KEPT_BYTES:
+            self._kept |= {(part, block): found[block] for block in blocks}
+        return [found[block] for block in blocks]
+
+    def _shown(self, connection: sqlite3.Connection, row: int) -> ShownLast:
+        key = int(self.base.keys[row])
+        stored = stored_lasts(connection, key)
+        if not stored:
+            raise BadBlocks([block_of(key)])
+        if not stored[0].intact:
+            return ShownLast(None)
+        record, kept = last_of_rows(connection, stored[0])
+        if row < self.starts[-1]:
+            told = columns_of([record], [kept], self.base.words, keys=[key])
+            mine = self.base.taken(np.array([row]))
+            same = all(_equal(getattr(told, name), getattr(mine, name)) for name in COMPARED)
+            if not same or told.names != mine.names:
+                raise BadBlocks([block_of(key)])
+        known = row in self.spoilt or row >= self.starts[-1]
+        return ShownLast(record, spoilt=kept == SPOILT and not known)
+
+    @contextmanager
+    def _snapshot(self, parts: Sequence[str]) -> Iterator[sqlite3.Connection]:
+        """The catalogue as it was when the lasts were read."""
+        for part in parts:
+            self._asked[part] = self._asked.get(part, 0) + 1
+        file, _ = open_for_reading(self.path, Schema(), SETTINGS.busy_timeout_s)
+        try:
+            with file.reading() as connection:
+                if stamp_of(connection, self.path) != self.stamp:
+                    raise OtherCatalogue
+                yield connection
+        finally:
+            file.close()
+
+
+COMPARED = tuple(name for name in ARRAYS if name != "profile")
+STORED = "block, layout, data, hash"
+
+
+def stamp_of(connection: sqlite3.Connection, path: Path) -> bytes:
+    """A mark of the file that every commit changes; taken inside a transaction."""
+    connection.execute("SELECT count(*) FROM alembic_version").fetchone()  # begins to read
+    return DESCRIPTORS.first_bytes(path, 28)[24:]
+
+
+def is_sound(layout: object, data: object, digest: object) -> bool:
+    """Whether a part is what this footfit stored."""
+    return layout == LAYOUT and isinstance(data, bytes) and digest == checksum(data)
+
+
+def block_lasts(
+    connection: sqlite3.Connection, path: Path, untrusted: frozenset[int] = frozenset()
+) -> BlockLasts:
+    """The lasts of a catalogue, inside a transaction; blocks in ``untrusted`` are not used."""
+    stamp = stamp_of(connection, path)
+    words, found, bad = Vocabulary(), {}, set(untrusted)
+    select = f"SELECT {STORED} FROM search_block WHERE part = ? ORDER BY block"
+    for block, layout, data, digest in connection.execute(select, (LASTS,)):
+        if block in untrusted:
+            continue
+        lasts = lasts_of(data, words) if is_sound(layout, data, digest) else None
+        if lasts is None or {block_of(key) for key in lasts.keys.tolist()} - {block}:
+            bad.add(block)
+        else:
+            found[block] = lasts
+    (total,) = connection.execute("SELECT count(*) FROM last").fetchone()
+    apart: list[LastRows] = []
+    if total != sum(map(len, found.values())) or bad:
+        apart = _beside_blocks(connection, found, bad)
+    intact = [stored for stored in apart if stored.intact]
+    from_rows = columns_of_rows(connection, intact, words)
+    parts = list(found.values())
+    starts = np.cumsum([0, *map(len, parts)])
+    return BlockLasts(
+        path=path,
+        stamp=stamp,
+        base=joined([*map(_bare, parts), _bare(from_rows)]),
+        blocks=np.array(list(found), dtype=np.int64),
+        starts=starts,
+        from_rows=from_rows,
+        damaged=tuple(sorted(stored.name for stored in apart if not stored.intact)),
+        bad=frozenset(bad),
+    )
+
+
+def _beside_blocks(
+    connection: sqlite3.Connection, found: dict[int, LastColumns], bad: set[int]
+) -> list[LastRows]:
+    """The rows of the lasts that no block has. A block that has other lasts than there are rows
+    is taken from ``found``.
+    """
+    keys = [key for (key,) in connection.execute("SELECT id FROM last NOT INDEXED")]
+    for block, lasts in list(found.items()):
+        if not set(lasts.keys.tolist()) <= set(keys):
+            del found[block]
+            bad.add(block)
+    known = {key for lasts in found.values() for key in lasts.keys.tolist()}
+    return [stored for key in keys if key not in known for stored in stored_lasts(connection, key)]
+
+
+def _bare(lasts: LastColumns) -> LastColumns:
+    return replace(lasts, measures=None, flare=None, toes=None)
+
+
+def columns_of_rows(
+    connection: sqlite3.Connection, lasts: Sequence[LastRows], words: Vocabulary
+) -> LastColumns:
+    """Lasts whose rows are intact, by column, with all columns."""
+    read = [last_of_rows(connection, stored) for stored in lasts]
+    return columns_of(
+        [record for record, _ in read],
+        [kept for _, kept in read],
+        words,
+        keys=[stored.id for stored in lasts],
+        profiles=[stored.definition for stored in lasts],
+    )
+
+
+def last_of_rows(connection: sqlite3.Connection, stored: LastRows) -> tuple[LastRecord, Kept]:
+    """The record and the kept sections of a last whose rows are intact."""
+    select = "SELECT id, name FROM last NOT INDEXED WHERE id = ?"
+    parents = connection.execute(select, (stored.last.get("parent_id"),)).fetchall()
+    record = record_of(stored, {key: shown_name(name) for key, name in parents})
+    kept = rows(connection, SECTION, stored.id)
+    if not kept:
+        return record, NOT_KEPT
+    intact = kept[0].get("sha256") == row_digest(SECTION, kept[0])
+    return record, sections_of(kept[0]) if intact else SPOILT
+
+
+def _spoilt(lasts: LastColumns, rows: Bools) -> LastColumns:
+    """Lasts where the kept sections of some are damaged."""
+    if lasts.toes is None:
+        return lasts
+    return replace(lasts, toes=replace(lasts.toes, state=np.where(rows, SPOILT, lasts.toes.state)))
+
+
+def _equal(one: Any, other: Any) -> bool:
+    return bool(np.array_equal(one, other, equal_nan=True))

@@ -1,0 +1,152 @@
+"""Writing blocks, in the transaction that changes the lasts."""
+
+from __future__ import annotations
+
+import sqlite3
+import struct
+from collections.abc import Collection, Iterable
+from dataclasses import fields
+from typing import Any
+
+import numpy as np
+
+from footfit.catalogue.blocks.block_bytes import (
+    BLOCK_LASTS,
+    LASTS,
+    LAYOUT,
+    PARTS,
+    READERS,
+    block_of,
+    checksum,
+    lasts_of,
+    parts_of,
+)
+from footfit.catalogue.blocks.reading import columns_of_rows, is_sound
+from footfit.catalogue.rows.verified_rows import stored_lasts
+from footfit.results.columns.last_columns import ARRAYS, LastColumns, joined
+from footfit.results.columns.vocabulary import Vocabulary
+
+BLOCKS_ANEW = "type: footfit upgrade-catalogue, which makes it anew"
+TOLERANCE = 1e-9
+"""Of what is computed for a block: on another machine the last bits may differ."""
+
+
+def refresh_blocks(connection: sqlite3.Connection, keys: Iterable[int]) -> None:
+    """Write the blocks of lasts that were added, changed or removed, from their rows.
+
+    The other lasts of a block stay as they are in it; if the block is not what was stored, all of
+    it is made from rows. A damaged last is in no block.
+    """
+    changed = sorted(set(keys))
+    for block in sorted({block_of(key) for key in changed}):
+        _write(connection, block, _renewed(connection, block, changed))
+
+
+def fill_blocks(connection: sqlite3.Connection) -> int:
+    """Write every block that is missing or not what was stored; return how many."""
+    wrong = wrong_blocks(connection)
+    for block in wrong:
+        _write(connection, block, _of_rows(connection, _keys(connection, block), Vocabulary()))
+    return len(wrong)
+
+
+def wrong_blocks(connection: sqlite3.Connection) -> list[int]:
+    """The blocks that are missing, or do not say what their rows say."""
+    keys = [key for (key,) in connection.execute("SELECT id FROM last NOT INDEXED")]
+    stored = {block for (block,) in connection.execute("SELECT DISTINCT block FROM search_block")}
+    blocks = sorted({block_of(key) for key in keys} | stored, key=repr)
+    return [block for block in blocks if not agrees(connection, block)]
+
+
+def agrees(connection: sqlite3.Connection, block: int) -> bool:
+    """Whether a block is what its rows say; of toes within rounding, which differs by machine."""
+    words = Vocabulary()
+    stored = _whole(_sound_parts(connection, block), words)
+    rows_say = _of_rows(connection, _keys(connection, block), words)
+    if stored is None:
+        there = connection.execute("SELECT 1 FROM search_block WHERE block = ?", (block,))
+        return not len(rows_say) and there.fetchone() is None
+    return same_lasts(stored, rows_say)
+
+
+def same_lasts(one: LastColumns, other: LastColumns) -> bool:
+    """Whether two columns of lasts, with all columns, say the same."""
+    exact = all(_same(getattr(one, name), getattr(other, name)) for name in ARRAYS)
+    parts = ((one.measures, other.measures), (one.flare, other.flare), (one.toes, other.toes))
+    return (
+        exact
+        and one.names == other.names
+        and all(
+            _same(getattr(a, part.name), getattr(b, part.name), TOLERANCE * (a is one.toes))
+            for a, b in parts
+            for part in fields(a)  # type: ignore[arg-type]
+        )
+    )
+
+
+def _same(one: Any, other: Any, tolerance: float = 0.0) -> bool:
+    if isinstance(one, tuple):
+        return bool(one == other)
+    if one.shape != other.shape:
+        return False
+    return bool(np.allclose(one, other, rtol=tolerance, atol=tolerance, equal_nan=True))
+
+
+def _sound_parts(connection: sqlite3.Connection, block: int) -> dict[str, bytes]:
+    """The parts of a block that are what was stored, by name."""
+    select = "SELECT part, layout, data, hash FROM search_block WHERE block = ?"
+    return {
+        part: data
+        for part, layout, data, digest in connection.execute(select, (block,))
+        if is_sound(layout, data, digest)
+    }
+
+
+def _keys(connection: sqlite3.Connection, block: int) -> list[int]:
+    """The keys of the lasts of a block, in order."""
+    first = block * BLOCK_LASTS
+    select = "SELECT id FROM last NOT INDEXED WHERE id BETWEEN ? AND ? ORDER BY id"
+    return [key for (key,) in connection.execute(select, (first, first + BLOCK_LASTS - 1))]
+
+
+def _renewed(connection: sqlite3.Connection, block: int, changed: Collection[int]) -> LastColumns:
+    """The lasts of a block, with those that changed from their rows."""
+    words, keys = Vocabulary(), _keys(connection, block)
+    old = _whole(_sound_parts(connection, block), words)
+    if old is None:
+        return _of_rows(connection, keys, words)
+    kept = np.isin(old.keys, keys) & ~np.isin(old.keys, list(changed))
+    known = set(old.keys[kept].tolist())
+    fresh = _of_rows(connection, [key for key in keys if key not in known], words)
+    together = joined([old.taken(np.flatnonzero(kept)), fresh])
+    return together.taken(np.argsort(together.keys))
+
+
+def _whole(parts: dict[str, bytes], words: Vocabulary) -> LastColumns | None:
+    """A block with all its parts; None if it lacks one."""
+    if set(parts) != set(PARTS):
+        return None
+    try:
+        lasts = lasts_of(parts[LASTS], words)
+        for part in PARTS[1:]:
+            lasts = READERS[part](lasts, parts[part])
+    except (ValueError, IndexError, struct.error):
+        return None
+    return lasts
+
+
+def _of_rows(connection: sqlite3.Connection, keys: Iterable[int], words: Vocabulary) -> LastColumns:
+    """Lasts from their rows, without those whose rows are damaged."""
+    lasts = [stored for key in keys for stored in stored_lasts(connection, key)]
+    return columns_of_rows(connection, [stored for stored in lasts if stored.intact], words)
+
+
+def _write(connection: sqlite3.Connection, block: int, lasts: LastColumns) -> None:
+    connection.execute("DELETE FROM search_block WHERE block = ?", (block,))
+    if not len(lasts):
+        return
+    parts = parts_of(lasts)
+    connection.executemany(
+        "INSERT INTO search_block (block, part, layout, data, hash) VALUES (?, ?, ?, ?, ?)",
+        [(block, part, LAYOUT, parts[part], checksum(parts[part])) for part in PARTS],
+    )

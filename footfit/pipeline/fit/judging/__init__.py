@@ -1,0 +1,1 @@
+"""Many lasts judged for one customer, by column: clearances, toe boxes, verdicts."""

@@ -1,0 +1,432 @@
+"""The clearances of feet in lasts: last minus foot, for many lasts at once.
+
+The lasts are columns, so one last is a column of one. Each zone's function compares one foot with
+all lasts, as both were measured.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, fields, replace
+from typing import Any
+
+import numpy as np
+
+from footfit.catalogue.blocks.packing import columns_of, measure_columns
+from footfit.geometry.fit.along_the_bottom import ALONG_BOTTOM, LastLengths, length_along_bottom
+from footfit.geometry.flare.definition import CHANNELS, FlareProfile
+from footfit.geometry.flare.profile_distance import DISTANCE, inside
+from footfit.geometry.measures.measure_table import measure_named
+from footfit.geometry.numeric.arrays import Bools, Floats, Ints
+from footfit.pipeline.fit.heels import Heels, full_change
+from footfit.pipeline.fit.scoring import Column
+from footfit.pipeline.fit.zones import (
+    HEEL_RULES,
+    NO_RULE,
+    NOT_READ,
+    TOE_BOX,
+    TOE_HEIGHT,
+    TOES,
+    ZONES,
+)
+from footfit.results import HeelModel, LastRecord, Measure, Measured, Profiled, ZoneRule
+from footfit.results.columns.last_columns import NOT_KEPT, LastColumns, MeasureColumns
+from footfit.results.columns.vocabulary import NO_WORD, Vocabulary, Words
+
+LENGTH_SD_MM = 0.5
+"""Repeatability of an aligned length between two scans of one shape (docs/alignment.md)."""
+PLAN_SD = DISTANCE.sd[CHANNELS.index("plan")]
+BALL_SHARE = 0.72
+"""Where the ball lies, over the length, if it was not measured."""
+OTHER_DEFINITION = "measured by another definition; type: footfit upgrade-catalogue"
+LENGTHS = {known.name: measure_named(known.name).definition_id for known in fields(LastLengths)}
+"""The measures that say how long a last is along its bottom, with their definitions."""
+
+
+@dataclass(frozen=True, slots=True)
+class Cells:
+    """The clearances of one foot in one zone of n lasts, (n,) each.
+
+    ``value`` is NaN where it is not measured; ``reason`` then is the number of a sentence, else
+    NO_WORD.
+    """
+
+    value: Floats
+    foot_sd: Floats
+    last_sd: Floats
+    reason: Ints
+
+    def where(self, rows: Bools, others: Cells) -> Cells:
+        """The other clearances in some rows."""
+        return Cells(
+            *(
+                np.where(rows, getattr(others, known.name), getattr(self, known.name))
+                for known in fields(self)
+            )
+        )
+
+
+@dataclass(frozen=True, slots=True)
+class Clearances:
+    """The clearances of n lasts in z columns: the last minus the foot as it is in the last's heel.
+
+    ``value`` (n, z) is NaN where it is not measured; ``reason`` (n, z) then is the number of a
+    sentence of ``sentences``, else NO_WORD. The spreads (n, z) are of the foot's scan, of the last,
+    and of the heel model. The model's is - where the model is applied backwards: one error of the
+    model moves all lasts at once.
+    """
+
+    value: Floats
+    foot_sd: Floats
+    last_sd: Floats
+    heel_sd: Floats
+    reason: Ints
+    sentences: Words
+
+    def measured(self, row: int, place: int) -> Measured:
+        """One clearance as a result."""
+        reason = self.reason[row, place]
+        if reason != NO_WORD:
+            return Measured(None, reason=self.sentences.values[reason])
+        spreads = (self.foot_sd, self.last_sd, self.heel_sd)
+        sd = math.hypot(*(float(spread[row, place]) for spread in spreads))
+        return Measured(float(self.value[row, place]), sd)
+
+    def taken(self, rows: Ints) -> Clearances:
+        """Those of some lasts."""
+        return replace(self, **{name: getattr(self, name)[rows] for name in TABLES})
+
+    def copied(self) -> Clearances:
+        """The same, to be written to."""
+        return replace(self, **{name: getattr(self, name).copy() for name in TABLES})
+
+    def put(self, rows: Ints, place: int, cells: Cells, heel_sd: Floats | float = 0.0) -> None:
+        """Write the clearances of some lasts into one column."""
+        for known in fields(cells):
+            getattr(self, known.name)[rows, place] = getattr(cells, known.name)
+        self.heel_sd[rows, place] = heel_sd
+
+
+TABLES = ("value", "foot_sd", "last_sd", "heel_sd", "reason")
+
+
+def joined_clearances(parts: Sequence[Clearances]) -> Clearances:
+    """The clearances of lasts one after the other; all parts share their sentences."""
+    arrays: dict[str, Any] = {
+        name: np.concatenate([getattr(part, name) for part in parts]) for name in TABLES
+    }
+    return replace(parts[0], **arrays)
+
+
+@dataclass(frozen=True, slots=True)
+class FootShape:
+    """What zones read of a foot, or of a last in its place; shares of the length are of
+    ``extent_mm``.
+    """
+
+    extent_mm: float
+    flare: FlareProfile
+    measures: Mapping[str, Measure]
+
+    def measured_mm(self, name: str) -> float | None:
+        """The value of a measure, by whichever definition; None where there is none."""
+        return self.measures[name].measured.value if name in self.measures else None
+
+
+def foot_shape(foot: Profiled) -> FootShape:
+    """What zones read of a foot."""
+    measures = {measure.name: measure for measure in foot.measures}
+    return FootShape(foot.aligned.alignment.extent_mm, foot.flare, measures)
+
+
+def clearances(
+    feet: Sequence[Profiled],
+    lasts: LastColumns,
+    columns: Sequence[Column],
+    heels: Heels,
+    sentences: Words,
+) -> Clearances:
+    """The clearance of each foot in each last: a row for each last, a column for each zone.
+
+    The shapes are compared as they were measured. Then each column gets what the heels of the lasts
+    change of the foot.
+    """
+    ours = [foot_shape(foot) for foot in feet]
+    cells = [_cells(ours[column.foot], lasts, column.rule.zone, sentences) for column in columns]
+    value, foot_sd, last_sd, reason = (
+        np.stack([getattr(cell, known.name) for cell in cells], axis=1) for known in fields(Cells)
+    )
+    heel_sd = np.zeros_like(value)
+    for place, column in enumerate(columns):
+        measure = HEEL_RULES.get(column.rule.zone, column.rule.zone)
+        change, sd = full_change(heels.question.model, feet[column.foot], measure)
+        value[:, place] -= heels.share * change
+        heel_sd[:, place] = heels.share * sd
+    lengths = {column.foot: i for i, column in enumerate(columns) if is_length(column)}
+    rooms_mm = {foot: value[:, place].copy() for foot, place in lengths.items()}
+    for place, column in enumerate(columns):
+        if column.rule.zone == "ball_line":
+            asked_mm = columns[lengths[column.foot]].rule.target
+            scale = 100.0 / ours[column.foot].extent_mm
+            off_mm = ball_line_mm(value[:, place], rooms_mm[column.foot], asked_mm)
+            value[:, place] = scale * off_mm
+            for spread in (foot_sd, last_sd, heel_sd):
+                spread[:, place] *= scale
+            room = reason[:, lengths[column.foot]]
+            reason[:, place] = np.where(reason[:, place] == NO_WORD, room, reason[:, place])
+        if not is_length(column):
+            value[heels.length_only, place] = np.nan
+    value -= np.array([column.rule.cavity for column in columns])
+    model = heels.question.model
+    if model is not None and heels.length_only.any():
+        others = np.array([not is_length(column) for column in columns])
+        only = (reason == NO_WORD) & heels.length_only[:, None] & others
+        reason[only] = sentences.number(length_only_words(model))
+    return Clearances(value, foot_sd, last_sd, heel_sd, reason, sentences)
+
+
+def columns_of_last(last: LastRecord) -> LastColumns:
+    """One last as a column of one, without its toes."""
+    return columns_of([last], [NOT_KEPT], Vocabulary())
+
+
+def toe_room(foot: Profiled, last: LastRecord, heels: Heels) -> Measured:
+    """The toe room of one foot in one last, whose heel is the first of ``heels``: the zone "length"
+    without a cavity.
+    """
+    sentences = Words()
+    room = _length(foot_shape(foot), columns_of_last(last), sentences)
+    if room.reason[0] != NO_WORD:
+        return Measured(None, reason=sentences.values[room.reason[0]])
+    share = float(heels.share[0])
+    change, sd = full_change(heels.question.model, foot, "length")
+    spread = math.hypot(float(room.foot_sd[0]), float(room.last_sd[0]), share * sd)
+    return Measured(float(room.value[0]) - share * change, spread)
+
+
+def measured_clearances(
+    foot: Profiled, last: LastRecord, heels: Heels
+) -> tuple[tuple[str, Measured], ...]:
+    """The clearance of one foot in every measure of a last, as a match gives it without a cavity;
+    the last's heel is the first of ``heels``.
+    """
+    named = [zone.name for zone in ZONES.values() if zone.unit == "mm" and zone.name != "length"]
+    names = [name for name in named if name not in TOE_BOX]
+    columns = [Column(0, ZoneRule(name, *NO_RULE), counts=False) for name in names]
+    room = clearances([foot], columns_of_last(last), columns, heels, Words())
+    return tuple((name, room.measured(0, place)) for place, name in enumerate(names))
+
+
+def is_length(column: Column) -> bool:
+    """Is this the column of a toe room?"""
+    return column.rule.zone == "length"
+
+
+def length_only_words(model: HeelModel) -> str:
+    """Why girths are not judged in a heel that is higher than the heel model knows."""
+    return f"over {model.largest_drop_mm:g} mm of drop only the length is judged"
+
+
+# ---------------------------------------------------------------- one zone
+
+
+def _cells(foot: FootShape, lasts: LastColumns, zone: str, sentences: Words) -> Cells:
+    """The clearance in a zone, as both were measured; of the ball line that of the balls, in mm."""
+    if zone in SPECIAL:
+        return SPECIAL[zone](foot, lasts, sentences)
+    return measure_difference(foot, lasts, zone, sentences)
+
+
+def missing(count: int, reason: int) -> Cells:
+    """No clearance in so many lasts, for one reason."""
+    nothing = np.zeros(count)
+    return Cells(np.full(count, np.nan), nothing, nothing, np.full(count, reason))
+
+
+def known_cells(value: Floats, foot_sd: float, last_sd: Floats | float) -> Cells:
+    """Clearances that are known of all lasts."""
+    return Cells(
+        value,
+        np.full(len(value), foot_sd),
+        np.broadcast_to(np.asarray(last_sd, dtype=np.float64), value.shape),
+        np.full(len(value), NO_WORD),
+    )
+
+
+def measure_difference(foot: FootShape, lasts: LastColumns, name: str, sentences: Words) -> Cells:
+    """The last's measure minus the foot's, if both have it and mean the same by it."""
+    own = foot.measures.get(name)
+    if own is None:
+        return missing(len(lasts), sentences.number("not measured on the foot"))
+    if own.measured.value is None:
+        why = own.measured.reason or "not measured"
+        return missing(len(lasts), sentences.number(f"the foot: {why}"))
+    theirs = lasts.measure(name)
+    lacks, silent = theirs.word == NO_WORD, np.isnan(theirs.value)
+    used = np.unique(theirs.word[~lacks])
+    reason = np.full(len(lasts), NO_WORD)
+    for word in used.tolist():
+        definition, why = lasts.words.measures.values[word]
+        of_word = theirs.word == word
+        if definition != own.definition:
+            reason[of_word] = sentences.number(OTHER_DEFINITION)
+        unknown = of_word & silent
+        if unknown.any():
+            reason[unknown] = sentences.number(f"the last: {why or 'not measured'}")
+    reason[lacks] = sentences.number("not measured on the last") if lacks.any() else NO_WORD
+    known = reason == NO_WORD
+    return Cells(
+        np.where(known, theirs.value - own.measured.value, np.nan),
+        np.where(known, own.measured.sd or 0.0, 0.0),
+        np.where(known, theirs.sd, 0.0),
+        reason,
+    )
+
+
+def _length(foot: FootShape, lasts: LastColumns, sentences: Words) -> Cells:
+    """The toe room: functional lengths where both are measured, else lengths, along the bottom of
+    the last. A last in the foot's place, as in a search by shape, is measured along its bottom too.
+    """
+    room = measure_difference(foot, lasts, "functional_length", sentences)
+    lacking = room.reason != NO_WORD
+    if lacking.any():  # lengths of other versions differ by tenths of a mm
+        foot_mm, last_mm = foot.measured_mm("length"), lasts.measure("length").value
+        both = np.isfinite(last_mm) & (foot_mm is not None)
+        usual = known_cells(last_mm - (foot_mm or 0.0), LENGTH_SD_MM, LENGTH_SD_MM)
+        room = room.where(lacking & both, usual)
+        if not both[lacking].all():
+            why = measure_difference(foot, lasts, "length", sentences)
+            room = room.where(lacking & ~both, why)
+    words = Vocabulary()
+    own = measure_columns([tuple(foot.measures.values())], words)
+    ours = bottom_gain(own, words.measures, np.array([np.nan]), sentences)
+    theirs = last_gain(lasts, sentences)
+    gained = Cells(
+        room.value + theirs.value - ours.value,
+        np.hypot(room.foot_sd, ours.last_sd),
+        np.hypot(room.last_sd, theirs.last_sd),
+        room.reason,
+    )
+    gain = np.where(ours.reason == NO_WORD, theirs.reason, ours.reason)
+    unknown = (room.reason == NO_WORD) & (gain != NO_WORD)
+    gained = gained.where(unknown, replace(missing(len(lasts), NO_WORD), reason=gain))
+    return gained.where(room.reason != NO_WORD, room)
+
+
+def last_gain(lasts: LastColumns, sentences: Words) -> Cells:
+    """The `bottom_gain` of lasts."""
+    assert lasts.measures is not None
+    return bottom_gain(lasts.measures, lasts.words.measures, lasts.heel_label_mm, sentences)
+
+
+def bottom_gain(
+    measures: MeasureColumns, words: Words, labelled_mm: Floats, sentences: Words
+) -> Cells:
+    """How much longer a last with a heel is along its bottom than along its resting plane.
+
+    Without the measures of its bottom the toe room of a last with a high heel is not known.
+    ``words`` are the vocabulary's, ``labelled_mm`` (n,) the heel heights on the labels.
+    """
+    heel_mm = measures.column("heel_height").value
+    heel_mm = np.where(np.isnan(heel_mm), labelled_mm, heel_mm)
+    gain_mm, sd_mm = np.zeros((2, len(heel_mm)))
+    reason = np.full(len(heel_mm), NO_WORD)
+    rows = np.flatnonzero(heel_mm > ALONG_BOTTOM.level_mm)
+    if len(rows):
+        gain_mm[rows], sd_mm[rows], reason[rows] = _heeled_gain(
+            measures.taken(rows), words, heel_mm[rows], sentences
+        )
+    return Cells(gain_mm, np.zeros(len(heel_mm)), sd_mm, reason)
+
+
+def _heeled_gain(
+    measures: MeasureColumns, words: Words, heel_mm: Floats, sentences: Words
+) -> tuple[Floats, Floats, Ints]:
+    """The gain of lasts with a heel, its spread, and why it is not known, (n,) each."""
+    columns = {name: measures.column(name) for name in LENGTHS}
+    functional_mm = measures.column("functional_length").value
+    measured = np.nan_to_num(functional_mm) != 0.0
+    level_mm = np.where(measured, functional_mm, measures.column("length").value)
+    lengths = np.stack([column.value for column in columns.values()])
+    whole = ~np.isnan(level_mm) & ~np.isnan(lengths).any(axis=0)
+    other = np.zeros(len(heel_mm), dtype=bool)
+    for name, column in columns.items():
+        there = column.word != NO_WORD
+        for word in np.unique(column.word[there]).tolist():
+            if words.values[word][0] != LENGTHS[name]:
+                other |= column.word == word
+    reason = np.where(whole & other, sentences.number(OTHER_DEFINITION), NO_WORD)
+    high = ~whole & (heel_mm >= ALONG_BOTTOM.raised_mm)
+    if high.any():
+        reason[high] = sentences.number("the last: its bottom is not measured")
+    with np.errstate(invalid="ignore"):
+        along_mm, sd_mm = length_along_bottom(level_mm, LastLengths(*lengths))
+    known = whole & ~other
+    gain_mm = np.where(known, along_mm - level_mm, np.where(whole | high, np.nan, 0.0))
+    return gain_mm, np.where(known, sd_mm, 0.0), reason
+
+
+def _ball_line(foot: FootShape, lasts: LastColumns, sentences: Words) -> Cells:
+    """How much further forward the last's ball is, in mm along X.
+
+    On a high heel that is not its place along the bottom: one last, bent from 0 to 80 mm of heel,
+    moved it by up to 23 mm (decision 0210).
+    """
+    high_mm = ALONG_BOTTOM.raised_mm
+    cells = measure_difference(foot, lasts, "ball_length", sentences)
+    high = lasts.heel_height_mm > high_mm
+    high |= (foot.measured_mm("heel_height") or 0.0) > high_mm
+    if not high.any():
+        return cells
+    words = f"over {high_mm:g} mm of heel the ball's place along the bottom is unknown"
+    return cells.where(high, missing(len(lasts), sentences.number(words)))
+
+
+def ball_line_mm(ball_mm: Floats, room_mm: Floats, asked_mm: float) -> Floats:
+    """How much further forward the last's ball is than the foot's, as far as the length does not
+    explain it.
+
+    A last that is longer than the toe room asked for has its ball further forward in proportion,
+    and that is judged as length. A long toe with the ball in place is in place.
+    """
+    carried_mm = BALL_SHARE * (room_mm - asked_mm)
+    explained_mm = np.clip(ball_mm, np.minimum(carried_mm, 0.0), np.maximum(carried_mm, 0.0))
+    off_mm: Floats = ball_mm - explained_mm
+    return off_mm
+
+
+def _flare(foot: FootShape, lasts: LastColumns, _: Words) -> Cells:
+    """The flare angles' difference."""
+    delta = lasts.angle_deg - foot.flare.angle_deg
+    return known_cells(delta, foot.flare.angle_sd_deg, lasts.angle_sd_deg)
+
+
+def _plan(foot: FootShape, lasts: LastColumns, sentences: Words) -> Cells:
+    """The root mean square of the plan curvatures' difference over the distance's stations."""
+    ours, flare = foot.flare.curvature.get("plan"), lasts.flare
+    assert flare is not None
+    assert flare.plan is not None
+    unknown = missing(len(lasts), sentences.number("the plan curve is not measurable"))
+    if ours is None:
+        return unknown
+    there = flare.known[:, CHANNELS.index("plan")] & (lasts.stations == len(ours))
+    if not there.any():
+        return unknown
+    part = inside(foot.flare.stations)
+    rms = np.sqrt(np.square(flare.plan[:, part] - ours[part]).mean(axis=1))
+    return unknown.where(there, known_cells(rms, PLAN_SD, PLAN_SD))
+
+
+def _not_read(_: FootShape, lasts: LastColumns, sentences: Words) -> Cells:
+    return missing(len(lasts), sentences.number(NOT_READ))
+
+
+SPECIAL: dict[str, Callable[[FootShape, LastColumns, Words], Cells]] = {
+    "length": _length,
+    "ball_line": _ball_line,
+    "flare": _flare,
+    "plan": _plan,
+    TOE_HEIGHT: _not_read,
+    TOES: _not_read,
+}

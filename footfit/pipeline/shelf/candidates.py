@@ -1,0 +1,195 @@
+"""The shelf of a question: the lasts of a catalogue, by the filters given."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+from pathlib import Path
+
+import numpy as np
+
+from footfit.catalogue.blocks.packing import LABELS
+from footfit.catalogue.blocks.reading import BlockLasts
+from footfit.catalogue.blocks.writing import BLOCKS_ANEW
+from footfit.catalogue.file.opening import FIRST_STEPS
+from footfit.catalogue.rows.array_blobs import definition_text
+from footfit.catalogue.rows.search import rejection
+from footfit.catalogue.store import open_catalogue
+from footfit.errors import BadOption, EmptyCatalogue, NoCandidate
+from footfit.geometry.fit.sizes import SYSTEMS, system_named
+from footfit.geometry.flare.definition import FlareDefinition
+from footfit.geometry.numeric.arrays import Bools
+from footfit.pipeline.library.lasts import damaged_last, measure_definitions, reference_name
+from footfit.pipeline.library.stock import stock
+from footfit.pipeline.shelf.shelf import Shelf
+from footfit.results import Notice
+from footfit.results.columns.last_columns import KINDS, LastColumns
+from footfit.results.values import notices_about
+
+NONE: frozenset[int] = frozenset()
+
+
+@dataclass(frozen=True, slots=True)
+class _Read:
+    """What was read of a catalogue."""
+
+    path: Path
+    lasts: BlockLasts
+    reference: str | None
+    rated: tuple[tuple[str, int], ...]
+
+
+def choice(
+    path: Path, style: str | None, size_system: str | None, untrusted: frozenset[int] = NONE
+) -> Shelf:
+    """The lasts to match against; the search blocks in ``untrusted`` are not used.
+
+    If no last is labelled in the size system, it is only how the customer's sizes are shown: all
+    lasts are ranked, with a notice. A warning names each last that is left out because it is
+    damaged or has an older profile.
+
+    Raises
+    ------
+    NoCatalogue, EmptyCatalogue
+        There is nothing to match against. The message says what to type.
+    BadOption
+        Neither footfit nor any last's label knows the size system.
+    """
+    read = _read(path, untrusted)
+    shelf = _filtered(read, style=style, size_system=size_system)
+    shelf = replace(shelf, again=lambda bad: choice(path, style, size_system, bad))
+    system = system_named(size_system)
+    if shelf.ranked.any() or size_system is None:
+        return shelf
+    if system is None:
+        if style is not None and _filtered(read, size_system=size_system).ranked.any():
+            return shelf
+        words = f"no size system is named {size_system!r}, and no last is labelled in it"
+        raise BadOption(f"{words}; there are {', '.join(SYSTEMS)}")
+    everything = _filtered(read, style=style)
+    if not everything.ranked.any():
+        return shelf
+    words = f"no last is labelled in {system.title} sizes: lasts of all systems are ranked"
+    other = Notice("other_systems", words, str(path))
+    return replace(everything, warnings=(*everything.warnings, other), again=shelf.again)
+
+
+def _read(path: Path, untrusted: frozenset[int]) -> _Read:
+    with open_catalogue(path) as catalogue:
+        lasts = catalogue.block_lasts(untrusted)
+        if not len(lasts.base) and not lasts.damaged:
+            raise EmptyCatalogue(f"the catalogue holds no last; {FIRST_STEPS}", str(path))
+        return _Read(path, lasts, reference_name(catalogue), catalogue.fit_log.counts())
+
+
+def _filtered(read: _Read, **filters: str | None) -> Shelf:
+    """The lasts that have these labels."""
+    lasts = read.lasts.base
+    passes, rejected = _passing(lasts, filters)
+    current = _with_current_profile(lasts)
+    outdated = lasts.taken(np.flatnonzero(passes & ~current)).names
+    ranked = passes & current
+    warnings = (
+        *map(damaged_last, read.lasts.damaged),
+        *_bad_blocks(read.lasts),
+        *map(_outdated, sorted(outdated)),
+        *_other_measures(lasts, ranked),
+    )
+    return Shelf(
+        lasts=read.lasts,
+        ranked=ranked,
+        out_of_stock=np.zeros(len(ranked), dtype=bool),
+        total=len(lasts) + len(read.lasts.damaged),
+        reference=read.reference,
+        rejected=tuple(sorted(rejected.items())),
+        warnings=notices_about(str(read.path), warnings),
+        rated=read.rated,
+        file=read.path,
+    )
+
+
+def _passing(lasts: LastColumns, filters: Mapping[str, str | None]) -> tuple[Bools, Counter[str]]:
+    """Which lasts pass the filters, and how many do not, by the first filter that they fail."""
+    known = [dict(zip(LABELS, each, strict=True)) for each in _labels(lasts)]
+    failed = [rejection(labels, filters) for labels in known]
+    counts: Counter[str] = Counter()
+    for number, count in enumerate(np.bincount(lasts.label, minlength=len(failed)).tolist()):
+        name = failed[number]
+        if name is not None and count:
+            counts[name] += count
+    return np.array([name is None for name in failed], dtype=bool)[lasts.label], counts
+
+
+def _labels(lasts: LastColumns) -> list[tuple[str | None, ...]]:
+    return lasts.words.labels.values
+
+
+def _with_current_profile(lasts: LastColumns) -> Bools:
+    """Which profiles follow this footfit's definition, parameter by parameter."""
+    text = definition_text(FlareDefinition())
+    current = [profile == text for profile in lasts.words.profiles.values]
+    return np.array(current, dtype=bool)[lasts.profile]
+
+
+def _bad_blocks(lasts: BlockLasts) -> list[Notice]:
+    """A notice of the search blocks that are not what was stored; nothing is lost with them."""
+    if not lasts.bad:
+        return []
+    what = "1 search block is" if len(lasts.bad) == 1 else f"{len(lasts.bad)} search blocks are"
+    words = f"{what} damaged, so lasts were read one by one; {BLOCKS_ANEW}"
+    return [Notice("damaged_blocks", words)]
+
+
+def _outdated(name: str) -> Notice:
+    words = f"{name} was left out: its profile is older; type: footfit upgrade-catalogue"
+    return Notice("outdated_last", words)
+
+
+def _other_measures(lasts: LastColumns, ranked: Bools) -> list[Notice]:
+    """A warning if lasts were measured by other definitions; it says what to do."""
+    methods = [frozenset(method) for method in lasts.words.methods.values]
+    same = np.array([[method == measure_definitions(kind) for method in methods] for kind in KINDS])
+    other = np.flatnonzero(ranked & ~same[lasts.kind, lasts.method])
+    if not len(other):
+        return []
+    (first, *more) = other.tolist()
+    start = f"{len(other)} of {np.count_nonzero(ranked)} lasts were"
+    words = f"{start if more else f'{lasts.names[first]} was'} measured by other definitions"
+    words += ": zones whose definition changed are not judged; type: footfit upgrade-catalogue"
+    return [Notice("other_measures", words)]
+
+
+def in_stock(shelf: Shelf, file: Path) -> Shelf:
+    """The lasts that a stock file has; the others are counted, and kept beside them.
+
+    Raises
+    ------
+    BadManifest
+        The stock file is not understood.
+    NoCandidate
+        It has none of the lasts.
+    """
+    lasts, rows = shelf.lasts.base, np.flatnonzero(shelf.ranked)
+    labels = _labels(lasts)
+    known = sorted((lasts.names[row], labels[lasts.label[row]]) for row in rows.tolist())
+    there = stock(file, known)
+    stocked = np.zeros(len(lasts), dtype=bool)
+    stocked[[row for row in rows.tolist() if lasts.names[row] in there.names]] = True
+    if len(rows) and not stocked.any():
+        raise NoCandidate("has none of these lasts in stock; see footfit list-lasts", str(file))
+    unknown: tuple[Notice, ...] = ()
+    if there.unknown:
+        many = len(there.unknown)
+        words = f"{'1 row names' if many == 1 else f'{many} rows name'} no last of the catalogue"
+        unknown = (Notice("unknown_stock", f"{words}, first {there.unknown[0]}", str(file)),)
+    out = shelf.ranked & ~stocked
+    again, missing = shelf.again, int(np.count_nonzero(out))
+    return replace(
+        shelf,
+        ranked=stocked,
+        out_of_stock=out,
+        rejected=(*shelf.rejected, *((("not_in_stock", missing),) if missing else ())),
+        warnings=(*shelf.warnings, *unknown),
+        again=None if again is None else lambda bad: in_stock(again(bad), file),
+    )

@@ -1,0 +1,192 @@
+"""A shelf of lasts: what a match ranks, from the blocks of a catalogue or from records."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass, replace
+from pathlib import Path
+from typing import Protocol
+
+import numpy as np
+
+from footfit.catalogue.blocks.packing import Kept, columns_of
+from footfit.catalogue.blocks.reading import ShownLast
+from footfit.catalogue.store import Catalogue, open_catalogue
+from footfit.errors import CatalogueDamaged, UnknownLast
+from footfit.geometry.numeric.arrays import Bools, Ints
+from footfit.pipeline.library.lasts import damaged_last
+from footfit.results import LastRecord, Library, Notice
+from footfit.results.columns.last_columns import NOT_KEPT, SPOILT, LastColumns
+from footfit.results.columns.vocabulary import Vocabulary
+from footfit.results.values import notices_about
+
+TWIN_LENGTH_MM = 2.0
+"""Two lasts with the same labels and opposite sides are one pair if their lengths differ less."""
+
+
+class Lasts(Protocol):
+    """Lasts by column. ``base`` has all of them, without measures, profiles and toes."""
+
+    @property
+    def base(self) -> LastColumns:
+        """What is always read."""
+
+    def chunks(self, parts: Sequence[str], /) -> Iterator[tuple[int, LastColumns]]:
+        """All lasts with these parts, in their order: each time the first row, and its lasts."""
+
+    def taken(self, chosen: Ints, parts: Sequence[str], /) -> LastColumns:
+        """Some lasts with these parts, in the order of ``chosen``."""
+
+    def shown(self, chosen: Sequence[int], /) -> list[ShownLast]:
+        """The records of a few lasts."""
+
+    def with_spoilt(self, rows: Sequence[int], /) -> Lasts:
+        """The lasts, where the kept sections of some are damaged."""
+
+
+@dataclass(frozen=True, slots=True)
+class RecordLasts:
+    """Lasts of which there are records."""
+
+    records: tuple[LastRecord, ...]
+    base: LastColumns
+
+    def chunks(self, _: Sequence[str]) -> Iterator[tuple[int, LastColumns]]:
+        """All lasts at once."""
+        if self.records:
+            yield 0, self.base
+
+    def taken(self, chosen: Ints, _: Sequence[str]) -> LastColumns:
+        """Some lasts."""
+        return self.base.taken(chosen)
+
+    def shown(self, chosen: Sequence[int]) -> list[ShownLast]:
+        """The records of a few lasts."""
+        return [ShownLast(self.records[row]) for row in chosen]
+
+    def with_spoilt(self, _: Sequence[int]) -> RecordLasts:
+        """The lasts; that their sections are damaged is known already."""
+        return self
+
+
+def record_lasts(records: Sequence[LastRecord], file: Path | None = None) -> RecordLasts:
+    """Lasts from records; their sections are those of the catalogue ``file``, if it is given."""
+    kept: list[Kept] = [NOT_KEPT] * len(records)
+    if file is not None and records:
+        with open_catalogue(file) as catalogue:
+            kept = [_sections(catalogue, record.labels.name) for record in records]
+    return RecordLasts(tuple(records), columns_of(records, kept, Vocabulary()))
+
+
+def _sections(catalogue: Catalogue, name: str) -> Kept:
+    try:
+        return catalogue.sections(name) or NOT_KEPT
+    except (CatalogueDamaged, UnknownLast):
+        return SPOILT
+
+
+@dataclass(frozen=True, slots=True)
+class Shelf:
+    """The lasts of a catalogue that a match ranks, and what is to be said of the others.
+
+    ``ranked`` (n,) says which of the lasts are ranked, and ``out_of_stock`` (n,) which ones the
+    shop does not have. ``again`` makes the shelf anew from the catalogue, without trust in some of
+    its search blocks; it is None if there is no catalogue. The other fields are a `Library`'s.
+    """
+
+    lasts: Lasts
+    ranked: Bools
+    out_of_stock: Bools
+    total: int
+    reference: str | None
+    rejected: tuple[tuple[str, int], ...] = ()
+    warnings: tuple[Notice, ...] = ()
+    rated: tuple[tuple[str, int], ...] = ()
+    file: Path | None = None
+    again: Callable[[frozenset[int]], Shelf] | None = None
+
+    @property
+    def names(self) -> tuple[str, ...]:
+        """The names of the lasts that are ranked, sorted."""
+        return tuple(sorted(self.lasts.base.taken(np.flatnonzero(self.ranked)).names))
+
+    def records(self) -> tuple[LastRecord, ...]:
+        """The records of the lasts that are ranked, by name, from their rows; no damaged one."""
+        shown = self.lasts.shown(np.flatnonzero(self.ranked).tolist())
+        records = (last.record for last in shown if last.record is not None)
+        return tuple(sorted(records, key=lambda record: record.labels.name))
+
+    def without(self, rows: Sequence[int]) -> Shelf:
+        """The shelf without some lasts, because their rows are damaged; warnings name them."""
+        if not rows:
+            return self
+        there = np.ones(len(self.ranked), dtype=bool)
+        there[list(rows)] = False
+        names = sorted(self.lasts.base.names[row] for row in rows)
+        path = None if self.file is None else str(self.file)
+        return replace(
+            self,
+            ranked=self.ranked & there,
+            out_of_stock=self.out_of_stock & there,
+            warnings=(*notices_about(path, map(damaged_last, names)), *self.warnings),
+        )
+
+    def with_spoilt(self, rows: Sequence[int]) -> Shelf:
+        """The shelf, where the kept sections of some lasts are damaged."""
+        return replace(self, lasts=self.lasts.with_spoilt(rows)) if rows else self
+
+    def anew(self, bad: frozenset[int]) -> Shelf:
+        """The shelf, read again from the catalogue without trust in some search blocks."""
+        assert self.again is not None
+        return self.again(bad)
+
+    def swapped(self) -> Shelf:
+        """The lasts that are not in stock in the place of those that are."""
+        again = self.again
+        return replace(
+            self,
+            ranked=self.out_of_stock,
+            out_of_stock=self.ranked,
+            again=None if again is None else lambda bad: again(bad).swapped(),
+        )
+
+
+def shelf_of(library: Library) -> Shelf:
+    """The shelf of a library."""
+    records = (*library.lasts, *library.out_of_stock)
+    first = np.arange(len(records)) < len(library.lasts)
+    return Shelf(
+        lasts=record_lasts(records, library.file),
+        ranked=first,
+        out_of_stock=~first,
+        total=library.total,
+        reference=library.reference,
+        rejected=library.rejected,
+        warnings=library.warnings,
+        rated=library.rated,
+        file=library.file,
+    )
+
+
+def of_own_side(lasts: LastColumns, among: Bools, side: int) -> Bools:
+    """Which lasts ``among`` (n,) the given ones are ranked: all but those of the other side whose
+    twin of the foot's own side (an index of SIDES) is there.
+    """
+    chosen = among.copy()
+    own = among & (lasts.side == side)
+    others = np.flatnonzero(among & (lasts.side != side))
+    named = [
+        style is not None and size is not None for style, size, *_ in lasts.words.labels.values
+    ]
+    twinned = np.zeros(len(named), dtype=bool)
+    twinned[lasts.label[own]] = True
+    twinned &= np.array(named, dtype=bool)
+    others = others[twinned[lasts.label[others]]]
+    for label in np.unique(lasts.label[others]).tolist():
+        extents_mm = np.sort(lasts.extent_mm[own & (lasts.label == label)])
+        rows = others[lasts.label[others] == label]
+        at = np.searchsorted(extents_mm, lasts.extent_mm[rows])
+        beside = np.clip([at - 1, at], 0, len(extents_mm) - 1)
+        apart_mm = np.abs(extents_mm[beside] - lasts.extent_mm[rows])
+        chosen[rows[apart_mm.min(axis=0) < TWIN_LENGTH_MM]] = False
+    return chosen

@@ -1,0 +1,1 @@
+"""Many lasts by column: what ranking reads of them, without an object for each last."""
