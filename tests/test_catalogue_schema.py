@@ -104,6 +104,7 @@ def test_the_writer_adds_keys_hashes_and_the_version_alone() -> None:
     assert added == {
         *("id", "last_id", "number", "parent_id", "position"),
         *("footfit_version", "record_sha256", "sha256"),
+        *("block", "part", "layout", "data", "hash"),
     }
 
 

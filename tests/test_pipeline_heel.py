@@ -17,7 +17,7 @@ from footfit.geometry.fit.along_the_bottom import (
 )
 from footfit.pipeline.fit.heel_model import FILE, heel_model, heel_model_of, heel_question
 from footfit.pipeline.fit.heels import heel_change, heels_of
-from footfit.pipeline.fit.judging.clearances import LENGTHS
+from footfit.pipeline.fit.judging.bottom_gains import LENGTHS
 from footfit.pipeline.fit.match import Question, matched, meets
 from footfit.pipeline.fit.scoring import distance_spread, fit_distance, scores
 from footfit.results import Candidate, HeelQuestion, LastRecord, Match, Measure, Measured

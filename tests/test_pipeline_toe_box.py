@@ -5,6 +5,7 @@ not known.
 from __future__ import annotations
 
 import sqlite3
+from collections.abc import Sequence
 from contextlib import closing
 from dataclasses import replace
 from pathlib import Path
@@ -13,7 +14,11 @@ import numpy as np
 import pytest
 
 from footfit.api.catalogues import open_catalogue
+from footfit.catalogue.blocks.block_bytes import TOES as TOES_PART
+from footfit.catalogue.blocks.block_reading import BlockLasts
+from footfit.catalogue.blocks.packing import columns_of
 from footfit.catalogue.store import open_catalogue as catalogue_at
+from footfit.geometry.numeric.arrays import Ints
 from footfit.meshes.write import encoded_mesh
 from footfit.pipeline.batch.sources import ReadingOptions, Source
 from footfit.pipeline.fit.fit_profile import fit_profile, shipped
@@ -23,6 +28,8 @@ from footfit.pipeline.fit.scoring import GOOD, REJECT, levels
 from footfit.pipeline.fit.zones import NOT_READ, TOE_BOX, TOE_HEIGHT, TOES
 from footfit.pipeline.scan.reading import profiled_source
 from footfit.results import Candidate, FootFit, Match, Measured, Profiled, ZoneFit
+from footfit.results.columns.last_columns import LastColumns
+from footfit.results.columns.vocabulary import NO_WORD, Vocabulary, Words
 from footfit.results.heel import AS_SCANNED
 from tests.conftest import SAMPLES
 
@@ -171,21 +178,33 @@ def test_an_outline_that_ends_before_the_tip_is_not_judged(
     assert sections is not None
     assert sections.toes_outline_mm is not None
     outline = sections.toes_outline_mm[:stations] if stations else None
-    short = toe_box.LastToes(record, replace(sections, toes_outline_mm=outline))
-    whole = toe_box.LastToes(record, sections)
+    kept_toes = [replace(sections, toes_outline_mm=outline), sections]
+    lasts, sentences = columns_of([record, record], kept_toes, Vocabulary()), Words()
     heels = heels_of(AS_SCANNED, [record, record])
-    answer = toe_box.toe_boxes(right, {0: short, 1: whole}, heels, np.array([14.0, 14.0]), 0.0)
-    assert answer[0] == "the last: the scan is open at the toes"
-    assert not isinstance(answer[1], str)
+    toes = toe_box.foot_toes(right)
+    answer = toe_box.toe_cells(toes, lasts, heels, heels.share, np.array([14.0, 14.0]), sentences)
+    assert sentences.values[answer.reason[0]] == "the last: the scan is open at the toes"
+    assert np.isnan(answer.value[0])
+    assert answer.reason[1] == NO_WORD
+    assert toe_box.toe_box(toes, lasts, 0, heels, 14.0, 0.0) is None
+    box = toe_box.toe_box(toes, lasts, 1, heels, 14.0, 0.0)
+    assert box is not None
+    assert box.tightest.clearance.value == answer.value[1]
 
 
 def test_nothing_is_read_of_a_last_that_another_zone_rejects(
     right: Profiled, stocked: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    read = []
-    monkeypatch.setattr(
-        "footfit.catalogue.store.Catalogue.sections", lambda _self, name: read.append(name)
-    )
+    read: list[str] = []
+    taken = BlockLasts.taken
+
+    def noting(lasts: BlockLasts, chosen: Ints, parts: Sequence[str]) -> LastColumns:
+        answer = taken(lasts, chosen, parts)
+        if tuple(parts) == (TOES_PART,):
+            read.extend(answer.names)
+        return answer
+
+    monkeypatch.setattr(BlockLasts, "taken", noting)
     answer = asked(right, stocked)
     assert sorted(read) == sorted(candidate.last for candidate in answer.candidates)
     by_flare = asked(right, stocked, by="flare")

@@ -55,6 +55,7 @@ def test_a_parameter_more_or_less_is_another_definition_whatever_its_version(
             key = last_id(driver_of(connection), record.labels.name)
             update_row(connection, FLARE, key, {"definition": text, "angle_deg": 19.0})
             seal(connection, key)
+        opened.renew_blocks()
     assert [notice.code for notice in choice(catalogue, None, None).warnings] == ["outdated_last"]
     with open_catalogue(catalogue) as opened:
         assert (

@@ -2,35 +2,27 @@
 
 from __future__ import annotations
 
-import sqlite3
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass, replace
 from pathlib import Path
 
-from footfit.catalogue.blocks.reading import BlockLasts, block_lasts
-from footfit.catalogue.blocks.writing import fill_blocks, refresh_blocks
-from footfit.catalogue.checks.damage import findings
-from footfit.catalogue.file.copying import copy_into
-from footfit.catalogue.file.engine import SETTINGS, CatalogueFile, sqlite_errors_in_words
-from footfit.catalogue.file.migrate import Revisions, Schema
+from footfit.catalogue.blocks.block_writing import fill_blocks, refresh_blocks
+from footfit.catalogue.file.engine import SETTINGS
+from footfit.catalogue.file.migrate import Schema
 from footfit.catalogue.file.opening import open_for_reading, open_for_writing
-from footfit.catalogue.fit_log import FitLog
+from footfit.catalogue.reader import CatalogueReader
 from footfit.catalogue.rows.columns import (
     LAST,
     MESH_COPY,
-    PARENTAGE,
     REFERENCE,
     SECTION,
-    Table,
 )
 from footfit.catalogue.rows.last_names import last_id
-from footfit.catalogue.rows.records import mesh_copy_of, parentage_of, record_of, sections_of
+from footfit.catalogue.rows.records import record_of
 from footfit.catalogue.rows.reference_last import (
     express,
     make_reference,
-    reference_of,
-    stored_reference,
 )
 from footfit.catalogue.rows.requirements import (
     parent_key,
@@ -39,12 +31,9 @@ from footfit.catalogue.rows.requirements import (
     require_removable,
     require_storable,
 )
-from footfit.catalogue.rows.search import StoredLasts, verified_records
-from footfit.catalogue.rows.summary import summary
 from footfit.catalogue.rows.verified_rows import (
     intact_last,
     last_names,
-    sealed_row,
 )
 from footfit.catalogue.rows.writing import (
     delete_rows,
@@ -58,14 +47,10 @@ from footfit.catalogue.rows.writing import (
     write_parentage,
     write_sealed,
 )
-from footfit.errors import UnknownLast
 from footfit.results import (
-    CatalogueFacts,
-    Finding,
     LastRecord,
     MeshCopy,
     Parentage,
-    Reference,
     ReferenceOutcome,
     RemoveOutcome,
     RenameOutcome,
@@ -113,157 +98,12 @@ def open_catalogue(
 
 
 @dataclass
-class Catalogue:
+class Catalogue(CatalogueReader):
     """An open catalogue. Each reading method sees one snapshot; each writing one does all or
     nothing.
 
     Every method may raise the leaves of ``CatalogueUnusable`` (locked, not writable, damaged).
     """
-
-    file: CatalogueFile
-    revisions: Revisions
-    schema: Schema
-    busy_timeout_s: float
-
-    @property
-    def fit_log(self) -> FitLog:
-        """What wearers said of worn shoes."""
-        return FitLog(self.file)
-
-    # ------------------------------------------------------------ reading
-
-    def names(self) -> tuple[str, ...]:
-        """The name of every last, damaged ones too, sorted."""
-        with self.file.reading() as connection:
-            return tuple(sorted(last_names(connection).values()))
-
-    def name(self, name: str) -> str:
-        """The stored name of the last that a name means; raises UnknownLast."""
-        with self.file.reading() as connection:
-            return last_names(connection)[last_id(connection, name)]
-
-    def record(self, name: str) -> LastRecord:
-        """One last.
-
-        Raises
-        ------
-        UnknownLast, CatalogueDamaged
-            There is no last of that name, or its rows are not what was stored.
-        """
-        with self.file.reading() as connection:
-            stored = intact_last(connection, last_id(connection, name))
-            return record_of(stored, last_names(connection))
-
-    def lasts(self, **labels: str | None) -> StoredLasts:
-        """Every intact last that has these labels, by name; no mesh is read.
-
-        ``style``, ``size``, ``size_system``, ``width_label`` and ``family`` filter; None lets all
-        pass.
-        """
-        with self.file.reading() as connection:
-            return verified_records(connection, **labels)
-
-    def block_lasts(self, untrusted: frozenset[int] = frozenset()) -> BlockLasts:
-        """Every intact last by column, from the search blocks; those in ``untrusted`` are not used.
-
-        No mesh is read, and no row of a last whose block is what was stored.
-        """
-        with self.file.reading() as connection:
-            return block_lasts(connection, self.file.path, untrusted)
-
-    def reference(self, name: str | None = None) -> Reference | None:
-        """The reference last, None in an empty catalogue; or what the last ``name`` would be as it.
-
-        Raises
-        ------
-        CatalogueDamaged, UnknownLast
-            Its rows are not what was stored; there is no last of that name.
-        """
-        if name is not None:
-            return reference_of(self.record(name))
-        with self.file.reading() as connection:
-            reference = stored_reference(connection)
-            return None if reference is None else reference[1]
-
-    def mesh_copy(self, name: str) -> MeshCopy:
-        """A last's compact mesh, in its canonical frame.
-
-        Raises
-        ------
-        UnknownLast, CatalogueDamaged
-            There is no such last, or it was stored without a mesh; the copy is damaged.
-        """
-        with self.file.reading() as connection:
-            return self._copy_of(connection, last_id(connection, name), name)
-
-    def _copy_of(self, connection: sqlite3.Connection, key: int, name: str) -> MeshCopy:
-        copy = sealed_row(connection, MESH_COPY, key, f"the mesh of {name!r} is")
-        if copy is None:
-            raise UnknownLast(f"{name!r} was stored without its mesh; use ingest-last --replace")
-        return mesh_copy_of(copy)
-
-    def sections(self, name: str) -> ShapeSections | None:
-        """The kept sections of a last; None if it was stored without them.
-
-        Raises
-        ------
-        UnknownLast, CatalogueDamaged
-            There is no such last; its sections are not what was stored.
-        """
-        with self.file.reading() as connection:
-            key, words = last_id(connection, name), f"the sections of {name!r} are"
-            row = sealed_row(connection, SECTION, key, words)
-        return None if row is None else sections_of(row)
-
-    def parentage(self, name: str) -> Parentage | None:
-        """How a last was made from another one; None if it was scanned.
-
-        Raises
-        ------
-        UnknownLast, CatalogueDamaged
-            There is no such last; its parentage is not what was stored.
-        """
-        with self.file.reading() as connection:
-            key, words = last_id(connection, name), f"the parentage of {name!r} is"
-            row = sealed_row(connection, PARENTAGE, key, words)
-        return None if row is None else parentage_of(row)
-
-    def mesh_copy_names(self) -> tuple[str, ...]:
-        """The names of the lasts that have a mesh copy, damaged or not, sorted."""
-        return self._owners(MESH_COPY)
-
-    def section_names(self) -> tuple[str, ...]:
-        """The names of the lasts whose sections are kept, damaged or not, sorted."""
-        return self._owners(SECTION)
-
-    def _owners(self, table: Table) -> tuple[str, ...]:
-        with self.file.reading() as connection:
-            names = last_names(connection)
-            owners = connection.execute(f"SELECT last_id FROM {table.name}").fetchall()
-            return tuple(sorted(str(names.get(owner, "?")) for (owner,) in owners))
-
-    def summary(self) -> CatalogueFacts:
-        """What the catalogue is, and counts of what it holds."""
-        with self.file.reading() as connection:
-            return summary(connection, self.file.path)
-
-    def findings(self) -> list[Finding]:
-        """Everything that is not as it was stored."""
-        with self.file.reading() as connection:
-            return findings(connection, self.schema)
-
-    def copy_to(self, target: Path) -> None:
-        """Write a whole copy of this moment to ``target``, a missing or empty file.
-
-        Raises
-        ------
-        CatalogueDamaged, CatalogueNotWritable, CatalogueLocked
-            The catalogue cannot be read, or the copy cannot be written.
-        """
-        with sqlite_errors_in_words(self.file.path):
-            copy_into(self.file.path, target, self.busy_timeout_s)
-
-    # ------------------------------------------------------------ writing
 
     def add(
         self,
@@ -363,7 +203,7 @@ class Catalogue:
             stored = intact_last(driver, last_id(driver, name))
             names = last_names(driver)
             before = record_of(stored, names)
-            after, sections = change(before, lambda: self._copy_of(driver, stored.id, stored.name))
+            after, sections = change(before, lambda: self.copy_of(driver, stored.id, stored.name))
             if after.labels.parent != before.labels.parent:
                 parent_id = parent_key(driver, after.labels, stored.id)
                 update_row(connection, LAST, stored.id, {"parent_id": parent_id})

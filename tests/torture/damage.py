@@ -9,7 +9,7 @@ from collections.abc import Callable
 from contextlib import closing
 from pathlib import Path
 
-from footfit.catalogue.blocks.reading import BadBlocks
+from footfit.catalogue.blocks.block_reading import BadBlocks
 from footfit.catalogue.file.engine import connect
 from footfit.errors import ExitCode, FootfitError
 from footfit.pipeline.library.check import check

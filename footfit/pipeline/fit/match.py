@@ -10,7 +10,7 @@ import numpy as np
 
 from footfit import results
 from footfit.catalogue.blocks.block_bytes import BOTTOM, PLAN
-from footfit.catalogue.blocks.reading import BadBlocks, OtherCatalogue
+from footfit.catalogue.blocks.block_reading import BadBlocks, OtherCatalogue
 from footfit.errors import BadOption, HalfScan, NoCandidate
 from footfit.geometry.fit.sizes import label_in
 from footfit.number_words import signed

@@ -9,9 +9,9 @@ from pathlib import Path
 
 import numpy as np
 
+from footfit.catalogue.blocks.block_reading import BlockLasts
+from footfit.catalogue.blocks.block_writing import BLOCKS_ANEW
 from footfit.catalogue.blocks.packing import LABELS
-from footfit.catalogue.blocks.reading import BlockLasts
-from footfit.catalogue.blocks.writing import BLOCKS_ANEW
 from footfit.catalogue.file.opening import FIRST_STEPS
 from footfit.catalogue.rows.array_blobs import definition_text
 from footfit.catalogue.rows.search import rejection

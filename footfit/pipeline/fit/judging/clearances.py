@@ -7,19 +7,27 @@ all lasts, as both were measured.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, fields, replace
 from typing import Any
 
 import numpy as np
 
 from footfit.catalogue.blocks.packing import columns_of, measure_columns
-from footfit.geometry.fit.along_the_bottom import ALONG_BOTTOM, LastLengths, length_along_bottom
-from footfit.geometry.flare.definition import CHANNELS, FlareProfile
+from footfit.geometry.fit.along_the_bottom import ALONG_BOTTOM
+from footfit.geometry.flare.definition import CHANNELS
 from footfit.geometry.flare.profile_distance import DISTANCE, inside
-from footfit.geometry.measures.measure_table import measure_named
-from footfit.geometry.numeric.arrays import Bools, Floats, Ints
+from footfit.geometry.numeric.arrays import Floats, Ints
 from footfit.pipeline.fit.heels import Heels, full_change
+from footfit.pipeline.fit.judging.bottom_gains import bottom_gain
+from footfit.pipeline.fit.judging.cells import (
+    Cells,
+    FootShape,
+    foot_shape,
+    known_cells,
+    measure_difference,
+    missing,
+)
 from footfit.pipeline.fit.scoring import Column
 from footfit.pipeline.fit.zones import (
     HEEL_RULES,
@@ -30,41 +38,14 @@ from footfit.pipeline.fit.zones import (
     TOES,
     ZONES,
 )
-from footfit.results import HeelModel, LastRecord, Measure, Measured, Profiled, ZoneRule
-from footfit.results.columns.last_columns import NOT_KEPT, LastColumns, MeasureColumns
+from footfit.pipeline.shelf.nearness import LENGTH_SD_MM
+from footfit.results import HeelModel, LastRecord, Measured, Profiled, ZoneRule
+from footfit.results.columns.last_columns import NOT_KEPT, LastColumns
 from footfit.results.columns.vocabulary import NO_WORD, Vocabulary, Words
 
-LENGTH_SD_MM = 0.5
-"""Repeatability of an aligned length between two scans of one shape (docs/alignment.md)."""
 PLAN_SD = DISTANCE.sd[CHANNELS.index("plan")]
 BALL_SHARE = 0.72
 """Where the ball lies, over the length, if it was not measured."""
-OTHER_DEFINITION = "measured by another definition; type: footfit upgrade-catalogue"
-LENGTHS = {known.name: measure_named(known.name).definition_id for known in fields(LastLengths)}
-"""The measures that say how long a last is along its bottom, with their definitions."""
-
-
-@dataclass(frozen=True, slots=True)
-class Cells:
-    """The clearances of one foot in one zone of n lasts, (n,) each.
-
-    ``value`` is NaN where it is not measured; ``reason`` then is the number of a sentence, else
-    NO_WORD.
-    """
-
-    value: Floats
-    foot_sd: Floats
-    last_sd: Floats
-    reason: Ints
-
-    def where(self, rows: Bools, others: Cells) -> Cells:
-        """The other clearances in some rows."""
-        return Cells(
-            *(
-                np.where(rows, getattr(others, known.name), getattr(self, known.name))
-                for known in fields(self)
-            )
-        )
 
 
 @dataclass(frozen=True, slots=True)
@@ -117,27 +98,6 @@ def joined_clearances(parts: Sequence[Clearances]) -> Clearances:
         name: np.concatenate([getattr(part, name) for part in parts]) for name in TABLES
     }
     return replace(parts[0], **arrays)
-
-
-@dataclass(frozen=True, slots=True)
-class FootShape:
-    """What zones read of a foot, or of a last in its place; shares of the length are of
-    ``extent_mm``.
-    """
-
-    extent_mm: float
-    flare: FlareProfile
-    measures: Mapping[str, Measure]
-
-    def measured_mm(self, name: str) -> float | None:
-        """The value of a measure, by whichever definition; None where there is none."""
-        return self.measures[name].measured.value if name in self.measures else None
-
-
-def foot_shape(foot: Profiled) -> FootShape:
-    """What zones read of a foot."""
-    measures = {measure.name: measure for measure in foot.measures}
-    return FootShape(foot.aligned.alignment.extent_mm, foot.flare, measures)
 
 
 def clearances(
@@ -238,52 +198,6 @@ def _cells(foot: FootShape, lasts: LastColumns, zone: str, sentences: Words) -> 
     return measure_difference(foot, lasts, zone, sentences)
 
 
-def missing(count: int, reason: int) -> Cells:
-    """No clearance in so many lasts, for one reason."""
-    nothing = np.zeros(count)
-    return Cells(np.full(count, np.nan), nothing, nothing, np.full(count, reason))
-
-
-def known_cells(value: Floats, foot_sd: float, last_sd: Floats | float) -> Cells:
-    """Clearances that are known of all lasts."""
-    return Cells(
-        value,
-        np.full(len(value), foot_sd),
-        np.broadcast_to(np.asarray(last_sd, dtype=np.float64), value.shape),
-        np.full(len(value), NO_WORD),
-    )
-
-
-def measure_difference(foot: FootShape, lasts: LastColumns, name: str, sentences: Words) -> Cells:
-    """The last's measure minus the foot's, if both have it and mean the same by it."""
-    own = foot.measures.get(name)
-    if own is None:
-        return missing(len(lasts), sentences.number("not measured on the foot"))
-    if own.measured.value is None:
-        why = own.measured.reason or "not measured"
-        return missing(len(lasts), sentences.number(f"the foot: {why}"))
-    theirs = lasts.measure(name)
-    lacks, silent = theirs.word == NO_WORD, np.isnan(theirs.value)
-    used = np.unique(theirs.word[~lacks])
-    reason = np.full(len(lasts), NO_WORD)
-    for word in used.tolist():
-        definition, why = lasts.words.measures.values[word]
-        of_word = theirs.word == word
-        if definition != own.definition:
-            reason[of_word] = sentences.number(OTHER_DEFINITION)
-        unknown = of_word & silent
-        if unknown.any():
-            reason[unknown] = sentences.number(f"the last: {why or 'not measured'}")
-    reason[lacks] = sentences.number("not measured on the last") if lacks.any() else NO_WORD
-    known = reason == NO_WORD
-    return Cells(
-        np.where(known, theirs.value - own.measured.value, np.nan),
-        np.where(known, own.measured.sd or 0.0, 0.0),
-        np.where(known, theirs.sd, 0.0),
-        reason,
-    )
-
-
 def _length(foot: FootShape, lasts: LastColumns, sentences: Words) -> Cells:
     """The toe room: functional lengths where both are measured, else lengths, along the bottom of
     the last. A last in the foot's place, as in a search by shape, is measured along its bottom too.
@@ -318,53 +232,6 @@ def last_gain(lasts: LastColumns, sentences: Words) -> Cells:
     """The `bottom_gain` of lasts."""
     assert lasts.measures is not None
     return bottom_gain(lasts.measures, lasts.words.measures, lasts.heel_label_mm, sentences)
-
-
-def bottom_gain(
-    measures: MeasureColumns, words: Words, labelled_mm: Floats, sentences: Words
-) -> Cells:
-    """How much longer a last with a heel is along its bottom than along its resting plane.
-
-    Without the measures of its bottom the toe room of a last with a high heel is not known.
-    ``words`` are the vocabulary's, ``labelled_mm`` (n,) the heel heights on the labels.
-    """
-    heel_mm = measures.column("heel_height").value
-    heel_mm = np.where(np.isnan(heel_mm), labelled_mm, heel_mm)
-    gain_mm, sd_mm = np.zeros((2, len(heel_mm)))
-    reason = np.full(len(heel_mm), NO_WORD)
-    rows = np.flatnonzero(heel_mm > ALONG_BOTTOM.level_mm)
-    if len(rows):
-        gain_mm[rows], sd_mm[rows], reason[rows] = _heeled_gain(
-            measures.taken(rows), words, heel_mm[rows], sentences
-        )
-    return Cells(gain_mm, np.zeros(len(heel_mm)), sd_mm, reason)
-
-
-def _heeled_gain(
-    measures: MeasureColumns, words: Words, heel_mm: Floats, sentences: Words
-) -> tuple[Floats, Floats, Ints]:
-    """The gain of lasts with a heel, its spread, and why it is not known, (n,) each."""
-    columns = {name: measures.column(name) for name in LENGTHS}
-    functional_mm = measures.column("functional_length").value
-    measured = np.nan_to_num(functional_mm) != 0.0
-    level_mm = np.where(measured, functional_mm, measures.column("length").value)
-    lengths = np.stack([column.value for column in columns.values()])
-    whole = ~np.isnan(level_mm) & ~np.isnan(lengths).any(axis=0)
-    other = np.zeros(len(heel_mm), dtype=bool)
-    for name, column in columns.items():
-        there = column.word != NO_WORD
-        for word in np.unique(column.word[there]).tolist():
-            if words.values[word][0] != LENGTHS[name]:
-                other |= column.word == word
-    reason = np.where(whole & other, sentences.number(OTHER_DEFINITION), NO_WORD)
-    high = ~whole & (heel_mm >= ALONG_BOTTOM.raised_mm)
-    if high.any():
-        reason[high] = sentences.number("the last: its bottom is not measured")
-    with np.errstate(invalid="ignore"):
-        along_mm, sd_mm = length_along_bottom(level_mm, LastLengths(*lengths))
-    known = whole & ~other
-    gain_mm = np.where(known, along_mm - level_mm, np.where(whole | high, np.nan, 0.0))
-    return gain_mm, np.where(known, sd_mm, 0.0), reason
 
 
 def _ball_line(foot: FootShape, lasts: LastColumns, sentences: Words) -> Cells:

@@ -18,14 +18,8 @@ from footfit.geometry.measures.heights import HEIGHTS
 from footfit.geometry.measures.measure_value import OPEN
 from footfit.geometry.numeric.arrays import Bools, Floats, Ints
 from footfit.pipeline.fit.heels import Heels, full_change
-from footfit.pipeline.fit.judging.clearances import (
-    Cells,
-    Clearances,
-    foot_shape,
-    length_only_words,
-    measure_difference,
-    missing,
-)
+from footfit.pipeline.fit.judging.cells import Cells, foot_shape, measure_difference, missing
+from footfit.pipeline.fit.judging.clearances import Clearances, length_only_words
 from footfit.pipeline.fit.scoring import Column
 from footfit.pipeline.fit.zones import TOE_BOX, TOE_HEIGHT, TOES
 from footfit.results import Measured, Profiled, ToeBox, ToeFit

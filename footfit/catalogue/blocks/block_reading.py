@@ -12,7 +12,6 @@ from collections.abc import Iterable, Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass, field, replace
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 
@@ -26,6 +25,7 @@ from footfit.catalogue.blocks.block_bytes import (
     lasts_of,
 )
 from footfit.catalogue.blocks.packing import Kept, columns_of
+from footfit.catalogue.blocks.same_lasts import same_lasts
 from footfit.catalogue.file.descriptors import DESCRIPTORS
 from footfit.catalogue.file.engine import SETTINGS
 from footfit.catalogue.file.migrate import Schema
@@ -42,7 +42,6 @@ from footfit.catalogue.rows.verified_rows import (
 from footfit.geometry.numeric.arrays import Bools, Ints
 from footfit.results import LastRecord
 from footfit.results.columns.last_columns import (
-    ARRAYS,
     NOT_KEPT,
     SPOILT,
     LastColumns,
@@ -143,8 +142,12 @@ class BlockLasts:
         OtherCatalogue, BadBlocks
             The catalogue was changed meanwhile; a block does not say what the rows say.
         """
+        mine = self.taken(np.array(chosen, dtype=np.int64), PARTS[1:])
         with self._snapshot(()) as connection:
-            return [self._shown(connection, row) for row in chosen]
+            return [
+                self._shown(connection, row, mine.taken(slice(at, at + 1)))
+                for at, row in enumerate(chosen)
+            ]
 
     # ------------------------------------------------------------ reading
 
@@ -185,20 +188,22 @@ class BlockLasts:
             self._kept |= {(part, block): found[block] for block in blocks}
         return [found[block] for block in blocks]
 
-    def _shown(self, connection: sqlite3.Connection, row: int) -> ShownLast:
-        key = int(self.base.keys[row])
+    def _shown(self, connection: sqlite3.Connection, row: int, mine: LastColumns) -> ShownLast:
+        """The record of a last; ``mine`` is what its block says of it."""
+        (key,) = mine.keys.tolist()
         stored = stored_lasts(connection, key)
         if not stored:
             raise BadBlocks([block_of(key)])
         if not stored[0].intact:
             return ShownLast(None)
         record, kept = last_of_rows(connection, stored[0])
-        if row < self.starts[-1]:
-            told = columns_of([record], [kept], self.base.words, keys=[key])
-            mine = self.base.taken(np.array([row]))
-            same = all(_equal(getattr(told, name), getattr(mine, name)) for name in COMPARED)
-            if not same or told.names != mine.names:
-                raise BadBlocks([block_of(key)])
+        rows_say = columns_of(
+            [record], [kept], self.base.words, keys=[key], profiles=[stored[0].definition]
+        )
+        if kept == SPOILT:
+            rows_say = replace(rows_say, toes=None)
+        if row < self.starts[-1] and not same_lasts(mine, rows_say):
+            raise BadBlocks([block_of(key)])
         known = row in self.spoilt or row >= self.starts[-1]
         return ShownLast(record, spoilt=kept == SPOILT and not known)
 
@@ -217,7 +222,6 @@ class BlockLasts:
             file.close()
 
 
-COMPARED = tuple(name for name in ARRAYS if name != "profile")
 STORED = "block, layout, data, hash"
 
 
@@ -317,7 +321,3 @@ def _spoilt(lasts: LastColumns, rows: Bools) -> LastColumns:
     if lasts.toes is None:
         return lasts
     return replace(lasts, toes=replace(lasts.toes, state=np.where(rows, SPOILT, lasts.toes.state)))
-
-
-def _equal(one: Any, other: Any) -> bool:
-    return bool(np.array_equal(one, other, equal_nan=True))

@@ -5,8 +5,6 @@ from __future__ import annotations
 import sqlite3
 import struct
 from collections.abc import Collection, Iterable
-from dataclasses import fields
-from typing import Any
 
 import numpy as np
 
@@ -21,14 +19,13 @@ from footfit.catalogue.blocks.block_bytes import (
     lasts_of,
     parts_of,
 )
-from footfit.catalogue.blocks.reading import columns_of_rows, is_sound
+from footfit.catalogue.blocks.block_reading import columns_of_rows, is_sound
+from footfit.catalogue.blocks.same_lasts import same_lasts
 from footfit.catalogue.rows.verified_rows import stored_lasts
-from footfit.results.columns.last_columns import ARRAYS, LastColumns, joined
+from footfit.results.columns.last_columns import LastColumns, joined
 from footfit.results.columns.vocabulary import Vocabulary
 
 BLOCKS_ANEW = "type: footfit upgrade-catalogue, which makes it anew"
-TOLERANCE = 1e-9
-"""Of what is computed for a block: on another machine the last bits may differ."""
 
 
 def refresh_blocks(connection: sqlite3.Connection, keys: Iterable[int]) -> None:
@@ -59,37 +56,20 @@ def wrong_blocks(connection: sqlite3.Connection) -> list[int]:
 
 
 def agrees(connection: sqlite3.Connection, block: int) -> bool:
-    """Whether a block is what its rows say; of toes within rounding, which differs by machine."""
-    words = Vocabulary()
+    """Whether a block is what its rows say; of toes within rounding, which differs by machine.
+
+    A last whose rows are damaged may be in it or not.
+    """
+    words, keys = Vocabulary(), _keys(connection, block)
     stored = _whole(_sound_parts(connection, block), words)
-    rows_say = _of_rows(connection, _keys(connection, block), words)
+    rows_say = _of_rows(connection, keys, words)
     if stored is None:
         there = connection.execute("SELECT 1 FROM search_block WHERE block = ?", (block,))
         return not len(rows_say) and there.fetchone() is None
-    return same_lasts(stored, rows_say)
-
-
-def same_lasts(one: LastColumns, other: LastColumns) -> bool:
-    """Whether two columns of lasts, with all columns, say the same."""
-    exact = all(_same(getattr(one, name), getattr(other, name)) for name in ARRAYS)
-    parts = ((one.measures, other.measures), (one.flare, other.flare), (one.toes, other.toes))
-    return (
-        exact
-        and one.names == other.names
-        and all(
-            _same(getattr(a, part.name), getattr(b, part.name), TOLERANCE * (a is one.toes))
-            for a, b in parts
-            for part in fields(a)  # type: ignore[arg-type]
-        )
-    )
-
-
-def _same(one: Any, other: Any, tolerance: float = 0.0) -> bool:
-    if isinstance(one, tuple):
-        return bool(one == other)
-    if one.shape != other.shape:
+    if not set(stored.keys.tolist()) <= set(keys):
         return False
-    return bool(np.allclose(one, other, rtol=tolerance, atol=tolerance, equal_nan=True))
+    intact = np.flatnonzero(np.isin(stored.keys, rows_say.keys))
+    return same_lasts(stored.taken(intact), rows_say)
 
 
 def _sound_parts(connection: sqlite3.Connection, block: int) -> dict[str, bytes]:

@@ -1,0 +1,37 @@
+"""Whether two columns of lasts say the same: a block, and the rows that it is made of."""
+
+from __future__ import annotations
+
+from dataclasses import fields
+from typing import Any
+
+import numpy as np
+
+from footfit.results.columns.last_columns import ARRAYS, LastColumns
+
+TOLERANCE = 1e-9
+"""Of what is computed for a block: on another machine the last bits may differ."""
+
+
+def same_lasts(one: LastColumns, other: LastColumns) -> bool:
+    """Whether two columns of lasts, say the same in the columns that both have."""
+    exact = all(_same(getattr(one, name), getattr(other, name)) for name in ARRAYS)
+    parts = ((one.measures, other.measures), (one.flare, other.flare), (one.toes, other.toes))
+    return (
+        exact
+        and one.names == other.names
+        and all(
+            _same(getattr(a, part.name), getattr(b, part.name), TOLERANCE * (a is one.toes))
+            for a, b in parts
+            if a is not None and b is not None
+            for part in fields(a)
+        )
+    )
+
+
+def _same(one: Any, other: Any, tolerance: float = 0.0) -> bool:
+    if isinstance(one, tuple):
+        return bool(one == other)
+    if one.shape != other.shape:
+        return False
+    return bool(np.allclose(one, other, rtol=tolerance, atol=tolerance, equal_nan=True))
