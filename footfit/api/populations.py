@@ -27,6 +27,7 @@ from footfit.results.population.coverage_answer import Coverage
 if TYPE_CHECKING:
     from footfit.pipeline.batch.sources import Source
     from footfit.pipeline.population.feet_scans import FootOutcome
+    from footfit.pipeline.shelf.shelf import Shelf
 
 TABLES = (".csv", ".tsv", ".txt")
 """The suffixes of a table of measures."""
@@ -85,7 +86,7 @@ def is_table(feet: Any) -> bool:
 class CoverageAsker:
     """A question to a catalogue: its lasts are read once, before any foot is."""
 
-    library: results.Library
+    shelf: Shelf
     asked: dict[str, Any]
     profile: results.FitProfile
 
@@ -117,7 +118,7 @@ class CoverageAsker:
         from footfit.pipeline.population.judging import Asking
         from footfit.pipeline.population.tables import last_table
 
-        library, asked = self.library, self.asked
+        shelf, asked = self.shelf, self.asked
         worn = worn_with(self.profile, worn_options(asked))
         people = coverage_run.Population(
             feet,
@@ -125,9 +126,9 @@ class CoverageAsker:
             tuple(asked.get("group_by", ())),
             _shown_system(asked.get("size_system")),
             asked.get("next_lasts", coverage_run.NEXT_LASTS),
-            (*library.warnings, *notices),
+            (*shelf.warnings, *notices),
         )
-        lasts = last_table(library.lasts, self.profile, library.file)
+        lasts = last_table(shelf.records(), self.profile, shelf.file)
         return coverage_run.coverage(people, lasts, Asking(self.profile, heel_options(asked), worn))
 
 
@@ -139,19 +140,20 @@ def coverage_asker(path: Path, asked: Any) -> CoverageAsker:
     NoCatalogue, NoCandidate, CatalogueUnusable, BadOption
         As `coverage`.
     """
-    from footfit.pipeline.fit.candidates import choice, in_stock
     from footfit.pipeline.fit.fit_profile import fit_profile
+    from footfit.pipeline.shelf.candidates import choice, in_stock
+    from footfit.pipeline.shelf.shelf import shelf_of
 
     profile = fit_profile(asked.get("profile", "walking"))
     try:
-        library = choice(path, asked.get("style"), asked.get("size_system"))
-        if not library.lasts:
+        shelf = choice(path, asked.get("style"), asked.get("size_system"))
+        if not shelf.ranked.any():
             raise NoCandidate("no last passes these filters; see footfit list-lasts")
         stock = asked.get("stock")
-        library = library if stock is None else in_stock(library, Path(stock))
+        shelf = shelf if stock is None else in_stock(shelf, Path(stock))
     except EmptyCatalogue:
-        library = results.Library((), 0, None)
-    return CoverageAsker(library, dict(asked), profile)
+        shelf = shelf_of(results.Library((), 0, None))
+    return CoverageAsker(shelf, dict(asked), profile)
 
 
 def _shown_system(asked: str | None) -> str:

@@ -14,7 +14,7 @@ from footfit.geometry.flare.definition import FlareDefinition
 from footfit.geometry.measures.measure_table import MEASURES
 from footfit.pipeline.evidence.zone_ratings import place_ratings
 from footfit.pipeline.fit.judging.judged_lasts import asked_of
-from footfit.pipeline.fit.ranking import fits_in_last
+from footfit.pipeline.fit.ranking import foot_fits, judged_last
 from footfit.pipeline.fit.worn_shifts import measure_of
 from footfit.results import (
     FitEntry,
@@ -99,7 +99,8 @@ def fit_entry(
     if alignment.length.value is None:
         words = f"{alignment.length.reason}; its clearances are not known: scan again"
         raise HalfScan(words, alignment.info.path)
-    (fit,) = fits_in_last(asked_of([foot], profile, "fit", heel, worn), last, file)
+    asked = asked_of([foot], profile, "fit", heel, worn)
+    (fit,) = foot_fits(judged_last(asked, last, file), 0, last)
     known = definitions()
     zones = [
         RatedZone(

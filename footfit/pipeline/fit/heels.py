@@ -78,7 +78,7 @@ def full_change(model: HeelModel | None, foot: Profiled, measure: str) -> tuple[
     """How a foot's measure changes at the model's full drop, and the standard deviation of that:
     in mm, or in degrees for the flare angle. It is 0 where the model has no rule.
     """
-    rule = _rule_of(model, measure)
+    rule = rule_of(model, measure)
     size = 1.0 if measure == FLARE else _value_mm(foot, measure)
     return rule.change * size, rule.sd * size
 
@@ -109,7 +109,7 @@ def surface_change(heels: Heels, row: int) -> SurfaceChange:
     """How the surface of any foot changes in the heel of one last."""
     return SurfaceChange(
         **{
-            field.name: float(heels.share[row]) * _rule_of(heels.question.model, field.name).change
+            field.name: float(heels.share[row]) * rule_of(heels.question.model, field.name).change
             for field in fields(SurfaceChange)
         }
     )
@@ -117,10 +117,10 @@ def surface_change(heels: Heels, row: int) -> SurfaceChange:
 
 def share_sd(heels: Heels, row: int, measure: str) -> float:
     """The standard deviation, as a share, of how a measure changes in the heel of one last."""
-    return abs(float(heels.share[row])) * _rule_of(heels.question.model, measure).sd
+    return abs(float(heels.share[row])) * rule_of(heels.question.model, measure).sd
 
 
-def _rule_of(model: HeelModel | None, measure: str) -> HeelRule:
+def rule_of(model: HeelModel | None, measure: str) -> HeelRule:
     """The rule of a measure, or one that changes nothing."""
     rule = None if model is None else model.rule_of(measure)
     return rule or HeelRule(measure, 0.0, 0.0, "", "")

@@ -9,7 +9,6 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from pathlib import Path
 
 import numpy as np
 
@@ -41,7 +40,7 @@ from footfit.pipeline.fit.worn_shifts import with_total
 from footfit.pipeline.fit.zones import TOES as TOES_ZONE
 from footfit.pipeline.fit.zones import ZONES
 from footfit.pipeline.shelf.nearness import feet_distance, flare_distances, shape_distance
-from footfit.pipeline.shelf.shelf import Lasts, of_own_side, record_lasts
+from footfit.pipeline.shelf.shelf import KeptSections, Lasts, of_own_side, record_lasts
 from footfit.results import FlareDifference, FootFit, LastRecord, Profiled, ToeBox, ZoneFit
 from footfit.results.columns.last_columns import SIDES, LastColumns, joined
 from footfit.results.columns.vocabulary import NO_WORD, Words
@@ -211,11 +210,11 @@ def flare_differences(
     ]
 
 
-def fits_in_last(asked: Asked, last: LastRecord, file: Path | None) -> tuple[FootFit, ...]:
-    """Each foot of the customer in one last, whose sections the catalogue ``file`` keeps."""
-    columns = record_lasts([last], file).base
+def judged_last(asked: Asked, last: LastRecord, sections: KeptSections) -> JudgedLasts:
+    """One last, judged for one customer."""
+    columns = record_lasts([last], sections).base
     heels, room = rooms_of(asked, columns, Words())
-    return foot_fits(judged_lasts(asked, columns, np.zeros(1, np.int64), heels, room), 0, last)
+    return judged_lasts(asked, columns, np.zeros(1, np.int64), heels, room)
 
 
 def foot_fits(judged: JudgedLasts, row: int, last: LastRecord) -> tuple[FootFit, ...]:

@@ -58,6 +58,46 @@ class Scores:
         return replace(self, **{name: getattr(self, name)[rows] for name in names})
 
 
+@dataclass(frozen=True, slots=True)
+class Asked:
+    """What rules ask, as arrays that go with clearances (..., z).
+
+    They are (z,) for the lasts of one customer, and (f, 1, z) if f feet are asked different things.
+    ``below`` and ``above`` are the scales of a score. A range has a low and a high end; it is
+    endless where a rule has none. A reject must be past its limit by ``doubt`` standard deviations.
+    """
+
+    target: Floats
+    below: Floats
+    above: Floats
+    good: tuple[Floats, Floats]
+    acceptable: tuple[Floats, Floats]
+    poor: tuple[Floats, Floats]
+    doubt: Floats
+    weight: Floats
+    counts: Bools
+    required: Bools
+
+
+def asked(columns: Sequence[Column]) -> Asked:
+    """What the rules of columns ask, (z,) each."""
+    rules = [column.rule for column in columns]
+    below, above = np.array([scales(rule) for rule in rules]).reshape(-1, 2).T
+    counts = np.array([column.counts for column in columns], dtype=bool)
+    return Asked(
+        target=np.array([rule.target for rule in rules]),
+        below=below,
+        above=above,
+        good=_ends(rules, "good"),
+        acceptable=_ends(rules, "acceptable"),
+        poor=_ends(rules, "poor"),
+        doubt=np.array([0.0 if rule.zone == "length" else SURE_SDS for rule in rules]),
+        weight=np.array([column.rule.weight if column.counts else 0.0 for column in columns]),
+        counts=counts,
+        required=counts & np.array([rule.required for rule in rules], dtype=bool),
+    )
+
+
 def scores(
     clearance: Floats,
     foot_sd: Floats,
@@ -70,23 +110,27 @@ def scores(
 
     ``known`` (z,) says in which zones any last is judged, if there are others than these.
     """
-    scale = np.array([scales(column.rule) for column in columns]).reshape(-1, 2)
-    target = np.array([column.rule.target for column in columns])
-    over = clearance >= target
-    width = np.where(over, scale[:, 1], scale[:, 0])
+    rules = asked(columns)
+    width = score_scale(clearance, rules)
     model_sd = np.zeros_like(clearance) if heel_sd is None else heel_sd
     spreads = np.stack([foot_sd, last_sd, model_sd])
     foot, last, heel = np.where(np.isnan(clearance), 0.0, spreads / width)
-    any_known = np.isfinite(clearance).any(axis=0) if known is None else known
-    weight = np.array([column.rule.weight if column.counts else 0.0 for column in columns])
+    score = (clearance - rules.target) / width
+    carried = _carried(score, rules.weight)
     return Scores(
-        score=(clearance - target) / width,
-        level=room_levels(clearance, foot_sd, last_sd, model_sd, columns),
+        score=score,
+        level=clearance_levels(clearance, rules, np.sqrt(np.square(spreads).sum(axis=0))),
         foot_sd=foot,
         last_sd=last,
         heel_sd=heel,
-        weight=np.where(any_known, weight, 0.0),
+        weight=carried if known is None else np.where(known, rules.weight, 0.0),
     )
+
+
+def score_scale(clearance: Floats, rules: Asked) -> Floats:
+    """From the target to the edge of good, on the side of each clearance (..., z)."""
+    width: Floats = np.where(clearance >= rules.target, rules.above, rules.below)
+    return width
 
 
 def room_levels(
@@ -94,7 +138,7 @@ def room_levels(
 ) -> Ints:
     """The verdicts of clearances (n, z) with their spreads (n, z)."""
     variance = np.square(foot_sd) + np.square(last_sd) + np.square(heel_sd)
-    return levels(clearance, [column.rule for column in columns], np.sqrt(variance))
+    return clearance_levels(clearance, asked(columns), np.sqrt(variance))
 
 
 def scales(rule: ZoneRule) -> tuple[float, float]:
@@ -117,13 +161,17 @@ def levels(clearance: Floats, rules: Sequence[ZoneRule], sd: Floats) -> Ints:
     >>> levels(room, [rule], np.ones((5, 1))).ravel().tolist()
     [3, 1, 0, 1, -1]
     """
+    return clearance_levels(clearance, asked([Column(0, rule, True) for rule in rules]), sd)
+
+
+def clearance_levels(clearance: Floats, rules: Asked, sd: Floats) -> Ints:
+    """The verdict of each clearance (..., z); see `levels`."""
     clearance = np.round(clearance, KEPT)
-    doubt = np.array([0.0 if rule.zone == "length" else SURE_SDS for rule in rules]) * sd
+    doubt = rules.doubt * sd
     level = np.zeros(clearance.shape, dtype=np.int64)
-    for name in ("good", "acceptable"):
-        low, high = _ends(rules, name)
+    for low, high in (rules.good, rules.acceptable):
         level += (clearance < low) | (clearance > high)
-    low, high = _ends(rules, "poor")
+    low, high = rules.poor
     level[(clearance < low) | (clearance > high)] = POOR
     level[(clearance < low - doubt) | (clearance > high + doubt)] = REJECT
     level[np.isnan(clearance)] = NOT_JUDGED
@@ -163,10 +211,13 @@ def worst_levels(level: Ints, columns: Sequence[Column]) -> Ints:
 
     It is at best acceptable if a required zone is not judged: what is not known is not good.
     """
-    counts = np.array([column.counts for column in columns], dtype=bool)
-    required = np.array([c.counts and c.rule.required for c in columns], dtype=bool)
-    worst = np.where(counts, level, GOOD).max(axis=1, initial=GOOD)
-    unknown = (required & (level == NOT_JUDGED)).any(axis=1)
+    return worst_level(level, asked(columns))
+
+
+def worst_level(level: Ints, rules: Asked) -> Ints:
+    """The verdict of each last (...,) from its levels (..., z); see `worst_levels`."""
+    worst = np.where(rules.counts, level, GOOD).max(axis=-1, initial=GOOD)
+    unknown = (rules.required & (level == NOT_JUDGED)).any(axis=-1)
     verdict: Ints = np.where(unknown, np.maximum(worst, ACCEPTABLE), worst)
     return verdict
 
@@ -176,16 +227,40 @@ def fit_distance(scores: Scores) -> Floats:
 
     A zone that one last lacks counts as UNKNOWN_SCORE; one that every last lacks counts nothing.
     """
-    squares = np.square(_known_scores(scores)) * _shares(scores.weight)
-    distance: Floats = np.sqrt(squares.sum(axis=1))
+    return _weighted(scores.score, scores.weight)
+
+
+def score_distance(score: Floats, weight: Floats) -> Floats:
+    """The distance (..., n) of scores (..., n, z) of n lasts with weights (z,); see `fit_distance`.
+
+    Examples
+    --------
+    >>> score_distance(np.array([[1.0, np.nan], [0.0, np.nan]]), np.array([2.0, 1.0])).tolist()
+    [1.0, 0.0]
+    """
+    return _weighted(score, _carried(score, weight))
+
+
+def _weighted(score: Floats, weight: Floats) -> Floats:
+    """The weighted root mean square (..., n) of scores (..., n, z). Each last's sum is taken by
+    itself, so that it has the same bits among few lasts and among many.
+    """
+    square = np.square(np.nan_to_num(score, nan=UNKNOWN_SCORE)) * _shares(weight)[..., None, :]
+    distance: Floats = np.sqrt(square.sum(axis=-1))
     return distance
 
 
 def _shares(weight: Floats) -> Floats:
-    """Weights (z,) that add up to 1; none where no last is judged in any zone."""
-    total = weight.sum()
-    shares: Floats = weight / total if total else weight
+    """Weights (..., z) that add up to 1; none where no last is judged in any zone."""
+    total = weight.sum(axis=-1, keepdims=True)
+    shares: Floats = weight / np.where(total > 0.0, total, 1.0)
     return shares
+
+
+def _carried(score: Floats, weight: Floats) -> Floats:
+    """The weights (..., z) of the zones that any of n lasts (..., n, z) is judged in."""
+    carried: Floats = np.where(np.isfinite(score).any(axis=-2), weight, 0.0)
+    return carried
 
 
 def _known_scores(scores: Scores) -> Floats:

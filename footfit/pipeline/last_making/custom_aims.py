@@ -11,7 +11,8 @@ from dataclasses import dataclass
 
 from footfit.geometry.measures.measure_table import measure_named
 from footfit.pipeline.fit.heels import Heels, full_change
-from footfit.pipeline.fit.ranking import JudgedLasts, foot_fits, judged_lasts
+from footfit.pipeline.fit.judging.judged_lasts import JudgedLasts, asked_of
+from footfit.pipeline.fit.ranking import foot_fits, judged_last
 from footfit.pipeline.last_making.base_last import BaseLast
 from footfit.results import FitProfile, FootFit, HeelQuestion, LastRecord, Profiled, Worn, ZoneRule
 
@@ -58,7 +59,7 @@ class CustomAim:
 
 def fit_in(foot: Profiled, last: LastRecord, base: BaseLast, question: CustomQuestion) -> FootFit:
     """A foot in a last that has the sections of ``base``, zone by zone, as `match` judges it."""
-    return foot_fits(judged_in(foot, last, base, question), 0)[0]
+    return foot_fits(judged_in(foot, last, base, question), 0, last)[0]
 
 
 def judged_in(
@@ -66,7 +67,8 @@ def judged_in(
 ) -> JudgedLasts:
     """One last, judged for one foot."""
     kept = {last.labels.name: base.sections}
-    return judged_lasts([foot], [last], question.profile, "fit", question.heel, kept, question.worn)
+    asked = asked_of([foot], question.profile, "fit", question.heel, question.worn)
+    return judged_last(asked, last, kept)
 
 
 def custom_aims(foot: Profiled, base: BaseLast, question: CustomQuestion) -> tuple[CustomAim, ...]:
@@ -74,10 +76,10 @@ def custom_aims(foot: Profiled, base: BaseLast, question: CustomQuestion) -> tup
     judged = judged_in(foot, base.record, base, question)
     off = {
         zone.zone: zone.target - zone.clearance.value
-        for zone in foot_fits(judged, 0)[0].zones
+        for zone in foot_fits(judged, 0, base.record)[0].zones
         if zone.clearance.value is not None
     }
-    rules = {column.rule.zone: column.rule for column in judged.columns}
+    rules = {column.rule.zone: column.rule for column in judged.asked.columns}
     aims = [] if LENGTH not in off else [_toe_room(base, off[LENGTH])]
     if bool(judged.heels.length_only[0]):
         return tuple(aims)

@@ -14,7 +14,8 @@ from footfit.geometry.measures.measure_table import measure_named
 from footfit.geometry.measures.widths import WIDTHS
 from footfit.geometry.mesh.surface import cross
 from footfit.geometry.numeric.arrays import Floats, Ints
-from footfit.pipeline.fit.zones import LENGTHS, ZoneShape, bottom_gain
+from footfit.pipeline.fit.judging.bottom_gains import LENGTHS, bottom_gain
+from footfit.pipeline.fit.judging.cells import ZoneShape
 from footfit.pipeline.last_making.base_last import BaseLast
 from footfit.pipeline.last_making.custom_aims import LENGTH, CustomAim
 from footfit.results import Measure, Measured
@@ -91,7 +92,7 @@ def _toe_room_length_mm(shape: Shape, base: BaseLast) -> float:
     }
     labels = base.record.labels
     last = ZoneShape(base.record.extent_mm, base.record.flare, measures, labels.heel_height_mm)
-    return (values["functional_length"] or shape.length_mm) + bottom_gain(last).value
+    return (values["functional_length"] or shape.length_mm) + bottom_gain(last)[0]
 
 
 def probe_of(shape: Shape, measure: str) -> Probe:

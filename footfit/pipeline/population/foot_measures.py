@@ -10,8 +10,8 @@ import numpy as np
 from footfit.geometry.fit.toe_walls import ToesPlan
 from footfit.geometry.flare.definition import FlareProfile
 from footfit.pipeline.batch.sources import ReadingOptions, Source
-from footfit.pipeline.fit.toe_box import plan_of_foot
-from footfit.pipeline.fit.zones import ZoneShape, foot_shape
+from footfit.pipeline.fit.judging.cells import ZoneShape, foot_shape
+from footfit.pipeline.fit.judging.toe_box import plan_of_foot
 from footfit.pipeline.population.shape_columns import shape_columns
 from footfit.pipeline.population.tables import FootTable
 from footfit.pipeline.scan.reading import profiled_source

@@ -8,12 +8,14 @@ from typing import Any
 
 import numpy as np
 
+from footfit.catalogue.blocks.packing import TOES_SECTION
 from footfit.geometry.fit import toe_walls
 from footfit.geometry.fit.toe_walls import Walls
 from footfit.geometry.measures.heights import HEIGHTS
 from footfit.geometry.numeric.arrays import Bools, Bytes, Floats, Ints
 from footfit.number_words import KEPT
 from footfit.pipeline.fit.heels import Heels, heels_at, rule_of
+from footfit.pipeline.fit.judging.toe_box import HEIGHT_SHARES, TOES_SD_MM
 from footfit.pipeline.fit.scoring import (
     ACCEPTABLE,
     GOOD,
@@ -28,7 +30,6 @@ from footfit.pipeline.fit.scoring import (
     score_scale,
     worst_level,
 )
-from footfit.pipeline.fit.toe_box import HEIGHT_SHARES, TOES_SD_MM, TOES_SECTION
 from footfit.pipeline.fit.worn_shifts import shifted_rule, zone_shift
 from footfit.pipeline.fit.zones import TOE_BOX, TOE_HEIGHT, TOES
 from footfit.pipeline.population.shape_columns import ROOM, PairClearances, clearances_of

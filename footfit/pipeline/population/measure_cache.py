@@ -23,7 +23,7 @@ from footfit.geometry.flare.definition import FlareDefinition, FlareProfile
 from footfit.geometry.measures.measure_table import of_kind
 from footfit.geometry.numeric.arrays import Floats
 from footfit.pipeline.batch.sources import ReadingOptions
-from footfit.pipeline.fit.zones import ZoneShape
+from footfit.pipeline.fit.judging.cells import ZoneShape
 from footfit.pipeline.population.foot_measures import NO_CURVE, FootMeasures
 from footfit.results import Measure, Measured
 from footfit.version import __version__

@@ -15,15 +15,11 @@ from footfit.geometry.fit.along_the_bottom import ALONG_BOTTOM
 from footfit.geometry.flare.profile_distance import DISTANCE
 from footfit.geometry.numeric.arrays import Floats, Ints
 from footfit.pipeline.fit.heels import Heels, rule_of
-from footfit.pipeline.fit.zones import (
-    HEEL_RULES,
-    LENGTH_SD_MM,
-    PLAN_SD,
-    TOE_BOX,
-    ZoneShape,
-    ball_line_mm,
-    bottom_gain,
-)
+from footfit.pipeline.fit.judging.bottom_gains import bottom_gain
+from footfit.pipeline.fit.judging.cells import ZoneShape
+from footfit.pipeline.fit.judging.clearances import PLAN_SD, ball_line_mm
+from footfit.pipeline.fit.zones import HEEL_RULES, TOE_BOX
+from footfit.pipeline.shelf.nearness import LENGTH_SD_MM
 from footfit.results.heel import FLARE
 
 ROOM = "functional_length"
@@ -95,8 +91,8 @@ def shape_columns(shapes: Sequence[ZoneShape], names: Iterable[str]) -> ShapeCol
         flare_sd_deg=np.array([flare.angle_sd_deg for flare in flares]),
         plan=_plans(shapes),
         heel_mm=np.array([np.nan if mm is None else mm for mm in heels_mm]),
-        gain_mm=np.array([gain.value for gain in gains]),
-        gain_sd_mm=np.array([gain.last_sd for gain in gains]),
+        gain_mm=np.array([gain_mm for gain_mm, _ in gains]),
+        gain_sd_mm=np.array([sd_mm for _, sd_mm in gains]),
     )
 
 

@@ -9,14 +9,16 @@ from typing import TypeVar
 
 import numpy as np
 
-from footfit.geometry.fit import toe_walls
 from footfit.geometry.fit.toe_walls import ToesPlan, Walls
 from footfit.geometry.numeric.arrays import Bools, Floats, Ints
-from footfit.pipeline.fit.ranking import own_side
-from footfit.pipeline.fit.toe_box import TOES_SECTION, lacking_words, last_toes, plan_of_last
-from footfit.pipeline.fit.zones import LENGTHS, TOE_BOX, TOE_HEIGHT, ZONES, last_shape
+from footfit.pipeline.fit.judging.bottom_gains import LENGTHS
+from footfit.pipeline.fit.judging.cells import last_shape
+from footfit.pipeline.fit.judging.toe_box import walls_of
+from footfit.pipeline.fit.zones import TOE_BOX, TOE_HEIGHT, ZONES
 from footfit.pipeline.population.shape_columns import ROOM, ShapeColumns, shape_columns
+from footfit.pipeline.shelf.shelf import of_own_side, record_lasts
 from footfit.results import FitProfile, LastRecord, SideName
+from footfit.results.columns.last_columns import SIDES, LastColumns
 
 Sides = tuple[SideName | None, ...]
 T = TypeVar("T")
@@ -110,39 +112,27 @@ def last_table(
     lasts = sorted(records, key=lambda record: record.labels.name)
     names = (*zone_measures(profile), *LENGTHS)
     drops = [last.drop_mm for last in lasts]
-    sides: Sides = ("left", "right", None)
+    columns = record_lasts(lasts, file).base
+    every = np.ones(len(lasts), dtype=bool)
     return LastTable(
         names=tuple(last.labels.name for last in lasts),
         shapes=shape_columns([last_shape(last) for last in lasts], names),
         drop_mm=np.array([np.nan if drop is None else drop for drop in drops]),
-        own_side={side: _own_side(lasts, side) for side in sides},
+        own_side={side: of_own_side(columns, every, at) for at, side in enumerate(SIDES)},
         records=tuple(lasts),
-        toe_boxes=_toe_boxes(lasts, profile, file),
+        toe_boxes=None if file is None else _toe_boxes(columns, profile),
     )
 
 
-def _own_side(lasts: Sequence[LastRecord], side: SideName | None) -> Bools:
-    kept = {id(last) for last in own_side(lasts, side)}
-    return np.array([id(last) in kept for last in lasts], dtype=bool)
-
-
-def _toe_boxes(
-    lasts: Sequence[LastRecord], profile: FitProfile, file: Path | None
-) -> LastWalls | None:
+def _toe_boxes(lasts: LastColumns, profile: FitProfile) -> LastWalls | None:
     """The kept sections of the toes, if the profile judges them."""
-    if file is None or not any(rule.zone in TOE_BOX for rule in profile.zones):
+    if not any(rule.zone in TOE_BOX for rule in profile.zones):
         return None
-    toes = last_toes(file, lasts)
-    plans = [None if lacking_words(last) else plan_of_last(last) for last in toes]
-    row = np.cumsum([plan is not None for plan in plans]) - 1
-    row[[plan is None for plan in plans]] = -1
-    known = [plan for plan in plans if plan is not None]
-    behind = np.full(len(lasts), np.nan)
-    for place, last in enumerate(toes):
-        section = None if isinstance(last.kept, str) else last.kept.sections.get(TOES_SECTION.name)
-        if section is not None:
-            behind[place] = float(np.ptp(section.points_mm[:, 1]))
-    return LastWalls(toe_walls.walls(known) if known else None, row, behind)
+    assert lasts.toes is not None
+    whole = lasts.toes.whole
+    row = np.where(whole, np.cumsum(whole) - 1, -1)
+    walls = walls_of(lasts.toes, np.flatnonzero(whole)) if whole.any() else None
+    return LastWalls(walls, row, lasts.toes.behind_mm)
 
 
 def lacking_zones(feet: FootTable, profile: FitProfile) -> dict[str, Bools]:

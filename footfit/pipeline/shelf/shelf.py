@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Protocol
@@ -15,7 +15,7 @@ from footfit.catalogue.store import Catalogue, open_catalogue
 from footfit.errors import CatalogueDamaged, UnknownLast
 from footfit.geometry.numeric.arrays import Bools, Ints
 from footfit.pipeline.library.lasts import damaged_last
-from footfit.results import LastRecord, Library, Notice
+from footfit.results import LastRecord, Library, Notice, ShapeSections
 from footfit.results.columns.last_columns import NOT_KEPT, SPOILT, LastColumns
 from footfit.results.columns.vocabulary import Vocabulary
 from footfit.results.values import notices_about
@@ -69,11 +69,17 @@ class RecordLasts:
         return self
 
 
-def record_lasts(records: Sequence[LastRecord], file: Path | None = None) -> RecordLasts:
-    """Lasts from records; their sections are those of the catalogue ``file``, if it is given."""
+KeptSections = Path | Mapping[str, ShapeSections] | None
+"""Where sections of lasts are kept: a catalogue, or by the lasts' names."""
+
+
+def record_lasts(records: Sequence[LastRecord], sections: KeptSections = None) -> RecordLasts:
+    """Lasts from records."""
     kept: list[Kept] = [NOT_KEPT] * len(records)
-    if file is not None and records:
-        with open_catalogue(file) as catalogue:
+    if isinstance(sections, Mapping):
+        kept = [sections[record.labels.name] for record in records]
+    elif sections is not None and records:
+        with open_catalogue(sections) as catalogue:
             kept = [_sections(catalogue, record.labels.name) for record in records]
     return RecordLasts(tuple(records), columns_of(records, kept, Vocabulary()))
 

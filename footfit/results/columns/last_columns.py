@@ -10,8 +10,9 @@ import numpy as np
 
 from footfit.geometry.numeric.arrays import Bools, Floats, Ints
 from footfit.results.columns.vocabulary import NO_WORD, Vocabulary
+from footfit.results.values import SideName
 
-SIDES = (None, "left", "right")
+SIDES: tuple[SideName | None, ...] = (None, "left", "right")
 KINDS = ("foot", "last")
 KEPT, NOT_KEPT, SPOILT = range(3)
 """Whether the sections of a last are kept, were not stored, or are damaged."""

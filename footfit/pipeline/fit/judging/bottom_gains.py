@@ -6,18 +6,43 @@ from dataclasses import fields
 
 import numpy as np
 
+from footfit.catalogue.blocks.packing import measure_columns
 from footfit.geometry.fit.along_the_bottom import ALONG_BOTTOM, LastLengths, length_along_bottom
 from footfit.geometry.measures.measure_table import measure_named
 from footfit.geometry.numeric.arrays import Floats, Ints
-from footfit.pipeline.fit.judging.cells import OTHER_DEFINITION, Cells
-from footfit.results.columns.last_columns import MeasureColumns
-from footfit.results.columns.vocabulary import NO_WORD, Words
+from footfit.pipeline.fit.judging.cells import OTHER_DEFINITION, Cells, ZoneShape
+from footfit.results.columns.last_columns import LastColumns, MeasureColumns
+from footfit.results.columns.vocabulary import NO_WORD, Vocabulary, Words
 
 LENGTHS = {known.name: measure_named(known.name).definition_id for known in fields(LastLengths)}
 """The measures that say how long a last is along its bottom, with their definitions."""
 
 
-def bottom_gain(
+def shape_gain(shape: ZoneShape, sentences: Words) -> Cells:
+    """The `column_gain` of one foot or last, (1,)."""
+    words, heel_mm = Vocabulary(), shape.labelled_heel_mm
+    measures = measure_columns([tuple(shape.measures.values())], words)
+    labelled_mm = np.array([np.nan if heel_mm is None else heel_mm])
+    return column_gain(measures, words.measures, labelled_mm, sentences)
+
+
+def bottom_gain(shape: ZoneShape) -> tuple[float, float]:
+    """How much longer one last is along its bottom, and the standard deviation of that; NaN if it
+    is not known.
+    """
+    if (shape.heel_height_mm or 0.0) <= ALONG_BOTTOM.level_mm:
+        return 0.0, 0.0
+    gain = shape_gain(shape, Words())
+    return float(gain.value[0]), float(gain.last_sd[0])
+
+
+def last_gain(lasts: LastColumns, sentences: Words) -> Cells:
+    """The `column_gain` of lasts."""
+    assert lasts.measures is not None
+    return column_gain(lasts.measures, lasts.words.measures, lasts.heel_label_mm, sentences)
+
+
+def column_gain(
     measures: MeasureColumns, words: Words, labelled_mm: Floats, sentences: Words
 ) -> Cells:
     """How much longer a last with a heel is along its bottom than along its resting plane.

@@ -9,7 +9,7 @@ import numpy as np
 
 from footfit.geometry.flare.definition import FlareProfile
 from footfit.geometry.numeric.arrays import Bools, Floats, Ints
-from footfit.results import Measure, Profiled
+from footfit.results import LastRecord, Measure, Profiled
 from footfit.results.columns.last_columns import LastColumns
 from footfit.results.columns.vocabulary import NO_WORD, Words
 
@@ -40,24 +40,35 @@ class Cells:
 
 
 @dataclass(frozen=True, slots=True)
-class FootShape:
-    """What zones read of a foot, or of a last in its place; shares of the length are of
-    ``extent_mm``.
-    """
+class ZoneShape:
+    """What zones read of a foot or a last; shares of the length are of ``extent_mm``."""
 
     extent_mm: float
     flare: FlareProfile
     measures: Mapping[str, Measure]
+    labelled_heel_mm: float | None = None
 
     def measured_mm(self, name: str) -> float | None:
         """The value of a measure, by whichever definition; None where there is none."""
         return self.measures[name].measured.value if name in self.measures else None
 
+    @property
+    def heel_height_mm(self) -> float | None:
+        """The heel height as measured, else as labelled; a foot has none."""
+        measured_mm = self.measured_mm("heel_height")
+        return self.labelled_heel_mm if measured_mm is None else measured_mm
 
-def foot_shape(foot: Profiled) -> FootShape:
+
+def foot_shape(foot: Profiled) -> ZoneShape:
     """What zones read of a foot."""
     measures = {measure.name: measure for measure in foot.measures}
-    return FootShape(foot.aligned.alignment.extent_mm, foot.flare, measures)
+    return ZoneShape(foot.aligned.alignment.extent_mm, foot.flare, measures)
+
+
+def last_shape(last: LastRecord) -> ZoneShape:
+    """What zones read of a last."""
+    measures = {measure.name: measure for measure in last.measures}
+    return ZoneShape(last.extent_mm, last.flare, measures, last.labels.heel_height_mm)
 
 
 def missing(count: int, reason: int) -> Cells:
@@ -76,7 +87,7 @@ def known_cells(value: Floats, foot_sd: float, last_sd: Floats | float) -> Cells
     )
 
 
-def measure_difference(foot: FootShape, lasts: LastColumns, name: str, sentences: Words) -> Cells:
+def measure_difference(foot: ZoneShape, lasts: LastColumns, name: str, sentences: Words) -> Cells:
     """The last's measure minus the foot's, if both have it and mean the same by it."""
     own = foot.measures.get(name)
     if own is None:

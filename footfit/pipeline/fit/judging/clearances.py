@@ -13,16 +13,16 @@ from typing import Any
 
 import numpy as np
 
-from footfit.catalogue.blocks.packing import columns_of, measure_columns
+from footfit.catalogue.blocks.packing import columns_of
 from footfit.geometry.fit.along_the_bottom import ALONG_BOTTOM
 from footfit.geometry.flare.definition import CHANNELS
 from footfit.geometry.flare.profile_distance import DISTANCE, inside
 from footfit.geometry.numeric.arrays import Floats, Ints
 from footfit.pipeline.fit.heels import Heels, full_change
-from footfit.pipeline.fit.judging.bottom_gains import bottom_gain
+from footfit.pipeline.fit.judging.bottom_gains import last_gain, shape_gain
 from footfit.pipeline.fit.judging.cells import (
     Cells,
-    FootShape,
+    ZoneShape,
     foot_shape,
     known_cells,
     measure_difference,
@@ -191,14 +191,14 @@ def length_only_words(model: HeelModel) -> str:
 # ---------------------------------------------------------------- one zone
 
 
-def _cells(foot: FootShape, lasts: LastColumns, zone: str, sentences: Words) -> Cells:
+def _cells(foot: ZoneShape, lasts: LastColumns, zone: str, sentences: Words) -> Cells:
     """The clearance in a zone, as both were measured; of the ball line that of the balls, in mm."""
     if zone in SPECIAL:
         return SPECIAL[zone](foot, lasts, sentences)
     return measure_difference(foot, lasts, zone, sentences)
 
 
-def _length(foot: FootShape, lasts: LastColumns, sentences: Words) -> Cells:
+def _length(foot: ZoneShape, lasts: LastColumns, sentences: Words) -> Cells:
     """The toe room: functional lengths where both are measured, else lengths, along the bottom of
     the last. A last in the foot's place, as in a search by shape, is measured along its bottom too.
     """
@@ -212,10 +212,7 @@ def _length(foot: FootShape, lasts: LastColumns, sentences: Words) -> Cells:
         if not both[lacking].all():
             why = measure_difference(foot, lasts, "length", sentences)
             room = room.where(lacking & ~both, why)
-    words = Vocabulary()
-    own = measure_columns([tuple(foot.measures.values())], words)
-    ours = bottom_gain(own, words.measures, np.array([np.nan]), sentences)
-    theirs = last_gain(lasts, sentences)
+    ours, theirs = shape_gain(foot, sentences), last_gain(lasts, sentences)
     gained = Cells(
         room.value + theirs.value - ours.value,
         np.hypot(room.foot_sd, ours.last_sd),
@@ -228,13 +225,7 @@ def _length(foot: FootShape, lasts: LastColumns, sentences: Words) -> Cells:
     return gained.where(room.reason != NO_WORD, room)
 
 
-def last_gain(lasts: LastColumns, sentences: Words) -> Cells:
-    """The `bottom_gain` of lasts."""
-    assert lasts.measures is not None
-    return bottom_gain(lasts.measures, lasts.words.measures, lasts.heel_label_mm, sentences)
-
-
-def _ball_line(foot: FootShape, lasts: LastColumns, sentences: Words) -> Cells:
+def _ball_line(foot: ZoneShape, lasts: LastColumns, sentences: Words) -> Cells:
     """How much further forward the last's ball is, in mm along X.
 
     On a high heel that is not its place along the bottom: one last, bent from 0 to 80 mm of heel,
@@ -250,7 +241,7 @@ def _ball_line(foot: FootShape, lasts: LastColumns, sentences: Words) -> Cells:
     return cells.where(high, missing(len(lasts), sentences.number(words)))
 
 
-def ball_line_mm(ball_mm: Floats, room_mm: Floats, asked_mm: float) -> Floats:
+def ball_line_mm(ball_mm: Floats, room_mm: Floats, asked_mm: float | Floats) -> Floats:
     """How much further forward the last's ball is than the foot's, as far as the length does not
     explain it.
 
@@ -263,13 +254,13 @@ def ball_line_mm(ball_mm: Floats, room_mm: Floats, asked_mm: float) -> Floats:
     return off_mm
 
 
-def _flare(foot: FootShape, lasts: LastColumns, _: Words) -> Cells:
+def _flare(foot: ZoneShape, lasts: LastColumns, _: Words) -> Cells:
     """The flare angles' difference."""
     delta = lasts.angle_deg - foot.flare.angle_deg
     return known_cells(delta, foot.flare.angle_sd_deg, lasts.angle_sd_deg)
 
 
-def _plan(foot: FootShape, lasts: LastColumns, sentences: Words) -> Cells:
+def _plan(foot: ZoneShape, lasts: LastColumns, sentences: Words) -> Cells:
     """The root mean square of the plan curvatures' difference over the distance's stations."""
     ours, flare = foot.flare.curvature.get("plan"), lasts.flare
     assert flare is not None
@@ -285,11 +276,11 @@ def _plan(foot: FootShape, lasts: LastColumns, sentences: Words) -> Cells:
     return unknown.where(there, known_cells(rms, PLAN_SD, PLAN_SD))
 
 
-def _not_read(_: FootShape, lasts: LastColumns, sentences: Words) -> Cells:
+def _not_read(_: ZoneShape, lasts: LastColumns, sentences: Words) -> Cells:
     return missing(len(lasts), sentences.number(NOT_READ))
 
 
-SPECIAL: dict[str, Callable[[FootShape, LastColumns, Words], Cells]] = {
+SPECIAL: dict[str, Callable[[ZoneShape, LastColumns, Words], Cells]] = {
     "length": _length,
     "ball_line": _ball_line,
     "flare": _flare,

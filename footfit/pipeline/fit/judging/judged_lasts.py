@@ -120,7 +120,7 @@ class JudgedLasts:
     def mirrored(self, row: int) -> bool:
         """Is the last of the other side than the foot that governs the length?"""
         foot = self.asked.feet[self.asked.longer]
-        return SIDES[self.lasts.side[row]] != foot.aligned.alignment.side.side
+        return SIDES[int(self.lasts.side[row])] != foot.aligned.alignment.side.side
 
 
 @dataclass(frozen=True, slots=True)

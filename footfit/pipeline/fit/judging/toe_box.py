@@ -48,20 +48,23 @@ class FootToes:
 
 
 def foot_toes(foot: Profiled) -> FootToes:
-    """A foot's toes in plan; the toe height says what was scanned."""
+    """A foot's toes in plan."""
+    return FootToes(foot, plan_of_foot(foot))
+
+
+def plan_of_foot(foot: Profiled) -> toe_walls.ToesPlan | str:
+    """A foot's toes in plan, or why they are not known: the toe height says what was scanned."""
     height = foot_shape(foot).measures.get(TOE_HEIGHT)
     if height is None or height.measured.value is None:
         reason = None if height is None else height.measured.reason
-        return FootToes(foot, f"the foot: {reason or 'not measured'}")
+        return f"the foot: {reason or 'not measured'}"
     shape = foot.aligned.prepared.shape
     outline_mm = toes_outline_mm(shape)
     if not is_whole(outline_mm):
-        return FootToes(foot, f"the foot: {OPEN.format(place='toes')}")
+        return f"the foot: {OPEN.format(place='toes')}"
     assert outline_mm is not None
     middle_mm = foot.flare.centre_line * foot.aligned.alignment.extent_mm
-    return FootToes(
-        foot, toe_walls.foot_plan(outline_mm, middle_mm - np.array([shape.x_mm(0.0), 0.0]))
-    )
+    return toe_walls.foot_plan(outline_mm, middle_mm - np.array([shape.x_mm(0.0), 0.0]))
 
 
 def put_toe_boxes(
