@@ -15,10 +15,10 @@ from footfit.pipeline.fit.heel_model import heel_question
 from footfit.pipeline.fit.match import Question, matched
 from footfit.pipeline.fit.scoring import NOT_JUDGED, REJECT, VERDICTS
 from footfit.pipeline.fit.worn_shifts import worn_with
-from footfit.pipeline.library.lasts import library
 from footfit.pipeline.population.foot_measures import foot_measures, foot_table
 from footfit.pipeline.population.judging import Asking, judged_feet
 from footfit.pipeline.population.tables import last_table, zone_measures
+from footfit.pipeline.shelf.candidates import choice
 from footfit.results import Library, Profiled, Worn
 from footfit.results.worn import BAREFOOT
 from tests.conftest import SAMPLES
@@ -77,7 +77,7 @@ def test_a_coverage_and_a_match_have_one_verdict(customers, library, name, worn)
 
 def test_scans_have_it_too_with_their_toe_boxes(stocked: Path) -> None:
     scans = [footfit.flare(path) for path in sorted((SAMPLES / "feet").glob("*.stl"))[:3]]
-    lasts = library(stocked)
+    lasts = Library(choice(stocked, None, None).records(), 1, None, file=stocked)
     for name in ("walking", "dress"):
         same_answers(scans, lasts, name)
         same_answers(scans, lasts, name, Worn(sock_mm=2.0))

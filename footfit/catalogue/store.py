@@ -8,10 +8,10 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 
 from footfit.catalogue.blocks.block_writing import fill_blocks, refresh_blocks
+from footfit.catalogue.catalogue_reader import CatalogueReader
 from footfit.catalogue.file.engine import SETTINGS
 from footfit.catalogue.file.migrate import Schema
 from footfit.catalogue.file.opening import open_for_reading, open_for_writing
-from footfit.catalogue.reader import CatalogueReader
 from footfit.catalogue.rows.columns import (
     LAST,
     MESH_COPY,
