@@ -16,7 +16,7 @@ import pytest
 from footfit.api.catalogues import open_catalogue
 from footfit.catalogue.blocks.block_bytes import TOES as TOES_PART
 from footfit.catalogue.blocks.block_reading import BlockLasts
-from footfit.catalogue.blocks.packing import columns_of
+from footfit.catalogue.blocks.record_columns import columns_of
 from footfit.catalogue.store import open_catalogue as catalogue_at
 from footfit.geometry.numeric.arrays import Ints
 from footfit.meshes.write import encoded_mesh

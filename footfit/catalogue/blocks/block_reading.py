@@ -24,7 +24,7 @@ from footfit.catalogue.blocks.block_bytes import (
     checksum,
     lasts_of,
 )
-from footfit.catalogue.blocks.packing import Kept, columns_of
+from footfit.catalogue.blocks.record_columns import Kept, columns_of
 from footfit.catalogue.blocks.same_lasts import same_lasts
 from footfit.catalogue.file.descriptors import DESCRIPTORS
 from footfit.catalogue.file.engine import SETTINGS

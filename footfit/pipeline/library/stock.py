@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
-from footfit.catalogue.blocks.packing import LABELS
+from footfit.catalogue.blocks.record_columns import LABELS
 from footfit.errors import BadManifest
 from footfit.geometry.fit.sizes import label_number
 from footfit.pipeline.batch.csv_rows import csv_rows

@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from footfit.catalogue.blocks.packing import TOES_SECTION
+from footfit.catalogue.blocks.record_columns import TOES_SECTION
 from footfit.geometry.fit import toe_walls
 from footfit.geometry.fit.toe_walls import Walls
 from footfit.geometry.measures.heights import HEIGHTS

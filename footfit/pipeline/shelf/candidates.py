@@ -11,7 +11,7 @@ import numpy as np
 
 from footfit.catalogue.blocks.block_reading import BlockLasts
 from footfit.catalogue.blocks.block_writing import BLOCKS_ANEW
-from footfit.catalogue.blocks.packing import LABELS
+from footfit.catalogue.blocks.record_columns import LABELS
 from footfit.catalogue.file.opening import FIRST_STEPS
 from footfit.catalogue.rows.array_blobs import definition_text
 from footfit.catalogue.rows.search import rejection

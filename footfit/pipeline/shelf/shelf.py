@@ -10,7 +10,7 @@ from typing import Protocol
 import numpy as np
 
 from footfit.catalogue.blocks.block_reading import ShownLast
-from footfit.catalogue.blocks.packing import Kept, columns_of
+from footfit.catalogue.blocks.record_columns import Kept, columns_of
 from footfit.catalogue.store import Catalogue, open_catalogue
 from footfit.errors import CatalogueDamaged, UnknownLast
 from footfit.geometry.numeric.arrays import Bools, Ints

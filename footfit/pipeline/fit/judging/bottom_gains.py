@@ -6,7 +6,7 @@ from dataclasses import fields
 
 import numpy as np
 
-from footfit.catalogue.blocks.packing import measure_columns
+from footfit.catalogue.blocks.record_columns import measure_columns
 from footfit.geometry.fit.along_the_bottom import ALONG_BOTTOM, LastLengths, length_along_bottom
 from footfit.geometry.measures.measure_table import measure_named
 from footfit.geometry.numeric.arrays import Floats, Ints

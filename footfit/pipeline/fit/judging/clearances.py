@@ -13,7 +13,7 @@ from typing import Any
 
 import numpy as np
 
-from footfit.catalogue.blocks.packing import columns_of
+from footfit.catalogue.blocks.record_columns import columns_of
 from footfit.geometry.fit.along_the_bottom import ALONG_BOTTOM
 from footfit.geometry.flare.definition import CHANNELS
 from footfit.geometry.flare.profile_distance import DISTANCE, inside

@@ -11,7 +11,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from footfit.catalogue.blocks.packing import TOES_SECTION, is_whole
+from footfit.catalogue.blocks.record_columns import TOES_SECTION, is_whole
 from footfit.geometry.fit import toe_walls
 from footfit.geometry.fit.named_sections import toes_outline_mm
 from footfit.geometry.measures.heights import HEIGHTS
