@@ -47,6 +47,7 @@ FINE = 4
 """So many lasts in each size, so that their girths follow the feet's mean without steps."""
 SATRA = {"sizes 1-11 in D": 24.5, "sizes 5-7 in C-E": 47.0}
 LASTS, FEET = 1_000, (1_000, 10_000)
+CHECKED = (1_000, 10_000)
 CHECK_FAILED = 7
 
 
@@ -214,11 +215,19 @@ def _variant(record: LastRecord, number: int, rng: np.random.Generator) -> LastR
     rows = (replace(row, measured=_scaled(row.measured, factor(row))) for row in record.measures)
     return replace(
         record,
-        labels=replace(record.labels, name=f"last-{number:05d}", parent=None, size=None),
+        labels=replace(record.labels, name=f"last-{number:05d}", **_labels(number)),
         info=replace(record.info, sha256=hashlib.sha256(str(number).encode()).hexdigest()),
         extent_mm=record.extent_mm * longer,
         measures=tuple(rows),
     )
+
+
+def _labels(number: int) -> dict[str, str | None]:
+    """A family of thirty lasts: ten sizes in three widths."""
+    place = number % 30
+    size, width = str(36 + place % 10), "EFG"[place // 10]
+    family = f"family-{number // 30:04d}"
+    return {"family": family, "size": size, "width_label": width, "parent": None}
 
 
 def _scaled(measured: Measured, factor: float) -> Measured:
@@ -252,6 +261,16 @@ def growth_rows(folder: Path, lasts: Path, runs: int = 3) -> Iterator[list[str]]
         yield [f"{count:,}", f"{LASTS:,}", f"{seconds:.1f}", f"{seconds / first:.1f}", f"{mb:.0f}"]
 
 
+def check_rows(folder: Path, base: Path, runs: int = 3) -> Iterator[list[str]]:
+    """``check-lasts`` on 10^3 and 10^4 lasts."""
+    first = 0.0
+    for count in CHECKED:
+        lasts = write_lasts(folder / f"lasts-{count}", base, count)
+        seconds, mb = best_of(runs, "check-lasts", "--catalogue", lasts, "--quiet", "--json")
+        first = first or seconds
+        yield [f"{count:,}", f"{seconds:.1f}", f"{seconds / first:.1f}", f"{mb:.0f}"]
+
+
 def main() -> None:
     """Print the tables, or write them."""
     parser = argparse.ArgumentParser(description=(__doc__ or "").splitlines()[0])
@@ -272,6 +291,13 @@ def main() -> None:
             lasts = write_lasts(folder / "lasts", folder / "demo" / "demo.footfit", LASTS)
             head = ["feet", "lasts", "processor seconds", "times the first", "memory, MB"]
             tables["coverage-growth"] = markdown(head, list(growth_rows(folder, lasts)))
+    if options.only in ("", "check-lasts"):
+        with tempfile.TemporaryDirectory() as name:
+            folder = Path(name)
+            timed("demo", folder / "demo")
+            head = ["lasts", "processor seconds", "times the first", "memory, MB"]
+            lines = list(check_rows(folder, folder / "demo" / "demo.footfit"))
+            tables["check-lasts-growth"] = markdown(head, lines)
     for name, text in tables.items():
         print(text)
         if options.write:

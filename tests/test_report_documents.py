@@ -43,6 +43,7 @@ from footfit.results import (
 from footfit.results.evidence.fit_entries import FitList, ForgetOutcome, RecordOutcome
 from footfit.results.evidence.fit_evidence import Calibration
 from footfit.results.evidence.profiles import CheckedProfile, ProfileList, ShownProfile
+from footfit.results.population.checked_lasts import LastFinding, LastsCheck
 from footfit.results.values import exact, json_number, part
 from tests import answers, fits, people
 from tests.bounds import ROUNDING, printed
@@ -53,6 +54,11 @@ PAGE = Path(__file__).resolve().parents[1] / "docs" / "json.md"
 
 FINDING = Finding(
     "last", "its stored numbers were changed: ingest it again with --replace", "derby-42"
+)
+
+
+LASTS_CHECK = LastsCheck(
+    "a.footfit", 12, 1, (LastFinding("twin", "b", "is as 'a'", "a"),), {"girth": 2.0}
 )
 
 
@@ -92,6 +98,7 @@ def every_document():
         BackupOutcome("a.footfit", "b.footfit", 9, 12),
         RestoreOutcome("a.footfit", "b.footfit", 12, None),
         people.small_answer(),
+        LASTS_CHECK,
         DemoOutcome("demo", 12, "derby-42", ("report.html",)),
     ]
     return [result.to_dict() for result in results]
@@ -180,6 +187,7 @@ def test_the_page_lists_the_keys_of_a_coverage() -> None:
     assert set(document["next_lasts"][0]) == listed["next last"]
     measures = {f"{name}_mm" for name in people.NAMES}
     assert set(document["feet"][0]) - measures == listed["judged foot"]
+    assert set(LASTS_CHECK.to_dict()["findings"][0]) == listed["last finding"]
     json_line(document)
 
 

@@ -10,6 +10,7 @@ from footfit.api.inputs import FilePath
 from footfit.catalogue import store
 from footfit.pipeline.batch.runs import HERE
 from footfit.pipeline.library import backup, check
+from footfit.results.population.checked_lasts import LastsCheck
 
 if TYPE_CHECKING:
     from footfit.pipeline.shelf.shelf import Shelf
@@ -30,6 +31,16 @@ class CatalogueFile:
     def check(self) -> results.CheckOutcome:
         """Everything that is not as it was stored. Nothing is changed."""
         return check.check(self.path)
+
+    def check_lasts(self, tolerance: str | None = None) -> LastsCheck:
+        """Twins, labels that the shapes contradict, and runs that break, among all lasts.
+
+        ``tolerance`` is by kind of measure, such as "girth=2,length=1.5,width=1". Raises BadOption
+        if it is not.
+        """
+        from footfit.pipeline.last_checks.lasts_check import check_lasts
+
+        return check_lasts(self.path, tolerance)
 
     def backup(self, file: FilePath, *, replace: bool = False) -> results.BackupOutcome:
         """Copy the catalogue and check the copy; raises OutputExists, CheckFailed or BadOption."""

@@ -21,6 +21,7 @@ from footfit.report.terminal import (
     scan_tables,
 )
 from footfit.results import Alignment, IngestOutcome, Match, MeshInfo, Notice
+from footfit.results.population.checked_lasts import LastsCheck
 from footfit.results.population.coverage_answer import Coverage
 from footfit.results.values import notices_about
 
@@ -150,6 +151,7 @@ FORMS: dict[type, Form] = {
         lambda shown: profile_tables.show_profile_table(shown, _zone_labels())
     ),
     results.CheckedProfile: Form(profile_tables.check_profile_line),
+    LastsCheck: Form(coverage_tables.lasts_check_table, lambda check: (None, check.notices)),
     Coverage: Form(coverage_tables.coverage_table, lambda answer: (None, answer.warnings)),
     results.DemoOutcome: Form(catalogue_tables.demo_table),
 }

@@ -1,4 +1,4 @@
-"""The coverage of a population as tables for a terminal."""
+"""The coverage of a population, and the check of all lasts, as tables for a terminal."""
 
 from __future__ import annotations
 
@@ -17,6 +17,8 @@ from footfit.report.wording.coverage_words import (
     percent_words,
     share_words,
 )
+from footfit.report.wording.text import visible
+from footfit.results.population.checked_lasts import LastsCheck
 from footfit.results.population.coverage_answer import Coverage
 from footfit.results.population.shares import ServedBy
 
@@ -111,3 +113,27 @@ def _feet(answer: Coverage) -> RenderableType:
         shown = ["-" if v is None else plain(v, 1, RATIO_KEPT) for v in values]
         table.add_row(known.measure.replace("_", " "), known.unit, f"{known.feet:,}", *shown)
     return table
+
+
+def lasts_check_table(check: LastsCheck) -> RenderableType:
+    """The findings about all lasts, faults first."""
+    lasts = "1 last" if check.lasts == 1 else f"{check.lasts:,} lasts"
+    families = "1 run" if check.families == 1 else f"{check.families:,} runs"
+    head = Text(f"{lasts} and {families} checked in {visible(check.path)}", "bold")
+    parts: list[RenderableType] = [head]
+    if check.findings:
+        table = lined_table("last", "finding", "reason")
+        for finding in check.findings:
+            style = "red" if finding.fault else "dim"
+            code = Text(finding.code.replace("_", " "), style)
+            table.add_row(cell(finding.last, "bold"), code, cell(finding.message))
+        parts.append(table)
+    else:
+        parts.append(Text("Nothing was found."))
+    parts += [
+        Text(f"Not checked as a run: {visible(name)}: {visible(why)}", "dim")
+        for name, why in check.not_checked[:SHOWN_LASTS]
+    ]
+    more = len(check.not_checked) - SHOWN_LASTS
+    parts += [Text(f"{more:,} more are not checked: see --json", "dim")] if more > 0 else []
+    return Group(*parts)

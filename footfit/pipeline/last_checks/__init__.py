@@ -1,0 +1,1 @@
+"""Lasts against lasts: twins, labels that the shapes contradict, runs that break."""
