@@ -43,12 +43,7 @@ class _Lines:
 def shadow_outline(points: Floats, faces: Ints, grid_mm: float = GRID_MM) -> Floats:
     """The outer outline (k, 2) of the largest piece of a shadow, counter-clockwise.
 
-    Parameters
-    ----------
-    points : (n, 2)
-        The vertices in the plane of the shadow, mm.
-    faces : (m, 3)
-    grid_mm : float
+    See :func:`shadow_outlines`.
 
     Examples
     --------
@@ -56,6 +51,23 @@ def shadow_outline(points: Floats, faces: Ints, grid_mm: float = GRID_MM) -> Flo
     >>> outline = shadow_outline(corners, np.array([[0, 1, 2], [0, 2, 3]]))
     >>> outline.min(axis=0).round(6).tolist(), outline.max(axis=0).round(6).tolist()
     ([0.0, 0.0], [4.0, 3.0])
+    """
+    return shadow_outlines(points, faces, grid_mm)[0]
+
+
+def shadow_outlines(
+    points: Floats, faces: Ints, grid_mm: float = GRID_MM, least: float = 1.0
+) -> tuple[Floats, ...]:
+    """The outer outlines (k, 2) of the pieces of a shadow, the largest first, counter-clockwise.
+
+    Parameters
+    ----------
+    points : (n, 2)
+        The vertices in the plane of the shadow, mm.
+    faces : (m, 3)
+    grid_mm : float
+    least : float
+        Pieces whose area is a smaller share of the largest one's are left out.
     """
     used = points[faces].reshape(-1, 2)
     low, high = used.min(axis=0) - BEFORE * grid_mm, used.max(axis=0) + 1.5 * grid_mm
@@ -66,7 +78,9 @@ def shadow_outline(points: Floats, faces: Ints, grid_mm: float = GRID_MM) -> Flo
     start, end = columns.interval(i.ravel(), v[j.ravel()])
     inside = ((start <= v[j.ravel()]) & (v[j.ravel()] <= end)).reshape(i.shape)
     loops = [_placed(loop, inside, (u, v), (columns, rows)) for loop in _edge_loops(inside)]
-    return _with_corners(max(loops, key=_area), 1.5 * grid_mm)
+    loops.sort(key=_area, reverse=True)
+    kept = [loop for loop in loops if _area(loop) >= least * _area(loops[0])]
+    return tuple(_with_corners(loop, 1.5 * grid_mm) for loop in kept)
 
 
 def _with_corners(loop: Floats, most_mm: float) -> Floats:

@@ -6,14 +6,14 @@ the right of the paper and y up.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
 
 from footfit.geometry.drawing.bottom_outline import bottom_outline, flat_frame
 from footfit.geometry.drawing.lower_part import below
-from footfit.geometry.drawing.shadow import shadow_outline
+from footfit.geometry.drawing.shadow import shadow_outlines
 from footfit.geometry.drawing.thinned import thinned_loop
 from footfit.geometry.fit.paired_sections import station_plane
 from footfit.geometry.fit.stations import STATIONS, Station
@@ -25,6 +25,8 @@ LEG_HEIGHT = 0.60
 """A foot is drawn from the side up to this height over its length: higher parts are leg."""
 SOLE_HEIGHT_MM = 10.0
 """The bottom of a foot is what lies lower than this over the ground."""
+LEAST_PIECE = 0.02
+"""A piece of a shadow with a smaller share of the largest one's area is not drawn."""
 SOLE_LEAST = 0.5
 """So much of the length must lie so low: a scan without its sole has no bottom."""
 
@@ -46,8 +48,8 @@ class View:
     name : str
         "bottom", "plan", "side", or the name of a station.
     outlines_mm : tuple of (k, 2)
-        Closed, counter-clockwise: the last point is followed by the first. Only a section has
-        several, as of toes.
+        Closed, counter-clockwise: the last point is followed by the first. Toes, and the sole of
+        a foot, may have several.
     marks : tuple of Mark
     at_mm : float or None
         Of a section, how far from the pternion along X it is cut.
@@ -133,33 +135,36 @@ def _cuts(shape: Shape) -> Iterator[_Cut]:
             yield _Cut(station, section.loops, flat, origin + flat @ axes, at_mm)
 
 
-def _marks(outline: Floats, ends: Iterator[tuple[str, Floats]]) -> tuple[Mark, ...]:
-    """Marks through two points (2, 2) each, as long as the outline is wide there."""
-    marks = ((name, chord(outline, points)) for name, points in ends)
+def _marks(outlines: Sequence[Floats], ends: Iterator[tuple[str, Floats]]) -> tuple[Mark, ...]:
+    """Marks through two points (2, 2) each, as long as the outlines are wide there."""
+    marks = ((name, chord(outlines, points)) for name, points in ends)
     return tuple(Mark(name, points) for name, points in marks if points is not None)
 
 
-def chord(outline: Floats, points: Floats) -> Floats | None:
-    """The piece (2, 2) of the line through two points that a closed outline (k, 2) cuts out.
+def chord(outlines: Sequence[Floats], points: Floats) -> Floats | None:
+    """The piece (2, 2) of the line through two points that closed outlines (k, 2) cut out.
 
     From the first to the last place where they meet; None if they do not.
 
     Examples
     --------
     >>> square = np.array([[0.0, 0], [4, 0], [4, 4], [0, 4]])
-    >>> chord(square, np.array([[1.0, 1], [2, 1]])).tolist()
+    >>> chord([square], np.array([[1.0, 1], [2, 1]])).tolist()
     [[0.0, 1.0], [4.0, 1.0]]
     """
     start, along = points[0], points[1] - points[0]
+    places = np.concatenate([_meetings(outline, start, along) for outline in outlines])
+    order = np.argsort((places - start) @ along)
+    return np.asarray(places[order[[0, -1]]]) if len(places) else None
+
+
+def _meetings(outline: Floats, start: Floats, along: Floats) -> Floats:
+    """Where a line meets a closed outline (k, 2), (j, 2)."""
     aside = (outline - start) @ np.array([-along[1], along[0]])
     after, ahead = np.roll(outline, -1, axis=0), np.roll(aside, -1)
     met = (aside > 0.0) != (ahead > 0.0)
-    if not met.any():
-        return None
     share = aside[met] / (aside[met] - ahead[met])
-    places = outline[met] + share[:, None] * (after[met] - outline[met])
-    order = np.argsort((places - start) @ along)
-    return np.asarray(places[order[[0, -1]]])
+    return np.asarray(outline[met] + share[:, None] * (after[met] - outline[met]))
 
 
 def _section(cut: _Cut) -> View:
@@ -184,7 +189,7 @@ def _bottom(shape: Shape, cuts: tuple[_Cut, ...]) -> View | None:
         (cut.station.name, _toe_up(frame.flat(cut.edges(-1.0))[:, :2] - (frame.rear_mm, 0.0)))
         for cut in cuts
     )
-    return View("bottom", (outline,), _marks(outline, flat))
+    return View("bottom", (outline,), _marks((outline,), flat))
 
 
 def _standing(shape: Shape, points: Floats) -> Floats:
@@ -210,20 +215,25 @@ def _plan(shape: Shape, cuts: tuple[_Cut, ...]) -> View:
     return _from_above("plan", _standing(shape, shape.vertices_mm), shape.faces, cuts, shape)
 
 
-def _shadow(points: Floats, faces: Ints) -> Floats:
-    """The outline of a shadow without a scanner's noise; that of a clean mesh stays as it is."""
-    outline = shadow_outline(points, faces)
-    return steady_loop(outline, float(np.ptp(outline[:, 0])), TAPE_OUTLINES)
+def _shadow(points: Floats, faces: Ints) -> tuple[Floats, ...]:
+    """The outlines of a shadow without a scanner's noise; those of a clean mesh stay as they are.
+
+    A foot may lie on the ground with its heel and its ball only.
+    """
+    outlines = shadow_outlines(points, faces, least=LEAST_PIECE)
+    length = float(np.ptp(points[faces, 0]))
+    return tuple(steady_loop(outline, length, TAPE_OUTLINES) for outline in outlines)
 
 
 def _from_above(
     name: str, vertices: Floats, faces: Ints, cuts: tuple[_Cut, ...], last: Shape | None = None
 ) -> View:
     """The shadow from above, with the marks of the sections; those of a ``last`` stand as it."""
-    outline = thinned_loop(_toe_up(_shadow(vertices[:, :2], faces)))
+    shadow = _shadow(vertices[:, :2], faces)
+    outlines = tuple(thinned_loop(_toe_up(outline)) for outline in shadow)
     edges = ((cut.station.name, cut.edges(0.0)) for cut in cuts)
     seen = ((mark, at if last is None else _standing(last, at)) for mark, at in edges)
-    return View(name, (outline,), _marks(outline, ((mark, _toe_up(at)) for mark, at in seen)))
+    return View(name, outlines, _marks(outlines, ((mark, _toe_up(at)) for mark, at in seen)))
 
 
 def _side(shape: Shape, cuts: tuple[_Cut, ...]) -> View:
@@ -231,6 +241,6 @@ def _side(shape: Shape, cuts: tuple[_Cut, ...]) -> View:
     vertices, faces = _standing(shape, shape.vertices_mm), shape.faces
     if shape.kind == "foot":
         vertices, faces = below(vertices, faces, LEG_HEIGHT * shape.length_mm)
-    outline = thinned_loop(_shadow(vertices[:, [0, 2]], faces))
+    outlines = tuple(map(thinned_loop, _shadow(vertices[:, [0, 2]], faces)))
     seen = ((cut.station.name, _standing(shape, cut.ends)[:, [0, 2]]) for cut in cuts)
-    return View("side", (outline,), _marks(outline, seen), symmetric=True)
+    return View("side", outlines, _marks(outlines, seen), symmetric=True)

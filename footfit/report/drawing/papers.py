@@ -19,6 +19,8 @@ TICK_MM = 1.2
 CROSS_MM = 3.0
 UNDER_CROSS_MM = 0.5 * OVERLAP_MM + CROSS_MM
 """From the upper edge of a paper's window to the lower end of its upper crosses."""
+MOST_LETTERS = 70
+"""Of the title that stands over the bar."""
 PRINT_WORDS = "print at 100 %, do not fit to page"
 
 
@@ -115,7 +117,11 @@ def furniture(width_mm: float, height_mm: float, name: str, title: str) -> Block
     words = (
         Words(f"100 mm   {PRINT_WORDS}", (MARGIN_MM + BAR_MM + 2.5, top), 2.4),
         Words("100 mm", (side + 0.9, MARGIN_MM + BAR_MM + 2.5), 2.4, turned=True),
-        Words(title, (MARGIN_MM, top + 1.9), 2.2),
+        Words(
+            title if len(title) <= MOST_LETTERS else f"{title[:MOST_LETTERS]} ...",
+            (MARGIN_MM, top + 1.9),
+            2.2,
+        ),
         Words(name, (width_mm - MARGIN_MM, top - 0.4), 4.0, "end", bold=True),
     )
     return Block(bars + crosses(width_mm, height_mm), words)

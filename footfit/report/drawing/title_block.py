@@ -17,7 +17,7 @@ from footfit.version import __version__
 COLUMNS_MM = (0.0, 46.0, 56.0, 70.0, 73.0)
 """Where the columns of the table of measures are: name, value, spread, total, unit."""
 ROW_MM = 3.7
-LETTERS = 56
+LETTERS, TITLE_LETTERS = 56, 26
 """Of a line of text."""
 ACCEPT_WORDS = "both bars must measure 99.5 to 100.5 mm, on every sheet"
 MAP_MM = 12.0
@@ -41,10 +41,12 @@ def title_words(drawing: Drawing) -> str:
 
 def title_block(drawing: Drawing) -> Block:
     """The block of text: what is drawn, how to print it, and the table of measures."""
-    head = paragraph([title_words(drawing)], (0.0, 0.0), 5.0, bold=True)
+    title = textwrap.wrap(title_words(drawing), TITLE_LETTERS)
+    head = paragraph(title, (0.0, 0.0), 5.0, bold=True)
     notes = [line for text in _notes(drawing) for line in textwrap.wrap(text, LETTERS)]
-    text = paragraph(notes, (0.0, -9.0), 2.4)
-    table = _table(drawing.measures, -9.0 - 1.45 * 2.4 * len(notes) - 3.0)
+    below = -1.75 - 7.25 * len(title)
+    text = paragraph(notes, (0.0, below), 2.4)
+    table = _table(drawing.measures, below - 1.45 * 2.4 * len(notes) - 3.0)
     return joined([Block(words=head + text), table])
 
 

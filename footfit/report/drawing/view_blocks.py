@@ -60,7 +60,7 @@ def _title_place(view: View, body: Block) -> tuple[float, float, Anchor]:
     levels = np.concatenate([low[1:], levels, high[1:]])
     widest = int(np.argmax(np.diff(levels)))
     y = float(levels[widest : widest + 2].mean()) + TITLE_ABOVE_MM
-    across = chord(view.outlines_mm[0], np.array([[low[0], y], [high[0], y]]))
+    across = chord(view.outlines_mm, np.array([[low[0], y], [high[0], y]]))
     middle = low[0] + high[0] if across is None else across[:, 0].sum()
     return 0.5 * float(middle), y, "middle"
 
