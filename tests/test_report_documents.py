@@ -89,7 +89,7 @@ def every_document():
         ShownProfile(fit_profile(), {"length": "mm"}),
         CheckedProfile("a.toml", "a", 1, "0" * 64, ("length",), ()),
         Calibration(fit_profile(), fit_profile(), (), 0, {}),
-        Drawing(answers.alignment(), (), (), (), {}),
+        Drawing(answers.alignment(), (), (), (), {}, {}),
         RunCheck(None, "arithmetic", 1.0, None, {"girth": 2.0}, (), (), ()),
         ExportOutcome("a", "a.stl", 10, 0.1),
         answers.facts(),

@@ -145,6 +145,7 @@ def test_a_drawing_says_every_measure_its_uncertainty_the_file_and_the_pair() ->
     assert re.sub(r"\s", "", drawing.alignment.info.sha256) in re.sub(r"\s", "", text)
     assert "total ±" in words
     assert "are a pair" in text
+    assert "girth 2, length 1.5, width 1" in text
     assert "right last" in text
 
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from footfit.errors import OtherKind
 from footfit.geometry.drawing.views import views
+from footfit.pipeline.last_making.tolerances import TOLERANCE_MM
 from footfit.pipeline.scan.measure import check_side, scan_measures
 from footfit.results import AlignedScan, Drawing, Profiled
 
@@ -32,4 +33,5 @@ def drawing_of(shape: AlignedScan | Profiled, *, foot: bool = False) -> Drawing:
         seen = tuple(view.mirrored() for view in seen)
     measures = shape.measures if isinstance(shape, Profiled) else scan_measures(prepared)
     labels = (shape.labels if isinstance(shape, Profiled) else None) or {}
-    return Drawing(alignment, measures, seen, missing, labels)
+    tolerance_mm = {} if foot else TOLERANCE_MM
+    return Drawing(alignment, measures, seen, missing, labels, tolerance_mm)

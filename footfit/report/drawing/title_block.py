@@ -62,6 +62,10 @@ def _notes(drawing: Drawing) -> Iterable[str]:
     copies = (notice.message for notice in alignment.warnings if notice.code == "stored_copy")
     yield from (f"{words[:1].upper()}{words[1:]}." for words in copies)
     yield from _pair(drawing)
+    if drawing.tolerance_mm:
+        rows = drawing.tolerance_mm.items()
+        kinds = ", ".join(f"{kind} {value:g}" for kind, value in rows)
+        yield f"Tolerance of a last as delivered, mm: {kinds}."
     if drawing.missing:
         yield f"Not drawn, because the scan is open there: {', '.join(drawing.missing)}."
     yield f"{SPREADS} footfit {__version__}"

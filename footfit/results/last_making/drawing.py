@@ -19,7 +19,8 @@ class Drawing(Document):
     """The views of a shape on its own side, with its measures.
 
     ``missing`` names the views that cannot be drawn, because the scan is open there. ``labels`` are
-    those of a last of the catalogue, by name.
+    those of a last of the catalogue, by name. ``tolerance_mm`` is by how much a last as delivered
+    may differ, by kind of measure; empty for a foot.
     """
 
     alignment: Alignment
@@ -27,6 +28,7 @@ class Drawing(Document):
     views: tuple[View, ...]
     missing: tuple[str, ...]
     labels: Mapping[str, Any]
+    tolerance_mm: Mapping[str, float]
 
     schema = "draw-last/1"
 
@@ -38,6 +40,7 @@ class Drawing(Document):
         return {
             **self.alignment.scan_keys(),
             "labels": dict(self.labels),
+            "tolerance_mm": dict(self.tolerance_mm),
             "views": [part(view) for view in shown],
             "missing": list(self.missing),
             "measures": measures_part(self.measures),
