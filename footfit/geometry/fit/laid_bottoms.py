@@ -58,7 +58,7 @@ class BottomSettings:
     points: int = 2_000
     reach_mm: tuple[float, ...] = (12.0, 6.0, 3.0)
     rounds: int = 12
-    settled_mm: float = 1e-6
+    settled_mm: float = 1e-3
     same_mm: float = 0.05
     cosine: float = 0.5
     least: float = 0.1

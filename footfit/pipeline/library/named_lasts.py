@@ -149,6 +149,7 @@ def _prepared(record: LastRecord, copy: MeshCopy) -> PreparedScan:
             units="mm",
             units_source="declared",
             unit_scale=1.0,
+            step=max(record.info.resolution_mm, copy.error_mm),
         ),
         side=record.side,
         pose=record.pose,

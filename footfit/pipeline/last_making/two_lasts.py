@@ -1,0 +1,252 @@
+"""How two lasts differ: two files, two revisions, or lasts of the catalogue, in any mix."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+
+from footfit.errors import BadOption, NoSole
+from footfit.geometry.fit.arc_sections import (
+    ARC_SIZES,
+    ArcSection,
+    named_arc_sections,
+    places_in_space,
+)
+from footfit.geometry.fit.laid_bottoms import LAID, laid_bottom
+from footfit.geometry.fit.placement import Placement
+from footfit.geometry.fit.surface_difference import SurfaceDifference, surface_difference
+from footfit.geometry.measures.landmarks import Shape
+from footfit.geometry.numeric.arrays import Floats
+from footfit.geometry.numeric.rotations import moved_points
+from footfit.number_words import plain, signed
+from footfit.pipeline.last_making.last_sections import size_measured
+from footfit.pipeline.scan.measure import check_side, last_record
+from footfit.results import (
+    Comparison,
+    LastLabels,
+    Measured,
+    Notice,
+    Profiled,
+    SectionComparison,
+    SizeDifference,
+)
+from footfit.results.last_making.last_difference import (
+    LastDifference,
+    StationDifference,
+    Tolerances,
+    ValueDifference,
+)
+from footfit.results.values import notices_about
+
+OTHER_HEEL_MM = 3.0
+"""With heels so different, the bottoms lie on each other at the tread alone."""
+COLOUR_STEPS_MM = (0.05, 0.1, 0.25, 0.5, 1.0, 2.0)
+"""The finest step is taken whose colours reach as far as nearly all of the differences."""
+KINDS = ("girth", "length", "width", "height")
+MOST_TOLERANCE_MM = 50.0
+
+
+def tolerances_of(text: str | None) -> Tolerances:
+    """The tolerances in ``girth=2,length=1.5``; a kind that is not named keeps its own.
+
+    Raises
+    ------
+    BadOption
+        A kind is unknown or stands twice, or its number is not from 0 to 50.
+
+    Examples
+    --------
+    >>> tolerances_of("girth=3, height=1")
+    Tolerances(girth=3.0, length=1.5, width=1.0, height=1.0)
+    """
+    given: dict[str, float] = {}
+    for word in (text or "").split(",") if (text or "").strip() else ():
+        kind, _, number = (piece.strip() for piece in word.partition("="))
+        if kind not in KINDS or kind in given:
+            twice = "stands twice" if kind in given else "is not known"
+            words = f"--tolerance: the kind {kind!a} {twice}; give {', '.join(KINDS)} in mm"
+            raise BadOption(f"{words}, such as girth=2,length=1.5")
+        try:
+            given[kind] = float(number)
+        except ValueError:
+            given[kind] = math.nan
+        if not 0.0 <= given[kind] <= MOST_TOLERANCE_MM:
+            words = f"--tolerance: {kind} takes a number from 0 to {MOST_TOLERANCE_MM:.0f} mm"
+            raise BadOption(f"{words}, not {number!a}")
+    return Tolerances(**given)
+
+
+def last_difference(
+    first: Profiled, second: Profiled, tolerances: Tolerances | None = None
+) -> LastDifference:
+    """Lay a second last on the bottom of a first one, and say how it differs.
+
+    Raises
+    ------
+    SideUndecided
+        The shape of one does not show its side.
+    NoSole
+        The bottoms do not lie together: one of the two has none.
+    """
+    for last in (first, second):
+        check_side(last.aligned.alignment)
+    here, there = first.aligned.prepared.shape, second.aligned.prepared.shape
+    laid = laid_bottom(here, there)
+    if laid.share < LAID.least:
+        raise NoSole("the bottoms of the two lasts do not lie together: is one of them open?")
+    moved = Shape(moved_points(laid.transform, there.vertices_mm), there.faces, there.kind)
+    surface = surface_difference(here, moved)
+    pairs = list(zip(named_arc_sections(here), named_arc_sections(there), strict=True))
+    measures = _measures(first, second, tolerances or Tolerances())
+    infos = [last.aligned.alignment.info for last in (first, second)]
+    return LastDifference(
+        first=first,
+        second=second,
+        mirrored=first.aligned.alignment.side.side != second.aligned.alignment.side.side,
+        laid=laid,
+        tolerances=tolerances or Tolerances(),
+        measures=measures,
+        surface=surface,
+        sections=tuple(_station(*pair) for pair in pairs),
+        resolution_mm=max(info.resolution_mm for info in infos),
+        warnings=_warnings(first, second, measures),
+        drawn=_drawn(first, second, moved, surface, pairs, laid.transform),
+    )
+
+
+# ---------------------------------------------------------------- measures
+
+
+def _measures(
+    first: Profiled, second: Profiled, tolerances: Tolerances
+) -> tuple[ValueDifference, ...]:
+    """Every measure that one of the two has, and the flare angle."""
+    theirs = {measure.name: measure.measured for measure in second.measures}
+    missing = Measured(None, reason="the other one is measured as a foot")
+    rows = [
+        _value(
+            measure.name,
+            "deg" if measure.name.endswith("_deg") else "mm",
+            measure.measured,
+            theirs.get(measure.name, missing),
+            tolerances.of(measure.name),
+        )
+        for measure in first.measures
+    ]
+    here, there = (
+        Measured(last.flare.angle_deg, last.flare.angle_sd_deg) for last in (first, second)
+    )
+    return (*rows, _value("flare_angle", "deg", here, there))
+
+
+def _value(
+    name: str, unit: str, first: Measured, second: Measured, tolerance: float | None = None
+) -> ValueDifference:
+    """The difference of two values; its standard deviation is that of two second scans.
+
+    A bias that a measure has is in both values, so it is in no difference.
+    """
+    if first.value is None or second.value is None:
+        reason = first.reason if first.value is None else second.reason
+        difference = Measured(None, reason=reason)
+    else:
+        spread = math.hypot(first.sd or 0.0, second.sd or 0.0)
+        difference = Measured(second.value - first.value, spread)
+    return ValueDifference(name, unit, first, second, difference, tolerance)
+
+
+# ---------------------------------------------------------------- sections
+
+
+def _station(first: ArcSection, second: ArcSection) -> StationDifference:
+    sizes = (
+        _value(name, "mm", size_measured(name, first.sizes[name]), other)
+        for name in ARC_SIZES
+        for other in (size_measured(name, second.sizes[name]),)
+    )
+    return StationDifference(first.station.name, first.share, second.share, tuple(sizes))
+
+
+# ---------------------------------------------------------------- what is said and shown
+
+
+def _warnings(
+    first: Profiled, second: Profiled, measures: tuple[ValueDifference, ...]
+) -> tuple[Notice, ...]:
+    notices: list[Notice] = []
+    for last in (first, second):
+        alignment = last.aligned.alignment
+        notices += notices_about(alignment.info.path, alignment.warnings)
+        if not last.is_last:
+            words = "its shape is nearer to a foot's than to a last's: it is measured as a foot"
+            notices += notices_about(alignment.info.path, (Notice("looks_like_a_foot", words),))
+    heel = next((row for row in measures if row.name == "heel_height"), None)
+    more = None if heel is None else heel.difference.value
+    if more is not None and abs(more) > OTHER_HEEL_MM:
+        words = (
+            f"the heel of the second last is {plain(abs(more))} mm"
+            f" {'higher' if more > 0 else 'lower'}: behind the tread the surfaces show that too;"
+            " measures and sections go along the bottom"
+        )
+        notices.append(Notice("other_heel", words))
+    return tuple(dict.fromkeys(notices))
+
+
+def outside_words(difference: LastDifference) -> str:
+    """What is outside of its tolerance: "ball girth +3.1 mm (2.0)"."""
+    rows = [
+        f"{row.name.replace('_', ' ')} {signed(row.difference.value or 0.0)} mm"
+        f" (tolerance {plain(row.tolerance or 0.0)})"
+        for row in difference.outside
+    ]
+    return (
+        f"{len(rows)} of {len(difference.judged)} measures are outside of their tolerance:"
+        f" {', '.join(rows)}"
+    )
+
+
+def _drawn(
+    first: Profiled,
+    second: Profiled,
+    moved: Shape,
+    surface: SurfaceDifference,
+    pairs: list[tuple[ArcSection, ArcSection]],
+    transform: Floats,
+) -> Comparison:
+    """Both lasts as a page and pictures show a comparison: the first in the second."""
+    shape, info = first.aligned.prepared.shape, second.aligned.alignment.info
+    sections = tuple(_drawn_section(*pair, transform) for pair in pairs)
+    sizes = (size for size in COLOUR_STEPS_MM if 4.0 * size >= (surface.p95_mm or 0.0))
+    return Comparison(
+        foot=first,
+        last=last_record(second, LastLabels(info.path or "-")),
+        mirrored=first.aligned.alignment.side.side != second.aligned.alignment.side.side,
+        placement=Placement(np.zeros(2), 1.0),
+        vertices_mm=shape.vertices_mm,
+        faces=shape.faces,
+        last_vertices_mm=moved.vertices_mm,
+        last_faces=moved.faces,
+        clearance_mm=surface.at_first_mm,
+        zones=(),
+        sections=sections,
+        warnings=(),
+        toe_room=Measured(None, reason="two lasts are compared"),
+        step_mm=next(sizes, COLOUR_STEPS_MM[-1]),
+        is_difference=True,
+    )
+
+
+def _drawn_section(first: ArcSection, second: ArcSection, transform: Floats) -> SectionComparison:
+    """Both outlines in the plane of the first; each is cut at its own station."""
+    loops = tuple(
+        (moved_points(transform, places_in_space(second, loop)) - first.origin) @ first.axes.T
+        for loop in second.outline.loops
+    )
+    known = (
+        SizeDifference(row.name, row.first, row.second, row.difference)
+        for row in _station(first, second).sizes
+    )
+    return SectionComparison(
+        first.station.name, float(first.origin[0]), first.outline.loops, loops, tuple(known)
+    )
