@@ -22,9 +22,9 @@ from footfit.report.page.scene import (
     scene_of,
 )
 from footfit.report.pictures.heat import (
-    BREAKS_MM,
     COLOURS,
     NOT_COMPARED,
+    breaks_mm,
     heat_colours,
     rgb,
     step_words,
@@ -97,12 +97,12 @@ def test_the_data_of_the_view_are_in_the_order_of_their_names():
 def test_the_colours_of_the_view_are_the_legends():
     page = page_of(comparison())
     data = data_of(page)
-    assert tuple(data["breaks"]) == BREAKS_MM
+    assert tuple(data["breaks"]) == breaks_mm()
     assert tuple(data["colours"]) == COLOURS
     for step, colour in enumerate(COLOURS):
         assert f'fill="{colour}"' in page
         assert f">{step_words(step)}<" in page
-    assert len(set(COLOURS)) == len(BREAKS_MM) + 1
+    assert len(set(COLOURS)) == len(breaks_mm()) + 1
     middles = np.array([-9.0, -7, -5, -3, -1, 1, 3, 5, 7, 9])
     assert np.array_equal(heat_colours(middles), np.array([rgb(one) for one in COLOURS]))
     assert np.array_equal(heat_colours(np.array([np.nan])), [rgb(NOT_COMPARED)])

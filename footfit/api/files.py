@@ -19,7 +19,8 @@ MOST_LETTERS = 80
 
 
 def picture(result: Any, kind: str = "svg") -> bytes:
-    """A result of `align`, `flare`, `curvature`, `compare` or a calibration as "svg" or "png".
+    """A result of `align`, `flare`, `curvature`, `compare`, `compare_lasts` or a calibration as
+    "svg" or "png".
 
     Raises
     ------
@@ -45,6 +46,8 @@ def picture(result: Any, kind: str = "svg") -> bytes:
             figure = curvature_figure(result, canonical_view(result))
         case results.Comparison():
             figure = section_figure(result)
+        case results.LastDifference():
+            figure = section_figure(result.drawn)
         case results.Calibration():
             figure = ratings_figure(result)
         case _:
@@ -56,7 +59,8 @@ def mesh_file(result: Any, kind: str) -> bytes:
     """The mesh of a result as a file in mm: "stl", "ply", "obj" or "off".
 
     The result of `curvature` becomes a coloured "ply", or an "npz" with the values of every vertex.
-    The result of `compare` becomes a "ply" coloured by the clearance, or a picture of it.
+    The result of `compare` becomes a "ply" coloured by the clearance, or a picture of it; that of
+    `compare_lasts` is coloured by the difference.
 
     Raises
     ------
@@ -74,6 +78,7 @@ def mesh_file(result: Any, kind: str) -> bytes:
     kinds = {
         results.SurfaceCurvature: export.CURVATURE_KINDS,
         results.Comparison: HEAT_KINDS,
+        results.LastDifference: HEAT_KINDS,
     }
     export.require_kind(kind, kinds.get(type(result), export.MESH_KINDS))
     match result:
@@ -86,6 +91,8 @@ def mesh_file(result: Any, kind: str) -> bytes:
             return export.curvature_bytes(result, kind, colours)
         case results.Comparison():
             return heat_bytes(result, kind)
+        case results.LastDifference():
+            return heat_bytes(result.drawn, kind)
     raise BadOption(f"there is no mesh in a {type(result).__name__}")
 
 
@@ -102,7 +109,7 @@ def to_trimesh(result: results.Scan | results.AlignedScan | results.Profiled) ->
 
 
 def page(
-    result: results.Match | results.Comparison | Coverage,
+    result: results.Match | results.Comparison | results.LastDifference | Coverage,
     catalogue: FilePath | None = None,
     *,
     title: str = "",
@@ -123,12 +130,15 @@ def page(
     require_short(title=title, customer=customer)
     from footfit.pipeline import drawables
     from footfit.report.page.compare_page import compare_page
+    from footfit.report.page.difference_page import difference_page
     from footfit.report.page.match_page import match_page
 
     if isinstance(result, Coverage):
         from footfit.report.page.coverage_page import coverage_page
 
         return coverage_page(result)
+    if isinstance(result, results.LastDifference):
+        return difference_page(result, drawables.drawable(result.drawn))
     if isinstance(result, results.Comparison):
         return compare_page(drawables.drawable(result))
     if catalogue is None:

@@ -14,6 +14,7 @@ from footfit.report.terminal import (
     catalogue_tables,
     comparison_tables,
     coverage_tables,
+    difference_tables,
     evidence_tables,
     last_making_tables,
     match_tables,
@@ -110,6 +111,9 @@ FORMS: dict[type, Form] = {
             comparison.foot.aligned.alignment.info.path or STDIN,
             comparison.warnings,
         ),
+    ),
+    results.LastDifference: Form(
+        difference_tables.compare_lasts_table, lambda difference: (None, difference.warnings)
     ),
     results.IngestOutcome: Form(
         scan_tables.ingest_line,

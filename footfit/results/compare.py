@@ -138,8 +138,8 @@ class Comparison(Document):
     ``measured_clearance``, by measure, are those of a match.
     ``vertices_mm`` (n, 3) and ``faces`` (m, 3) are the foot in its place, ``clearance_mm`` (n,) its
     clearance at each vertex, NaN where no shoe covers the foot; ``last_vertices_mm`` and
-    ``last_faces`` are the last. ``mirrored``: the last is of the other side. ``step_mm`` is that of the
-    colours. ``is_difference``: two lasts are laid on each other, and nothing is tight.
+    ``last_faces`` are the last. ``mirrored``: the last is of the other side. ``step_mm`` is that
+    of the colours. ``is_difference``: two lasts are laid on each other, and nothing is tight.
     """
 
     foot: Profiled

@@ -37,7 +37,7 @@ class ArcSection:
     share : float
         Where it is along the bottom's arc, 0 heel and 1 toe.
     origin, axes : (3,), (2, 3)
-        A point of the plane, and unit vectors in it: across and up.
+        A point of the plane at the height of the bottom, and unit vectors in it: across and up.
     outline : Outline
         In the plane's axes, + across is medial.
     sizes : dict of str to MeasureValue
@@ -78,17 +78,25 @@ def arc_section(shape: Shape, station: Station) -> ArcSection:
 
 def _plane(shape: Shape, station: Station) -> tuple[Floats, Floats, float]:
     """A point of the plane, its axes, and where it is along the arc."""
-    arc, up = shape.bottom_arc, shape.upright
+    up = shape.upright
     if station.oblique and shape.joints is not None:
         outer, inner = shape.joints
         way = (inner - outer) - ((inner - outer) @ up) * up
-        origin = 0.5 * (outer + inner)
-        return origin, np.stack([way / np.linalg.norm(way), up]), shape.share_of(origin)
+        middle = 0.5 * (outer + inner)
+        share = shape.share_of(middle)
+        origin = middle + ((_under(shape, share) - middle) @ up) * up
+        return origin, np.stack([way / np.linalg.norm(way), up]), share
+    return _under(shape, station.share), np.stack([AXES[1], up]), station.share
+
+
+def _under(shape: Shape, share: float) -> Floats:
+    """The place (3,) on the middle of the bottom at a share of its arc."""
+    arc = shape.bottom_arc
     if arc is None:
-        return np.array([shape.x_mm(station.share), 0.0, 0.0]), AXES[1:], station.share
-    x, z = arc.line.at(np.array([station.share * arc.length_mm]))
+        return np.array([shape.x_mm(share), 0.0, 0.0])
+    x, z = arc.line.at(np.array([share * arc.length_mm]))
     standing = np.array([x[0], 0.0, z[0]]) - arc.stands[:3, 3]
-    return standing @ arc.stands[:3, :3], np.stack([AXES[1], up]), station.share
+    return np.asarray(standing @ arc.stands[:3, :3])
 
 
 def _sizes(shape: Shape, outline: Outline, station: Station) -> dict[str, MeasureValue]:

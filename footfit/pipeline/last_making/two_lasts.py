@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 
 import numpy as np
 
@@ -19,9 +20,13 @@ from footfit.geometry.fit.surface_difference import SurfaceDifference, surface_d
 from footfit.geometry.measures.landmarks import Shape
 from footfit.geometry.numeric.arrays import Floats
 from footfit.geometry.numeric.rotations import moved_points
+from footfit.geometry.stance.cues import NO_LABELS
 from footfit.number_words import plain, signed
 from footfit.pipeline.last_making.last_sections import size_measured
+from footfit.pipeline.scan.align import aligned_scan
+from footfit.pipeline.scan.flare import profiled_scan
 from footfit.pipeline.scan.measure import check_side, last_record
+from footfit.pipeline.scan.standing import last_stance
 from footfit.results import (
     Comparison,
     LastLabels,
@@ -45,6 +50,8 @@ COLOUR_STEPS_MM = (0.05, 0.1, 0.25, 0.5, 1.0, 2.0)
 """The finest step is taken whose colours reach as far as nearly all of the differences."""
 KINDS = ("girth", "length", "width", "height")
 MOST_TOLERANCE_MM = 50.0
+MOST_NAMED = 3
+"""So many measures are named in the error's line; the table has all."""
 
 
 def tolerances_of(text: str | None) -> Tolerances:
@@ -91,6 +98,9 @@ def last_difference(
     """
     for last in (first, second):
         check_side(last.aligned.alignment)
+    said = [_has_labels(last) for last in (first, second)]
+    if any(said) and not all(said):
+        first, second = _by_shape(first), _by_shape(second)
     here, there = first.aligned.prepared.shape, second.aligned.prepared.shape
     laid = laid_bottom(here, there)
     if laid.share < LAID.least:
@@ -110,9 +120,37 @@ def last_difference(
         surface=surface,
         sections=tuple(_station(*pair) for pair in pairs),
         resolution_mm=max(info.resolution_mm for info in infos),
-        warnings=_warnings(first, second, measures),
+        warnings=_warnings(first, second, measures, one_label=any(said) and not all(said)),
         drawn=_drawn(first, second, moved, surface, pairs, laid.transform),
     )
+
+
+# ---------------------------------------------------------------- how they stand
+
+
+def _has_labels(last: Profiled) -> bool:
+    """Whether a label says how the last stands."""
+    labels = last.aligned.prepared.shape.labels
+    return labels.heel_height_mm is not None or labels.toe_spring_mm is not None
+
+
+def _by_shape(last: Profiled) -> Profiled:
+    """The last as its shape stands, measured anew if a label said how it stands.
+
+    A label moves the ground, and with it each height and each upright plane. Two lasts are
+    compared by one rule.
+    """
+    if not _has_labels(last):
+        return last
+    prepared = last.aligned.prepared
+    shape = replace(prepared.shape, labels=NO_LABELS)
+    alone = replace(
+        prepared,
+        shape=shape,
+        stance=last_stance(shape),
+        standing_transform=shape.standing_transform,
+    )
+    return profiled_scan(aligned_scan(alone))
 
 
 # ---------------------------------------------------------------- measures
@@ -172,9 +210,19 @@ def _station(first: ArcSection, second: ArcSection) -> StationDifference:
 
 
 def _warnings(
-    first: Profiled, second: Profiled, measures: tuple[ValueDifference, ...]
+    first: Profiled,
+    second: Profiled,
+    measures: tuple[ValueDifference, ...],
+    *,
+    one_label: bool,
 ) -> tuple[Notice, ...]:
     notices: list[Notice] = []
+    if one_label:
+        words = (
+            "only one of the two has labels of its heel or its toe spring: both stand, and are"
+            " measured, as their shapes say"
+        )
+        notices.append(Notice("stance_by_shape", words))
     for last in (first, second):
         alignment = last.aligned.alignment
         notices += notices_about(alignment.info.path, alignment.warnings)
@@ -195,15 +243,22 @@ def _warnings(
 
 def outside_words(difference: LastDifference) -> str:
     """What is outside of its tolerance: "ball girth +3.1 mm (2.0)"."""
+    outside = sorted(difference.outside, key=_overrun, reverse=True)
     rows = [
         f"{row.name.replace('_', ' ')} {signed(row.difference.value or 0.0)} mm"
         f" (tolerance {plain(row.tolerance or 0.0)})"
-        for row in difference.outside
+        for row in outside[:MOST_NAMED]
     ]
+    most = "" if len(outside) <= MOST_NAMED else "most of all "
     return (
-        f"{len(rows)} of {len(difference.judged)} measures are outside of their tolerance:"
-        f" {', '.join(rows)}"
+        f"{len(outside)} of {len(difference.judged)} judged measures are outside of their"
+        f" tolerance: {most}{', '.join(rows)}"
     )
+
+
+def _overrun(row: ValueDifference) -> float:
+    """How many mm a measure is outside of its tolerance."""
+    return abs(row.difference.value or 0.0) - (row.tolerance or 0.0)
 
 
 def _drawn(

@@ -63,7 +63,7 @@
       facing = axes * normal; mm = clearance; judged = known;
       gl_Position = vec4(seen.xy * scale, -seen.z / 1000.0, 1.0);
     }`;
-  const STEPS = scene.breaks.map((mm, i) => `if (mm >= ${mm.toFixed(1)}) colour = vec3(${palette[i + 1].map((v) => v.toFixed(4))});`);
+  const STEPS = scene.breaks.map((mm, i) => `if (mm >= ${mm.toFixed(3)}) colour = vec3(${palette[i + 1].map((v) => v.toFixed(4))});`);
   const HEAT = `precision mediump float; varying vec3 facing; varying float mm, judged;
     void main() {
       vec3 colour = vec3(${palette[0].map((v) => v.toFixed(4))});

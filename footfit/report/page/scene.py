@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 
 from footfit.geometry.numeric.arrays import Floats, Ints
 from footfit.report.pictures.drawn_outlines import Mesh, is_left, own_side
-from footfit.report.pictures.heat import BREAKS_MM, COLOURS, NOT_COMPARED, SHADE, step_words
+from footfit.report.pictures.heat import COLOURS, NOT_COMPARED, SHADE, breaks_mm, step_words
 from footfit.report.pictures.shading import light_direction
 from footfit.results import Comparison
 
@@ -43,12 +43,14 @@ class Scene:
     """The 3D view of a page.
 
     ``data`` is what the script draws, as JSON; ``views`` are the buttons, each with azimuth and
-    elevation in degrees; ``steps`` are the legend's colours, each with its range in mm.
+    elevation in degrees; ``steps`` are the legend's colours, each with its range in mm; ``ends``
+    say what lies beyond the first and the last of them.
     """
 
     data: str
     views: tuple[tuple[str, str], ...]
     steps: tuple[tuple[str, str], ...]
+    ends: tuple[str, str]
 
 
 def scene_of(comparison: Comparison) -> Scene | None:
@@ -63,8 +65,12 @@ def scene_of(comparison: Comparison) -> Scene | None:
     if max(len(foot[0]), len(last[0])) > MOST_VERTICES:
         return None
     views = tuple((name, f"{a:g},{e:g}") for name, (a, e) in _views(comparison).items())
-    steps = tuple((colour, step_words(step)) for step, colour in enumerate(COLOURS))
-    return Scene(_scene_data(comparison, foot, last), views, steps)
+    step_mm, (first, second) = comparison.step_mm, comparison.nouns
+    steps = tuple((colour, step_words(step, step_mm)) for step, colour in enumerate(COLOURS))
+    ends = f"tight, mm: the {first} is larger", "loose, mm: space to spare"
+    if comparison.is_difference:
+        ends = f"mm: the {second} is smaller", f"mm: the {second} is larger"
+    return Scene(_scene_data(comparison, foot, last), views, steps, ends)
 
 
 def _views(comparison: Comparison) -> dict[str, tuple[float, float]]:
@@ -91,7 +97,7 @@ def _scene_data(comparison: Comparison, foot: Mesh, last: Mesh) -> str:
     scene = {
         "foot": packed_mesh(*foot) | {"clearance": packed_clearance(comparison.clearance_mm)},
         "last": packed_mesh(*last),
-        "breaks": BREAKS_MM,
+        "breaks": breaks_mm(comparison.step_mm),
         "colours": COLOURS,
         "grey": NOT_COMPARED,
         "light": [round(float(value), 3) for value in light_direction()],

@@ -10,8 +10,8 @@ import numpy as np
 
 from footfit.geometry.numeric.arrays import Floats
 
-BREAKS_MM = (-8.0, -6.0, -4.0, -2.0, 0.0, 2.0, 4.0, 6.0, 8.0)
-"""Where the colour changes; under the first and over the last all is one colour."""
+STEP_MM = 2.0
+"""How far apart the colours are, except where two nearly equal lasts are compared."""
 COLOURS = (
     "#67001f",
     "#b2182b",
@@ -42,7 +42,19 @@ def rgb(colour: str) -> Floats:
     return np.array([int(colour[k : k + 2], 16) for k in (1, 3, 5)]) / 255.0
 
 
-def heat_colours(clearance_mm: Floats) -> Floats:
+def breaks_mm(step_mm: float = STEP_MM) -> tuple[float, ...]:
+    """Where the colour changes; under the first and over the last all is one colour.
+
+    Examples
+    --------
+    >>> breaks_mm()
+    (-8.0, -6.0, -4.0, -2.0, 0.0, 2.0, 4.0, 6.0, 8.0)
+    """
+    half = len(COLOURS) // 2
+    return tuple(step_mm * place for place in range(1 - half, half))
+
+
+def heat_colours(clearance_mm: Floats, step_mm: float = STEP_MM) -> Floats:
     """The colour (n, 3) of each clearance (n,), 0-1; `NOT_COMPARED` of a NaN.
 
     Examples
@@ -52,22 +64,33 @@ def heat_colours(clearance_mm: Floats) -> Floats:
     True
     """
     table = np.array([rgb(colour) for colour in (*COLOURS, NOT_COMPARED)])
-    step = np.searchsorted(BREAKS_MM, clearance_mm, side="right")
+    step = np.searchsorted(breaks_mm(step_mm), clearance_mm, side="right")
     colours: Floats = table[np.where(np.isfinite(clearance_mm), step, len(COLOURS))]
     return colours
 
 
-def step_words(step: int) -> str:
+def break_words(value_mm: float) -> str:
+    """A place where the colour changes, in mm.
+
+    Examples
+    --------
+    >>> break_words(-8.0), break_words(0.0), break_words(0.75)
+    ('-8', '0', '+.75')
+    """
+    return f"{value_mm:+.3g}".replace("0.", ".") if value_mm else "0"
+
+
+def step_words(step: int, step_mm: float = STEP_MM) -> str:
     """A colour's range in mm.
 
     Examples
     --------
-    >>> step_words(0), step_words(4), step_words(9)
-    ('under -8', '-2 to 0', 'over +8')
+    >>> step_words(0), step_words(4), step_words(9), step_words(6, 0.25)
+    ('under -8', '-2 to 0', 'over +8', '+.25 to +.5')
     """
+    breaks = [break_words(value) for value in breaks_mm(step_mm)]
     if step == 0:
-        return f"under {BREAKS_MM[0]:+.0f}"
-    if step == len(BREAKS_MM):
-        return f"over {BREAKS_MM[-1]:+.0f}"
-    low, high = (f"{value:+.0f}" if value else "0" for value in BREAKS_MM[step - 1 : step + 1])
-    return f"{low} to {high}"
+        return f"under {breaks[0]}"
+    if step == len(breaks):
+        return f"over {breaks[-1]}"
+    return f"{breaks[step - 1]} to {breaks[step]}"

@@ -25,7 +25,15 @@ from footfit.report.pictures.figures import (
     show_image,
     write_title,
 )
-from footfit.report.pictures.heat import BREAKS_MM, COLOURS, NOT_COMPARED, SHADE, heat_colours
+from footfit.report.pictures.heat import (
+    COLOURS,
+    NOT_COMPARED,
+    SHADE,
+    STEP_MM,
+    break_words,
+    breaks_mm,
+    heat_colours,
+)
 from footfit.report.wording.comparison_words import comparison_names
 
 if TYPE_CHECKING:
@@ -51,12 +59,15 @@ def heat_figure(comparison: Comparison, *, titled: bool = True) -> Figure:
         grid = figure.add_gridspec(2, 3, width_ratios=(1.0, 1.0, 0.16))
         for index, (title, view) in enumerate(_views(comparison).items()):
             axes = figure.add_subplot(grid[index // 2, index % 2])
-            _draw_panel(axes, meshes, shading.VIEWS[view], comparison.clearance_mm)
+            _draw_panel(axes, meshes, shading.VIEWS[view], comparison)
             axes.set_title(title)
-        _draw_legend(figure.add_subplot(grid[:, 2]))
+        _draw_legend(figure.add_subplot(grid[:, 2]), comparison)
         if titled:
             foot, last = comparison_names(comparison)
-            write_title(figure, f"{foot} in {last}: the clearance around the {comparison.nouns[0]}")
+            title = f"{foot} in {last}: the clearance around the {comparison.nouns[0]}"
+            if comparison.is_difference:
+                title = f"{last} minus {foot}: the difference of the surfaces"
+            write_title(figure, title)
     return figure
 
 
@@ -72,7 +83,7 @@ def heat_bytes(comparison: Comparison, kind: str) -> bytes:
         return picture_bytes(heat_figure(comparison), kind)
     (vertices, faces), _ = own_side(comparison)
     clearance = comparison.clearance_mm
-    colours = np.rint(255.0 * heat_colours(clearance)).astype(np.uint8)
+    colours = np.rint(255.0 * heat_colours(clearance, comparison.step_mm)).astype(np.uint8)
     return encoded_mesh(vertices, faces, "ply", {"room_mm": clearance, COLOUR: colours})
 
 
@@ -84,18 +95,27 @@ def _views(comparison: Comparison) -> dict[str, str]:
     return {title: named.get(view, view) for title, view in PANELS.items()}
 
 
-def _draw_panel(axes: Axes, meshes: tuple[Mesh, Mesh], view: Floats, clearance_mm: Floats) -> None:
+def _draw_panel(
+    axes: Axes, meshes: tuple[Mesh, Mesh], view: Floats, comparison: Comparison
+) -> None:
     (vertices, faces), last = meshes
     outline = _outline(last, view)
     low = vertices[vertices[:, 2] <= last[0][:, 2].max()]  # the leg needs no space in the picture
     frame = shading.frame_around(np.concatenate([outline, (low @ view.T)[:, :2]]))
-    show_image(axes, heat_image(vertices @ view.T, faces, clearance_mm, frame, COLUMNS), frame)
+    values = comparison.clearance_mm, comparison.step_mm
+    image = heat_image(vertices @ view.T, faces, values[0], frame, COLUMNS, values[1])
+    show_image(axes, image, frame)
     axes.plot(*ring(outline).T, color=INK, linewidth=1.0, linestyle=(0, (5, 2)))
     draw_scale_bar(axes, place=(0.02, 0.0))
 
 
 def heat_image(
-    projected: Floats, faces: Ints, clearance_mm: Floats, frame: shading.Frame, columns: int
+    projected: Floats,
+    faces: Ints,
+    clearance_mm: Floats,
+    frame: shading.Frame,
+    columns: int,
+    step_mm: float = STEP_MM,
 ) -> Floats:
     """An RGBA picture (rows, columns, 4), first row on top; each pixel has one of the colours.
 
@@ -107,13 +127,15 @@ def heat_image(
     clearance_mm : (n,)
     frame : Frame
     columns : int
+    step_mm : float
+        The step of the colours.
     """
     shape = (shading.rows_for(frame, columns), columns)
     seen = shading.seen_surface(projected, faces, frame, shape, culled=True)
     clearance = np.einsum("pj,pj->p", seen.weights, clearance_mm[seen.corners])
     light = 1.0 - SHADE * (1.0 - np.clip(seen.normals @ shading.light_direction(), 0.0, 1.0))
     picture = np.zeros((*shape, 4))
-    picture[seen.covered, :3] = heat_colours(clearance) * light[:, None]
+    picture[seen.covered, :3] = heat_colours(clearance, step_mm) * light[:, None]
     picture[seen.covered, 3] = 1.0
     return picture[::-1]
 
@@ -126,17 +148,20 @@ def _outline(last: Mesh, view: Floats) -> Floats:
     return np.asarray(points * signs, dtype=np.float64)
 
 
-def _draw_legend(axes: Axes) -> None:
+def _draw_legend(axes: Axes, comparison: Comparison) -> None:
     """The colours as boxes, with the mm at their edges."""
     for step, colour in enumerate(COLOURS):
         axes.bar(0.5, 1.0, width=1.0, bottom=step, color=colour, edgecolor="white", linewidth=0.6)
     axes.bar(0.5, 0.8, width=1.0, bottom=-1.4, color=NOT_COMPARED, edgecolor="white")
-    for edge, value in enumerate(BREAKS_MM, start=1):
-        axes.text(1.15, edge, f"{value:+.0f}" if value else "0", va="center", fontsize=8)
+    for edge, value in enumerate(breaks_mm(comparison.step_mm), start=1):
+        axes.text(1.15, edge, break_words(value), va="center", fontsize=8)
+    head, most, least = ("clearance, mm", "loose", "tight")
+    if comparison.is_difference:
+        head, most, least = ("difference, mm", "second larger", "second smaller")
     axes.text(1.15, -1.0, "not\ncompared", va="center", fontsize=7.5)
-    axes.text(0.0, len(COLOURS) + 0.25, "clearance, mm", fontsize=8.5, fontweight="bold")
-    axes.text(1.15, len(COLOURS) - 0.5, "loose", va="center", fontsize=8)
-    axes.text(1.15, 0.5, "tight", va="center", fontsize=8)
+    axes.text(0.0, len(COLOURS) + 0.25, head, fontsize=8.5, fontweight="bold")
+    axes.text(1.15, len(COLOURS) - 0.5, most, va="center", fontsize=8)
+    axes.text(1.15, 0.5, least, va="center", fontsize=8)
     axes.set_xlim(0.0, 3.6)
     axes.set_ylim(-1.6, len(COLOURS) + 1.0)
     axes.set_axis_off()

@@ -50,7 +50,7 @@ def section_figure(comparison: Comparison, across: int = ACROSS, *, titled: bool
         for at, row in enumerate(rows):
             for column, section in enumerate(row):
                 axes = figure.add_subplot(grid[at, column])
-                _draw_panel(axes, section, mirror, comparison.nouns, brief=brief)
+                _draw_panel(axes, section, mirror, comparison, brief=brief)
                 axes.set_xlim(-HALF_WIDTH_MM, HALF_WIDTH_MM)
                 axes.set_ylim(-UNDER_MM, tall[at] - UNDER_MM)
         draw_scale_bar(figure.axes[0], length_mm=20.0, place=(0.0, -0.02))
@@ -58,14 +58,15 @@ def section_figure(comparison: Comparison, across: int = ACROSS, *, titled: bool
         figure.legend(handles, labels, loc="outside lower center", ncols=2)
         if titled:
             foot, last = comparison_names(comparison)
-            write_title(figure, f"{foot} in {last}: sections from behind")
+            joint = "and" if comparison.is_difference else "in"
+            write_title(figure, f"{foot} {joint} {last}: sections from behind")
     return figure
 
 
 def _draw_panel(
-    axes: Axes, section: SectionComparison, mirror: float, nouns: tuple[str, str], *, brief: bool
+    axes: Axes, section: SectionComparison, mirror: float, comparison: Comparison, *, brief: bool
 ) -> None:
-    top = _top(section)
+    top, nouns = _top(section), comparison.nouns
     for index, loop in enumerate(section.foot_outline):
         across, up = (ring(loop) * [mirror, 1.0]).T
         label = nouns[0] if index == 0 else None
@@ -79,7 +80,7 @@ def _draw_panel(
     axes.set_title(f"{section.station.capitalize()}, {where}")
     axes.axhline(0.0, color=QUIET, linewidth=0.5, zorder=0)
     hide_axes(axes)
-    axes.set_xlabel(_words(section, nouns, brief=brief), fontsize=8)
+    axes.set_xlabel(_words(section, comparison, brief=brief), fontsize=8)
 
 
 def _top(section: SectionComparison) -> float:
@@ -88,7 +89,7 @@ def _top(section: SectionComparison) -> float:
     return max((float(loop[:, 1].max()) for loop in loops), default=0.0) + SHOWN_OVER_MM
 
 
-def _words(section: SectionComparison, nouns: tuple[str, str], *, brief: bool) -> str:
+def _words(section: SectionComparison, comparison: Comparison, *, brief: bool) -> str:
     """The differences that are known: "last minus foot: width +3.2, height +4.4 mm"."""
     known = [
         f"{size.name} {signed(size.difference.value)}"
@@ -97,4 +98,5 @@ def _words(section: SectionComparison, nouns: tuple[str, str], *, brief: bool) -
     ]
     if not known:
         return "not measurable here"
-    return "\n".join(known) if brief else f"{nouns[1]} minus {nouns[0]}: {', '.join(known)} mm"
+    first, second = ("first", "second") if comparison.is_difference else comparison.nouns
+    return "\n".join(known) if brief else f"{second} minus {first}: {', '.join(known)} mm"

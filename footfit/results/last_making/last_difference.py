@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
-from footfit.results.values import Document, Json, Measured, Part, fields, part, rows
+from footfit.results.values import Document, Json, Measured, Part, fields, json_number, part, rows
 
 if TYPE_CHECKING:
     from footfit.geometry.fit.laid_bottoms import LaidBottom
@@ -178,7 +178,7 @@ class LastDifference(Document):
         for zone in self.surface.zones:
             for name in ("mean_mm", "p05_mm", "p95_mm"):
                 place = (*self.names, "surface", zone.zone, name.removesuffix("_mm"), "mm")
-                values.append((*place, None, None, getattr(zone, name), *[None] * 4))
+                values.append((*place, None, None, json_number(getattr(zone, name)), *[None] * 4))
         return rows(self.columns, values)
 
     def _row(self, kind: str, place: str, name: str, row: ValueDifference) -> tuple[object, ...]:
