@@ -10,13 +10,12 @@ if TYPE_CHECKING:
     from footfit.api.catalogues import Catalogue, match, open_catalogue
     from footfit.api.drawings import draw_last, drawing, drawing_file
     from footfit.api.files import mesh_file, page, picture, sheet, to_trimesh
-    from footfit.api.last_making import check_run
+    from footfit.api.last_making import check_run, compare_lasts
     from footfit.api.populations import coverage
     from footfit.api.scans import (
         align,
         cluster,
         compare,
-        compare_lasts,
         curvature,
         customers,
         flare,

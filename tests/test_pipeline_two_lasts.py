@@ -10,12 +10,9 @@ import pytest
 from scipy.spatial import ConvexHull
 
 import footfit as library
-from footfit.errors import BadOption
 from footfit.geometry.fit.clearance import ZONES, zone_of
 from footfit.geometry.mesh.sections import sections_across
 from footfit.meshes.read import file_mesh
-from footfit.pipeline.last_making.two_lasts import tolerances_of
-from footfit.results import Tolerances
 from tests.conftest import SAMPLES, Footfit
 from tests.distortions import decimated, mirrored, moved, random_pose, subdivided
 from tools.last_specs import LastSpec
@@ -51,7 +48,7 @@ def test_a_last_turned_and_moved_is_the_same_last(last, mesh):
     assert abs(found.surface.largest.value_mm) < 1e-4  # rounding at 300 mm from the origin
     assert most(found) < 1e-4
     assert not found.outside
-    assert len(found.judged) == 20
+    assert len(found.judged) == 26
     assert not found.mirrored
     assert all(abs(size.difference.value or 0.0) < 1e-4
                for section in found.sections for size in section.sizes)  # fmt: skip
@@ -156,12 +153,13 @@ def test_another_heel_is_said_and_the_treads_lie_on_each_other():
 # ---------------------------------------------------------------- tolerances
 
 
-def test_tolerances_are_by_kind_and_the_rest_keep_theirs():
-    assert tolerances_of(None) == Tolerances(2.0, 1.5, 1.0, None)
-    assert tolerances_of("girth=3,height=.5") == Tolerances(3.0, 1.5, 1.0, 0.5)
-    for text in ("girth", "girth=x", "girth=-1", "girth=nan", "waist=2", "girth=1,girth=2", ","):
-        with pytest.raises(BadOption):
-            tolerances_of(text)
+def test_what_has_a_tolerance(last):
+    found = library.compare_lasts(last, last, tolerance="girth=3,height=.5")
+    of = {row.name: row.tolerance for row in found.measures}
+    assert (of["ball_girth"], of["length"], of["ball_width"]) == (3.0, 1.5, 1.0)
+    assert (of["heel_height"], of["toe_spring_tip"]) == (0.5, 0.5)
+    assert [of[name] for name in ("tread_from", "seat_angle_deg", "flare_angle")] == [None] * 3
+    assert len(found.judged) == 26
 
 
 def test_a_stored_last_with_labels_and_its_file_agree(footfit: Footfit, stocked):
@@ -189,7 +187,7 @@ def test_the_command_ends_with_7_and_writes_what_it_found(footfit: Footfit, stoc
     found = done.lines[0]
     assert "ball_girth" not in found["outside"]
     assert {"ball_width", "heel_girth_instep"} <= set(found["outside"])
-    assert found["measures"]["heel_height"]["inside"] is None
+    assert found["measures"]["tread_from"]["inside"] is None
     assert found["tolerance_mm"]["width"] == 1.0
     page = out["html"].read_text(encoding="utf-8")
     assert "derby-41" in page

@@ -1,13 +1,14 @@
-"""Lasts made from lasts: whether a graded run keeps its increments."""
+"""Lasts made from lasts: whether a graded run keeps its increments, how two lasts differ."""
 
 from __future__ import annotations
 
 import os
 from pathlib import Path
-from typing import Any
+from typing import Any, Unpack
 
 from footfit import results
-from footfit.api.inputs import FilePath
+from footfit.api.inputs import FilePath, ReadingKeywords, Shape
+from footfit.api.scans import profiled_shape
 from footfit.errors import BadOption
 from footfit.pipeline.batch.runs import HERE
 from footfit.pipeline.batch.sources import is_no_path, mesh_sources
@@ -68,3 +69,35 @@ def check_run(
         by_name = () if not stored else run_lasts.named_lasts(Path(str(catalogue)), stored)
         lasts = (*by_name, *run_lasts.file_lasts(files, rows, jobs))
     return run_check(lasts, tolerance_mm, stated, family)
+
+
+def compare_lasts(
+    first: Shape,
+    second: Shape,
+    *,
+    tolerance: str | None = None,
+    **reading: Unpack[ReadingKeywords],
+) -> results.LastDifference:
+    """How a second last differs from a first one, laid on its bottom; see docs/compare-lasts.md.
+
+    Parameters
+    ----------
+    first, second : path, bytes, (vertices, faces), or what `align` or `flare` gave
+        `Catalogue.shape` gives a stored last. A last of the other side is mirrored.
+    tolerance : str, optional
+        In mm by kind of measure; without it "girth=2,length=1.5,width=1,height=1.5".
+    **reading
+        See `ReadingKeywords`; they count for both.
+
+    Raises
+    ------
+    BadOption
+        The tolerance is not understood.
+    InputError, GeometryRefused
+        As `flare`, for either; NoSole if their bottoms do not lie together.
+    """
+    from footfit.pipeline.last_making.tolerances import tolerances
+    from footfit.pipeline.last_making.two_lasts import last_difference
+
+    shapes = profiled_shape(first, reading), profiled_shape(second, reading)
+    return last_difference(*shapes, tolerances(tolerance))

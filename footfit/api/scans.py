@@ -28,14 +28,12 @@ from footfit.pipeline.customers.customer import Customer, pairs_by_name, pairs_i
 from footfit.results import (
     AlignedScan,
     Comparison,
-    LastDifference,
     MeasuredScan,
     Method,
     Profiled,
     Reference,
     Scan,
     SurfaceCurvature,
-    Tolerances,
 )
 
 T = TypeVar("T")
@@ -152,37 +150,6 @@ def compare(foot: Shape, last: Mesh, **reading: Unpack[CompareKeywords]) -> Comp
     around = scanned_last(source_of(last, {}), ReadingOptions(**stands))
     of_foot = {name: value for name, value in reading.items() if name not in stands}
     return compared(profiled_shape(foot, of_foot), around, heel_options(reading))
-
-
-def compare_lasts(
-    first: Shape,
-    second: Shape,
-    *,
-    tolerance: str | Tolerances | None = None,
-    **reading: Unpack[ReadingKeywords],
-) -> LastDifference:
-    """How a second last differs from a first one, laid on its bottom; see docs/compare-lasts.md.
-
-    Parameters
-    ----------
-    first, second : path, bytes, (vertices, faces), or what `align` or `flare` gave
-        `Catalogue.shape` gives a stored last. A last of the other side is mirrored.
-    tolerance : str or Tolerances, optional
-        Such as ``"girth=2,length=1.5,width=1"``, which are the tolerances without it; mm.
-    **reading
-        See `ReadingKeywords`; they count for both.
-
-    Raises
-    ------
-    BadOption
-        The tolerance is not understood.
-    InputError, GeometryRefused
-        As `flare`, for either; NoSole if their bottoms do not lie together.
-    """
-    from footfit.pipeline.last_making.two_lasts import last_difference, tolerances_of
-
-    judged = tolerance if isinstance(tolerance, Tolerances) else tolerances_of(tolerance)
-    return last_difference(profiled_shape(first, reading), profiled_shape(second, reading), judged)
 
 
 def sources(

@@ -43,7 +43,6 @@ from footfit.results.heel import HeelRule as HeelRule
 from footfit.results.last_making.drawing import Drawing as Drawing
 from footfit.results.last_making.grading_rule import GradingRule as GradingRule
 from footfit.results.last_making.last_difference import LastDifference as LastDifference
-from footfit.results.last_making.last_difference import Tolerances as Tolerances
 from footfit.results.last_making.run_check import RunCheck as RunCheck
 from footfit.results.last_making.run_check import RunLast as RunLast
 from footfit.results.last_making.run_check import RunLaw as RunLaw

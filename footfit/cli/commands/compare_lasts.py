@@ -12,8 +12,7 @@ def compare_lasts(
     second: str = options.argument("SECOND", "Give the other last, by its name or its mesh file."),
     tolerance: str | None = options.option(
         "--tolerance",
-        "Set how many mm the measures of a kind may differ: girth, length, width, height. Without "
-        "it girth=2,length=1.5,width=1 holds, and heights are not judged.",
+        "Allow so many mm by kind of measure. Else girth=2,length=1.5,width=1,height=1.5.",
         "KIND=MM,...",
         panel=options.ANSWER,
     ),
@@ -42,13 +41,14 @@ def compare_lasts(
 
     Example: footfit compare-lasts derby-42 returned.stl --tolerance girth=2,length=1.5,width=1
     """
-    from footfit.api import files, scans
+    from footfit.api import files, last_making
     from footfit.cli.answers import answer_result, sources_of
     from footfit.cli.outputs import OutputFile, Outputs
     from footfit.cli.progress import progress
     from footfit.errors import BadOption, CheckFailed
     from footfit.pipeline.export import PICTURE_KINDS
-    from footfit.pipeline.last_making.two_lasts import outside_words, tolerances_of
+    from footfit.pipeline.last_making.tolerances import tolerances
+    from footfit.pipeline.last_making.two_lasts import outside_words
     from footfit.report.pictures.heat_figure import HEAT_KINDS
     from footfit.results import LastDifference
 
@@ -59,7 +59,7 @@ def compare_lasts(
     )
     outputs = Outputs(written, LastDifference, csv, force)
     outputs.refuse(as_json=mode.json)
-    judged = tolerances_of(tolerance)
+    tolerances(tolerance)  # what is mistyped is refused before any work
     if "-" in (first, second):
         raise BadOption("compare-lasts reads two lasts, and stdin holds one: give two files")
     pair = [sources_of([mesh], reading, lasts, quiet=mode.quiet) for mesh in (first, second)]
@@ -69,8 +69,8 @@ def compare_lasts(
     outputs.keep([pair[0][0], pair[1][0]])
     with progress(mode) as bar:
         bar.show()
-        difference = scans.compare_lasts(
-            pair[0][0], pair[1][0], tolerance=judged, **reading.keywords()
+        difference = last_making.compare_lasts(
+            pair[0][0], pair[1][0], tolerance=tolerance, **reading.keywords()
         )
     answer_result(difference, mode, outputs)
     if difference.outside:

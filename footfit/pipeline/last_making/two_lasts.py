@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping
 from dataclasses import replace
 
 import numpy as np
 
-from footfit.errors import BadOption, NoSole
+from footfit.errors import NoSole
 from footfit.geometry.fit.arc_sections import (
     ARC_SIZES,
     ArcSection,
@@ -23,6 +24,7 @@ from footfit.geometry.numeric.rotations import moved_points
 from footfit.geometry.stance.cues import NO_LABELS
 from footfit.number_words import plain, signed
 from footfit.pipeline.last_making.last_sections import size_measured
+from footfit.pipeline.last_making.tolerances import TOLERANCE_MM, kind_of
 from footfit.pipeline.scan.align import aligned_scan
 from footfit.pipeline.scan.flare import profiled_scan
 from footfit.pipeline.scan.measure import check_side, last_record
@@ -39,7 +41,6 @@ from footfit.results import (
 from footfit.results.last_making.last_difference import (
     LastDifference,
     StationDifference,
-    Tolerances,
     ValueDifference,
 )
 from footfit.results.values import notices_about
@@ -48,44 +49,14 @@ OTHER_HEEL_MM = 3.0
 """With heels so different, the bottoms lie on each other at the tread alone."""
 COLOUR_STEPS_MM = (0.05, 0.1, 0.25, 0.5, 1.0, 2.0)
 """The finest step is taken whose colours reach as far as nearly all of the differences."""
-KINDS = ("girth", "length", "width", "height")
-MOST_TOLERANCE_MM = 50.0
+NOT_JUDGED = ("tread_from", "tread_to")
+"""Where the tread begins and ends is no length, and a second scan differs by 2 mm."""
 MOST_NAMED = 3
 """So many measures are named in the error's line; the table has all."""
 
 
-def tolerances_of(text: str | None) -> Tolerances:
-    """The tolerances in ``girth=2,length=1.5``; a kind that is not named keeps its own.
-
-    Raises
-    ------
-    BadOption
-        A kind is unknown or stands twice, or its number is not from 0 to 50.
-
-    Examples
-    --------
-    >>> tolerances_of("girth=3, height=1")
-    Tolerances(girth=3.0, length=1.5, width=1.0, height=1.0)
-    """
-    given: dict[str, float] = {}
-    for word in (text or "").split(",") if (text or "").strip() else ():
-        kind, _, number = (piece.strip() for piece in word.partition("="))
-        if kind not in KINDS or kind in given:
-            twice = "stands twice" if kind in given else "is not known"
-            words = f"--tolerance: the kind {kind!a} {twice}; give {', '.join(KINDS)} in mm"
-            raise BadOption(f"{words}, such as girth=2,length=1.5")
-        try:
-            given[kind] = float(number)
-        except ValueError:
-            given[kind] = math.nan
-        if not 0.0 <= given[kind] <= MOST_TOLERANCE_MM:
-            words = f"--tolerance: {kind} takes a number from 0 to {MOST_TOLERANCE_MM:.0f} mm"
-            raise BadOption(f"{words}, not {number!a}")
-    return Tolerances(**given)
-
-
 def last_difference(
-    first: Profiled, second: Profiled, tolerances: Tolerances | None = None
+    first: Profiled, second: Profiled, tolerance_mm: Mapping[str, float] = TOLERANCE_MM
 ) -> LastDifference:
     """Lay a second last on the bottom of a first one, and say how it differs.
 
@@ -108,14 +79,14 @@ def last_difference(
     moved = Shape(moved_points(laid.transform, there.vertices_mm), there.faces, there.kind)
     surface = surface_difference(here, moved)
     pairs = list(zip(named_arc_sections(here), named_arc_sections(there), strict=True))
-    measures = _measures(first, second, tolerances or Tolerances())
+    measures = _measures(first, second, tolerance_mm)
     infos = [last.aligned.alignment.info for last in (first, second)]
     return LastDifference(
         first=first,
         second=second,
         mirrored=first.aligned.alignment.side.side != second.aligned.alignment.side.side,
         laid=laid,
-        tolerances=tolerances or Tolerances(),
+        tolerance_mm=tolerance_mm,
         measures=measures,
         surface=surface,
         sections=tuple(_station(*pair) for pair in pairs),
@@ -157,10 +128,12 @@ def _by_shape(last: Profiled) -> Profiled:
 
 
 def _measures(
-    first: Profiled, second: Profiled, tolerances: Tolerances
+    first: Profiled, second: Profiled, tolerance_mm: Mapping[str, float]
 ) -> tuple[ValueDifference, ...]:
     """Every measure that one of the two has, and the flare angle."""
     theirs = {measure.name: measure.measured for measure in second.measures}
+    angles = (measure.name for measure in first.measures if measure.name.endswith("_deg"))
+    unjudged = {*NOT_JUDGED, *angles}
     missing = Measured(None, reason="the other one is measured as a foot")
     rows = [
         _value(
@@ -168,7 +141,7 @@ def _measures(
             "deg" if measure.name.endswith("_deg") else "mm",
             measure.measured,
             theirs.get(measure.name, missing),
-            tolerances.of(measure.name),
+            None if measure.name in unjudged else tolerance_mm[kind_of(measure.name)],
         )
         for measure in first.measures
     ]

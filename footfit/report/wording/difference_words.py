@@ -26,12 +26,7 @@ def last_names(difference: LastDifference) -> tuple[str, str]:
 def verdict_words(difference: LastDifference) -> str:
     """Whether the lasts agree within the tolerances."""
     judged, outside = difference.judged, difference.outside
-    kinds = {"girth": 0, "length": 0, "width": 0, "height": 0}
-    limits = ", ".join(
-        f"{kind} {plain(mm)}"
-        for kind in kinds
-        if (mm := getattr(difference.tolerances, kind)) is not None
-    )
+    limits = ", ".join(f"{kind} {plain(mm)}" for kind, mm in difference.tolerance_mm.items())
     if not judged:
         return "no measure can be judged"
     words = "all" if not outside else f"{len(judged) - len(outside)} of"

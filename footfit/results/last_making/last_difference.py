@@ -8,6 +8,8 @@ from typing import TYPE_CHECKING
 from footfit.results.values import Document, Json, Measured, Part, fields, json_number, part, rows
 
 if TYPE_CHECKING:
+    from collections.abc import Mapping
+
     from footfit.geometry.fit.laid_bottoms import LaidBottom
     from footfit.geometry.fit.surface_difference import SurfaceDifference
     from footfit.results.compare import Comparison
@@ -15,34 +17,9 @@ if TYPE_CHECKING:
     from footfit.results.values import Notice
 
 TOLERANCE_SOURCE = (
-    "makers, as a last is delivered: girth 2, length 1.5, width 1 mm (second hand); a standard of"
-    " 2014 allows 3 mm of girth"
+    "makers, for a last as it is delivered: girth 2, length 1.5, width 1 mm (second hand; a"
+    " standard of 2014 allows 3 mm of girth); height 1.5 mm is footfit's own"
 )
-
-
-@dataclass(frozen=True, slots=True)
-class Tolerances(Part):
-    """How far the measures of two lasts may differ, in mm, by their kind; None is not judged."""
-
-    girth: float | None = 2.0
-    length: float | None = 1.5
-    width: float | None = 1.0
-    height: float | None = None
-
-    def of(self, measure: str) -> float | None:
-        """The tolerance of a measure.
-
-        Examples
-        --------
-        >>> tolerances = Tolerances()
-        >>> [tolerances.of(name) for name in ("heel_girth_instep", "length", "ball_width")]
-        [2.0, 1.5, 1.0]
-        >>> tolerances.of("toe_spring_tip"), tolerances.of("seat_angle_deg")
-        (None, None)
-        """
-        kinds = {name: getattr(self, name) for name in ("girth", "length", "width", "height")}
-        kinds["spring"] = self.height
-        return next((mm for kind, mm in kinds.items() if kind in measure), None)
 
 
 @dataclass(frozen=True, slots=True)
@@ -103,14 +80,15 @@ class LastDifference(Document):
     """How a second last differs from a first one on whose bottom it is laid.
 
     ``resolution_mm`` is the step of the coarser file, or what a stored copy lies from its scan;
-    smaller differences of the surfaces say nothing. ``drawn`` are both as pictures show them.
+    smaller differences of the surfaces say nothing. ``tolerance_mm`` is by kind of measure.
+    ``drawn`` are both as pictures show them.
     """
 
     first: Profiled
     second: Profiled
     mirrored: bool
     laid: LaidBottom
-    tolerances: Tolerances
+    tolerance_mm: Mapping[str, float]
     measures: tuple[ValueDifference, ...]
     surface: SurfaceDifference
     sections: tuple[StationDifference, ...]
@@ -147,7 +125,7 @@ class LastDifference(Document):
             "second": _last_part(self.second),
             "mirrored": self.mirrored,
             "laid": part(fields(self.laid)),
-            "tolerance_mm": self.tolerances,
+            "tolerance_mm": part(self.tolerance_mm),
             "tolerance_source": TOLERANCE_SOURCE,
             "inside": not self.outside,
             "outside": [row.name for row in self.outside],
