@@ -26,7 +26,7 @@ from footfit.errors import (
     UnreadableFile,
 )
 from footfit.meshes.write import encoded_mesh
-from tests import packed, shapes
+from tests import packed, rhino_models, shapes
 
 VERTICES, FACES = shapes.ellipsoid((125.0, 50.0, 35.0), subdivisions=2)
 
@@ -313,6 +313,11 @@ BAD = [
     Bad("matrix-huge.glb", lambda: packed.glb_with("nodes", 0, scale=[1e300] * 3), DamagedMesh),
     Bad("index-past.glb", lambda: packed.glb(content=b"\xff" * 3864), DamagedMesh),
     Bad("nan.glb", lambda: packed.glb(content=packed.body()[:-4] + b"\0\0\xc0\x7f"), DamagedMesh),
+    Bad("cut-off.3dm", lambda: rhino_models.model()[:-90], DamagedMesh),
+    Bad("head-alone.3dm", lambda: b"3D Geometry File Format       80", DamagedMesh),
+    Bad("flipped.3dm", lambda: _flipped(rhino_models.model()), DamagedMesh),
+    Bad("hidden.3dm", lambda: rhino_models.hidden_model(), EmptyMesh),
+    Bad("leagues.3dm", lambda: rhino_models.model(unit="LightYears"), UnknownFormat),
     Bad("cut-off.3mf", lambda: packed.threemf()[:-90], DamagedMesh),
     Bad("flipped.3mf", lambda: _flipped(packed.threemf()), DamagedMesh),
     Bad("half-xml.3mf", lambda: packed.threemf(packed.model()[:-300]), DamagedMesh),
@@ -419,6 +424,8 @@ ODD = {
     "placed.glb": lambda: packed.glb(_placed),
     "with-picture.glb": lambda: packed.glb(_pictured),
     "trailing.glb": lambda: packed.glb() + b"made by a scanner",
+    "plain.3dm": rhino_models.model,
+    "inches.3dm": lambda: rhino_models.model(rhino_models.mesh(VERTICES / 25.4), unit="Inches"),
     "plain.3mf": packed.threemf,
     "inches.3mf": lambda: packed.threemf(packed.model(VERTICES / 25.4, unit='unit="inch"')),
     "microns.3mf": lambda: packed.threemf(packed.model(VERTICES * 1000.0, unit='unit="micron"')),

@@ -108,6 +108,21 @@ def model(*geometries: Any, unit: str = "Millimeters") -> bytes:
     return made.data()
 
 
+def triangles_of(data: bytes) -> np.ndarray:
+    """The corners (m, 3, 3) of the only mesh of a ``.3dm`` in millimetres."""
+    file = rhino3dm.File3dm.FromByteArray(data)
+    assert file.Settings.ModelUnitSystem == rhino3dm.UnitSystem.Millimeters
+    (thing,) = file.Objects
+    points = np.array([(p.X, p.Y, p.Z) for p in thing.Geometry.Vertices.ToPoint3dArray()])
+    faces = [thing.Geometry.Faces[index][:3] for index in range(len(thing.Geometry.Faces))]
+    return points[np.array(faces)]
+
+
+def hidden_model() -> bytes:
+    """A ``.3dm`` whose only mesh is hidden."""
+    return Model().add(mesh(), visible=False).data()
+
+
 def main() -> None:
     with np.load(io.BytesIO(sys.stdin.buffer.read())) as arrays:
         patches = [(arrays[f"v{k}"], arrays[f"f{k}"]) for k in range(len(arrays.files) // 2)]

@@ -76,7 +76,7 @@ def test_what_is_hidden_is_left_out_and_counted():
 
 def test_a_model_in_which_all_is_hidden_is_empty():
     with pytest.raises(EmptyMesh, match="1 objects are hidden"):
-        read(rhino.Model().add(rhino.mesh(), visible=False).data())
+        read(rhino.hidden_model())
 
 
 def test_blocks_in_blocks_stand_where_they_were_put():

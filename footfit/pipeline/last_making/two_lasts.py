@@ -211,7 +211,8 @@ def _warnings(
             " measures and sections go along the bottom"
         )
         notices.append(Notice("other_heel", words))
-    return tuple(dict.fromkeys(notices))
+    unique = {(notice.path, notice.code, notice.message): notice for notice in notices}
+    return tuple(unique.values())
 
 
 def outside_words(difference: LastDifference) -> str:
