@@ -27,6 +27,8 @@ NOT_HERE = {
 """Folders that only the wheel has, and a name to fill in."""
 OF_TOOLS = {"--count", "--fit", "--only", "--scale", "--seed", "--write"}
 """Options of benchmarks, ``tests.torture`` and ``tools.fuzz``."""
+OF_DASK = {"--protocol", "--tls-ca-file", "--tls-cert", "--tls-key"}
+"""Options of Dask's own programs."""
 SCRIPTS = {
     title: "\n".join(re.findall(r"```sh\n(.*?)```", text, re.S))
     for title, text in BLOCKS
@@ -104,7 +106,7 @@ def test_every_file_and_folder_that_a_page_names_is_there() -> None:
 
 
 def test_every_option_that_a_page_names_is_one_of_a_command() -> None:
-    known = {*OF_TOOLS, "--version"}
+    known = {*OF_TOOLS, *OF_DASK, "--version"}
     group = get_command(application())
     for name, _, _ in COMMANDS:
         known.update(o for p in group.get_command(None, name).params for o in p.opts)
