@@ -27,7 +27,7 @@ NOT_HERE = {
 """Folders that only the wheel has, and a name to fill in."""
 OF_TOOLS = {"--count", "--fit", "--only", "--scale", "--seed", "--write"}
 """Options of benchmarks, ``tests.torture`` and ``tools.fuzz``."""
-OF_DASK = {"--protocol", "--tls-ca-file", "--tls-cert", "--tls-key"}
+OF_DASK = {"--nthreads", "--port", "--protocol", "--tls-ca-file", "--tls-cert", "--tls-key"}
 """Options of Dask's own programs."""
 SCRIPTS = {
     title: "\n".join(re.findall(r"```sh\n(.*?)```", text, re.S))
