@@ -251,6 +251,10 @@ class NewerCatalogue(CatalogueUnusable):
     """A newer version of footfit wrote the file."""
 
 
+class CatalogueUnreachable(CatalogueUnusable):
+    """The server of a shared catalogue does not answer, or it refuses the user."""
+
+
 class ClusterUnusable(CatalogueUnusable):
     """The scheduler of a cluster does not answer, or its workers cannot be used."""
 

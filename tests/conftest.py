@@ -6,13 +6,15 @@ import json
 import os
 import shutil
 import sys
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
 import pytest
 from hypothesis import settings
+
+from tests.servers import PASSWORD, Server, started_server
 
 settings.register_profile("ci", derandomize=True)
 """CI draws the same examples every time; elsewhere each run of property tests draws new ones."""
@@ -97,6 +99,23 @@ def stocked(tmp_path_factory: pytest.TempPathFactory) -> Path:
 def catalogue(stocked: Path, tmp_path: Path) -> Path:
     """A copy of the stocked catalogue, to write to."""
     return Path(shutil.copy(stocked, tmp_path / "lasts.footfit"))
+
+
+@pytest.fixture(scope="session")
+def server() -> Iterator[Server]:
+    """A PostgreSQL server of the tests' own; libpq finds its password in the environment."""
+    pytest.importorskip("psycopg", reason="psycopg is not installed: footfit[postgres]")
+    with started_server() as started, pytest.MonkeyPatch.context() as patch:
+        patch.setenv("PGPASSWORD", PASSWORD)
+        yield started
+
+
+@pytest.fixture(params=["file", "server"])
+def location(request: pytest.FixtureRequest, tmp_path: Path) -> str:
+    """Where a catalogue is to be: a file, then a database of a server."""
+    if request.param == "file":
+        return str(tmp_path / "lasts.footfit")
+    return str(request.getfixturevalue("server").database())
 
 
 @pytest.fixture(scope="session")

@@ -21,9 +21,9 @@ NFC, NFD = "René-40", unicodedata.normalize("NFD", "René-40")
 
 
 @pytest.fixture
-def catalogue_of_names(tmp_path: Path) -> Iterator[Catalogue]:
+def catalogue_of_names(location: str) -> Iterator[Catalogue]:
     """A catalogue open for writing, with names of several kinds."""
-    with open_catalogue(tmp_path / "lasts.footfit", write=True) as opened:
+    with open_catalogue(location, write=True) as opened:
         for seed, name in enumerate(("derby-40", NFC, "Straße", "İstanbul")):
             opened.add(records.last(name, seed), records.mesh_copy(seed))
         yield opened

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import sqlite3
 from collections.abc import Iterator
-from contextlib import closing
+from contextlib import closing, contextmanager
 from dataclasses import replace
 from pathlib import Path
 
@@ -32,13 +32,27 @@ def path(tmp_path: Path) -> Path:
     return tmp_path / "lasts.footfit"
 
 
-@pytest.fixture
-def catalogue(path: Path) -> Iterator[Catalogue]:
+@contextmanager
+def four_lasts(place: str | Path) -> Iterator[Catalogue]:
     """A catalogue open for writing, with four lasts of both sides."""
-    with open_catalogue(path, write=True) as opened:
+    with open_catalogue(place, write=True) as opened:
         for seed in range(4):
             side = SIDES[seed % 2]
             opened.add(records.last(f"last-{seed}", seed, side=side), records.mesh_copy(seed))
+        yield opened
+
+
+@pytest.fixture
+def catalogue(location: str) -> Iterator[Catalogue]:
+    """A catalogue of four lasts, in a file and then on a server."""
+    with four_lasts(location) as opened:
+        yield opened
+
+
+@pytest.fixture
+def in_file(path: Path) -> Iterator[Catalogue]:
+    """A catalogue of four lasts in a file."""
+    with four_lasts(path) as opened:
         yield opened
 
 
@@ -101,8 +115,8 @@ def test_what_cannot_be_measured_comes_back_so(catalogue: Catalogue) -> None:
     assert catalogue.findings() == []
 
 
-def test_the_first_last_is_the_reference(path: Path) -> None:
-    with open_catalogue(path, write=True) as opened:
+def test_the_first_last_is_the_reference(location: str) -> None:
+    with open_catalogue(location, write=True) as opened:
         assert opened.reference() is None
         opened.add(records.last("first", 7))
         opened.add(records.last("second", 8))
@@ -141,9 +155,7 @@ def test_set_reference_expresses_every_last_by_it(catalogue: Catalogue, name: st
     assert catalogue.findings() == []
 
 
-def test_a_new_last_is_expressed_by_the_reference_that_is_set(
-    catalogue: Catalogue, path: Path
-) -> None:
+def test_a_new_last_is_expressed_by_the_reference_that_is_set(catalogue: Catalogue) -> None:
     catalogue.add(records.last("late", 9))
     once = catalogue.record("late").paper_transform
     reference = catalogue.reference()
@@ -239,8 +251,8 @@ def test_replacing_the_reference_expresses_all_by_the_new_scan(catalogue: Catalo
 
 
 @pytest.mark.parametrize("damaged", [False, True])
-def test_the_only_last_is_removed_with_its_reference(path: Path, damaged: bool) -> None:
-    with open_catalogue(path, write=True) as opened:
+def test_the_only_last_is_removed_with_its_reference(location: str, damaged: bool) -> None:
+    with open_catalogue(location, write=True) as opened:
         opened.add(records.last("only", 1), records.mesh_copy(1))
         if damaged:
             with opened.file.atomic() as connection:
@@ -343,11 +355,11 @@ def test_a_mesh_that_was_not_stored_is_said(catalogue: Catalogue) -> None:
         catalogue.mesh_copy("bare")
 
 
-def test_facts_count_what_is_there(catalogue: Catalogue, path: Path) -> None:
+def test_facts_count_what_is_there(catalogue: Catalogue, location: str) -> None:
     catalogue.add(records.last("bare", 9, style=None))
     facts = catalogue.summary()
-    assert facts.path == str(path)
-    assert facts.bytes == path.stat().st_size
+    assert facts.path == location
+    assert facts.bytes == catalogue.file.size_bytes
     assert (facts.lasts, facts.reference, facts.schema_revision) == (
         5,
         "last-0",
@@ -361,20 +373,20 @@ def test_facts_count_what_is_there(catalogue: Catalogue, path: Path) -> None:
 
 
 def test_facts_count_the_rows_of_every_table_also_of_a_strange_one(
-    catalogue: Catalogue, path: Path
+    in_file: Catalogue, path: Path
 ) -> None:
     tables = {table.name for table in METADATA.sorted_tables}
-    kept = dict(catalogue.summary().kept)
+    kept = dict(in_file.summary().kept)
     assert set(kept) == tables
     assert (kept["last"], kept["reference"], kept["mesh_copy"]) == (4, 1, 4)
     with closing(sqlite3.connect(path)) as connection:
         connection.execute('CREATE TABLE "customer""s feet" (name TEXT)')
         connection.execute("""INSERT INTO "customer""s feet" VALUES ('somebody')""")
         connection.commit()
-    assert dict(catalogue.summary().kept)['customer"s feet'] == 1
+    assert dict(in_file.summary().kept)['customer"s feet'] == 1
 
 
-def test_no_folder_and_no_user_is_in_the_file(catalogue: Catalogue, path: Path) -> None:
+def test_no_folder_and_no_user_is_in_the_file(in_file: Catalogue, path: Path) -> None:
     assert b"somebody" not in path.read_bytes()
 
 

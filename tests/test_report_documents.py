@@ -24,6 +24,7 @@ from footfit.report.json import json_line
 from footfit.results import (
     BackupOutcome,
     CheckOutcome,
+    CopyOutcome,
     DemoOutcome,
     Drawing,
     EditOutcome,
@@ -96,6 +97,7 @@ def every_document():
         upgrade,
         CheckOutcome("a.footfit", 12, 12, (FINDING,)),
         BackupOutcome("a.footfit", "b.footfit", 9, 12),
+        CopyOutcome("a.footfit", "b.footfit", 12, 3),
         RestoreOutcome("a.footfit", "b.footfit", 12, None),
         people.small_answer(),
         LASTS_CHECK,

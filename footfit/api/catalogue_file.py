@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 from footfit import results
 from footfit.api.inputs import FilePath
 from footfit.catalogue import store
+from footfit.locations import Location, LocationName, location_of
 from footfit.pipeline.batch.runs import HERE
 from footfit.pipeline.library import backup, check
 from footfit.results.population.checked_lasts import LastsCheck
@@ -19,7 +20,7 @@ if TYPE_CHECKING:
 class CatalogueFile:
     """A catalogue's file. ``_chosen`` keeps the lasts that were read, until one is changed."""
 
-    def __init__(self, path: Path) -> None:
+    def __init__(self, path: Location) -> None:
         self.path = path
         self._chosen: dict[tuple[str | None, str | None], Shelf] = {}
 
@@ -50,6 +51,18 @@ class CatalogueFile:
         """Make the catalogue what a backup is; raises UnreadableFile, CheckFailed or BadOption."""
         self._chosen.clear()
         return backup.restore(self.path, Path(file))
+
+    def copy_to(self, target: LocationName) -> results.CopyOutcome:
+        """Copy the catalogue into a new or an empty one, of a file or a server, without loss.
+
+        Raises
+        ------
+        CheckFailed, BadOption
+            The catalogue is damaged; the target holds lasts.
+        """
+        from footfit.pipeline.library.whole_copy import copy_catalogue
+
+        return copy_catalogue(self.path, location_of(target))
 
     def upgrade(self, jobs: int = HERE) -> results.UpgradeOutcome:
         """Bring an older catalogue to this version, and keep a copy of the old file."""

@@ -29,6 +29,7 @@ from footfit.api.wearers import FitLog
 from footfit.catalogue import store
 from footfit.catalogue.file.opening import FIRST_STEPS
 from footfit.errors import BadOption, NoReference
+from footfit.locations import LocationName, location_of
 from footfit.pipeline.batch.runs import HERE, Jobs, Outcome
 from footfit.pipeline.batch.sources import Source
 from footfit.pipeline.customers.customer import Customer, alone, one_pair
@@ -44,12 +45,15 @@ NO_LABELS = results.LastLabels("")
 """Nothing is said of a last: its name is that of its file."""
 
 
-def open_catalogue(path: FilePath) -> Catalogue:
-    """The catalogue of lasts in a file, for a ``with`` block. Only `Catalogue.ingest` makes one."""
-    return Catalogue(Path(path))
+def open_catalogue(path: LocationName) -> Catalogue:
+    """The catalogue of lasts in a file, or at the address of a server, for a ``with`` block.
+
+    Only `Catalogue.ingest` makes one.
+    """
+    return Catalogue(location_of(path))
 
 
-def match(feet: Feet, catalogue: FilePath, **question: Unpack[MatchKeywords]) -> results.Match:
+def match(feet: Feet, catalogue: LocationName, **question: Unpack[MatchKeywords]) -> results.Match:
     """The lasts of a catalogue that fit one foot, or the two feet of one customer.
 
     Raises

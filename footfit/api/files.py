@@ -3,12 +3,11 @@
 from __future__ import annotations
 
 from datetime import date
-from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from footfit import results
-from footfit.api.inputs import FilePath
 from footfit.errors import BadOption
+from footfit.locations import LocationName, location_of
 from footfit.results.population.coverage_answer import Coverage
 
 if TYPE_CHECKING:
@@ -110,7 +109,7 @@ def to_trimesh(result: results.Scan | results.AlignedScan | results.Profiled) ->
 
 def page(
     result: results.Match | results.Comparison | results.LastDifference | Coverage,
-    catalogue: FilePath | None = None,
+    catalogue: LocationName | None = None,
     *,
     title: str = "",
     customer: str = "",
@@ -143,7 +142,7 @@ def page(
         return compare_page(drawables.drawable(result))
     if catalogue is None:
         return match_page(result, title=title, customer=customer)
-    path = Path(catalogue)
+    path = location_of(catalogue)
     shapes = drawables.candidate_shapes(path, result)
     comparisons = drawables.best_comparisons(path, result)
     return match_page(result, shapes, comparisons, title=title, customer=customer)

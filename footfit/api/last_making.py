@@ -10,6 +10,7 @@ from footfit import results
 from footfit.api.inputs import FilePath, ReadingKeywords, Shape
 from footfit.api.scans import profiled_shape
 from footfit.errors import BadOption
+from footfit.locations import LocationName, location_of
 from footfit.pipeline.batch.runs import HERE
 from footfit.pipeline.batch.sources import is_no_path, mesh_sources
 
@@ -17,7 +18,7 @@ from footfit.pipeline.batch.sources import is_no_path, mesh_sources
 def check_run(
     run: FilePath | list[FilePath],
     *,
-    catalogue: FilePath | None = None,
+    catalogue: LocationName | None = None,
     manifest: FilePath | None = None,
     rule: str | None = None,
     tolerance: str | None = None,
@@ -62,11 +63,11 @@ def check_run(
     lasts: tuple[results.RunLast, ...] = ()
     family = None
     if catalogue is not None and len(names) == len(stored) == 1:
-        lasts = run_lasts.family_lasts(Path(catalogue), names[0])
+        lasts = run_lasts.family_lasts(location_of(catalogue), names[0])
         family = names[0] if lasts else None
     if not lasts:
         files = mesh_sources([name for name in names if name not in stored])
-        by_name = () if not stored else run_lasts.named_lasts(Path(str(catalogue)), stored)
+        by_name = () if catalogue is None else run_lasts.named_lasts(location_of(catalogue), stored)
         lasts = (*by_name, *run_lasts.file_lasts(files, rows, jobs))
     return run_check(lasts, tolerance_mm, stated, family)
 

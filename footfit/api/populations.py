@@ -21,6 +21,7 @@ from footfit.api.inputs import (
 )
 from footfit.api.scans import sources
 from footfit.errors import EmptyCatalogue, NoCandidate
+from footfit.locations import Location
 from footfit.pipeline.batch.runs import HERE, Jobs
 from footfit.results.population.coverage_answer import Coverage
 
@@ -132,7 +133,7 @@ class CoverageAsker:
         return coverage_run.coverage(people, lasts, Asking(self.profile, heel_options(asked), worn))
 
 
-def coverage_asker(path: Path, asked: Any) -> CoverageAsker:
+def coverage_asker(path: Location, asked: Any) -> CoverageAsker:
     """A question to the lasts of a catalogue, which are read now; one without a last serves nobody.
 
     Raises

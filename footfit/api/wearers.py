@@ -11,6 +11,7 @@ from footfit.api.inputs import FilePath, RecordKeywords, Shape, heel_options, wo
 from footfit.api.scans import profiled_shape
 from footfit.catalogue import store
 from footfit.errors import BadOption
+from footfit.locations import Location
 
 if TYPE_CHECKING:
     from footfit.pipeline.evidence.recording import Said
@@ -20,7 +21,7 @@ if TYPE_CHECKING:
 class FitLog:
     """The fit log of the catalogue in a file."""
 
-    path: Path
+    path: Location
 
     def record(
         self,

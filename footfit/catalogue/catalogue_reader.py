@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-import sqlite3
 from dataclasses import dataclass
 from pathlib import Path
 
 from footfit.catalogue.blocks.block_reading import BlockLasts, block_lasts
 from footfit.catalogue.checks.damage import findings
 from footfit.catalogue.file.copying import copy_into
-from footfit.catalogue.file.engine import CatalogueFile, sqlite_errors_in_words
+from footfit.catalogue.file.dialect import Driver
+from footfit.catalogue.file.engine import sqlite_errors_in_words
 from footfit.catalogue.file.migrate import Revisions, Schema
 from footfit.catalogue.fit_log import FitLog
 from footfit.catalogue.rows.columns import (
@@ -31,7 +31,9 @@ from footfit.catalogue.rows.verified_rows import (
     last_names,
     sealed_row,
 )
-from footfit.errors import UnknownLast
+from footfit.catalogue.server.any_location import OpenLocation
+from footfit.catalogue.server.catalogue_server import NO_FILE, CatalogueServer
+from footfit.errors import BadOption, UnknownLast
 from footfit.results import (
     CatalogueFacts,
     Finding,
@@ -49,7 +51,7 @@ class CatalogueReader:
     (locked, damaged).
     """
 
-    file: CatalogueFile
+    file: OpenLocation
     revisions: Revisions
     schema: Schema
     busy_timeout_s: float
@@ -123,7 +125,7 @@ class CatalogueReader:
         with self.file.reading() as connection:
             return self.copy_of(connection, last_id(connection, name), name)
 
-    def copy_of(self, connection: sqlite3.Connection, key: int, name: str) -> MeshCopy:
+    def copy_of(self, connection: Driver, key: int, name: str) -> MeshCopy:
         """The mesh copy of the last of a key, inside a transaction; raises as `mesh_copy`."""
         copy = sealed_row(connection, MESH_COPY, key, f"the mesh of {name!r} is")
         if copy is None:
@@ -173,7 +175,7 @@ class CatalogueReader:
     def summary(self) -> CatalogueFacts:
         """What the catalogue is, and counts of what it holds."""
         with self.file.reading() as connection:
-            return summary(connection, self.file.path)
+            return summary(connection, self.file.path, self.file.size_bytes)
 
     def findings(self) -> list[Finding]:
         """Everything that is not as it was stored."""
@@ -188,5 +190,7 @@ class CatalogueReader:
         CatalogueDamaged, CatalogueNotWritable, CatalogueLocked
             The catalogue cannot be read, or the copy cannot be written.
         """
+        if isinstance(self.file, CatalogueServer):
+            raise BadOption(NO_FILE, str(self.file.path))
         with sqlite_errors_in_words(self.file.path):
             copy_into(self.file.path, target, self.busy_timeout_s)

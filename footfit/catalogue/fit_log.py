@@ -2,15 +2,15 @@
 
 from __future__ import annotations
 
-import sqlite3
 from dataclasses import dataclass
 
-from footfit.catalogue.file.engine import CatalogueFile
+from footfit.catalogue.file.dialect import Driver, driver_of
 from footfit.catalogue.rows.columns import FIT
 from footfit.catalogue.rows.digests import Row
 from footfit.catalogue.rows.records import fit_entry_of
 from footfit.catalogue.rows.verified_rows import row_digest, rows
-from footfit.catalogue.rows.writing import add_fit, delete_rows, driver_of
+from footfit.catalogue.rows.writing import add_fit, delete_rows
+from footfit.catalogue.server.any_location import OpenLocation
 from footfit.errors import CatalogueDamaged, UnknownFit
 from footfit.results import FitEntry, ForgetOutcome
 
@@ -19,7 +19,7 @@ from footfit.results import FitEntry, ForgetOutcome
 class FitLog:
     """The entries in a catalogue file. An entry outlives the last that it names."""
 
-    file: CatalogueFile
+    file: OpenLocation
 
     def entries(self) -> tuple[FitEntry, ...]:
         """Every entry, oldest first.
@@ -35,8 +35,8 @@ class FitLog:
     def counts(self) -> tuple[tuple[str, int], ...]:
         """How many entries each fit profile has, by its name."""
         with self.file.reading() as connection:
-            select = "SELECT profile, count(*) FROM fit GROUP BY profile ORDER BY profile"
-            return tuple((str(name), int(count)) for name, count in connection.execute(select))
+            counts = connection.execute("SELECT profile, count(*) FROM fit GROUP BY profile")
+            return tuple(sorted((str(name), int(count)) for name, count in counts))
 
     def add(self, entry: FitEntry) -> None:
         """Store an entry.
@@ -81,7 +81,7 @@ class FitLog:
         return row
 
 
-def _keys(connection: sqlite3.Connection, asked: str) -> list[int]:
+def _keys(connection: Driver, asked: str) -> list[int]:
     """The keys of the entries that have this code or id."""
     try:
         asked.encode()

@@ -5,13 +5,12 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass, replace
-from pathlib import Path
 
 from footfit.catalogue.blocks.block_writing import fill_blocks, refresh_blocks
 from footfit.catalogue.catalogue_reader import CatalogueReader
+from footfit.catalogue.file.dialect import driver_of
 from footfit.catalogue.file.engine import SETTINGS
 from footfit.catalogue.file.migrate import Schema
-from footfit.catalogue.file.opening import open_for_reading, open_for_writing
 from footfit.catalogue.rows.columns import (
     LAST,
     MESH_COPY,
@@ -37,7 +36,6 @@ from footfit.catalogue.rows.verified_rows import (
 )
 from footfit.catalogue.rows.writing import (
     delete_rows,
-    driver_of,
     rename_base,
     seal,
     update_row,
@@ -47,6 +45,12 @@ from footfit.catalogue.rows.writing import (
     write_parentage,
     write_sealed,
 )
+from footfit.catalogue.server.any_location import (
+    open_location_for_reading,
+    open_location_for_writing,
+)
+from footfit.catalogue.server.server_opening import Writing
+from footfit.locations import LocationName, location_of
 from footfit.results import (
     LastRecord,
     MeshCopy,
@@ -60,10 +64,11 @@ from footfit.results import (
 
 @contextmanager
 def open_catalogue(
-    path: str | Path,
+    path: LocationName,
     *,
     write: bool = False,
     create: bool = True,
+    upgrade: bool = False,
     older: bool = False,
     busy_timeout_s: float = SETTINGS.busy_timeout_s,
     schema: Schema | None = None,
@@ -73,7 +78,8 @@ def open_catalogue(
     Opened for reading, nothing is made or changed; ``older`` also accepts an older schema, which
     only :meth:`Catalogue.findings` and :meth:`Catalogue.copy_to` can read. Opened for writing, a
     missing catalogue is made in its folder, unless ``create`` is False, and an older one is
-    upgraded after a copy was put beside it (``Catalogue.revisions``).
+    upgraded after a copy was put beside it (``Catalogue.revisions``). One on a server is upgraded
+    only if ``upgrade`` allows it, because other people use it.
 
     Raises
     ------
@@ -84,13 +90,12 @@ def open_catalogue(
     NotACatalogue, NewerCatalogue, CatalogueDamaged, CatalogueLocked, CatalogueNotWritable
         The file is something else, from a later footfit, damaged, held or read-only.
     """
-    place, schema = Path(path), schema or Schema()
+    location, schema = location_of(path), schema or Schema()
     if write:
-        file, revisions = open_for_writing(
-            place, schema, busy_timeout_s, may_create=create, finish=fill_blocks
-        )
+        how = Writing(create, upgrade, fill_blocks)
+        file, revisions = open_location_for_writing(location, schema, busy_timeout_s, how)
     else:
-        file, revisions = open_for_reading(place, schema, busy_timeout_s, older=older)
+        file, revisions = open_location_for_reading(location, schema, busy_timeout_s, older=older)
     try:
         yield Catalogue(file, revisions, schema.up_to(revisions.after), busy_timeout_s)
     finally:

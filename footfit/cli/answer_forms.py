@@ -138,6 +138,7 @@ FORMS: dict[type, Form] = {
     results.UpgradeOutcome: Form(catalogue_tables.upgrade_catalogue_line),
     results.CheckOutcome: Form(catalogue_tables.check_catalogue_table),
     results.BackupOutcome: Form(catalogue_tables.backup_catalogue_line),
+    results.CopyOutcome: Form(catalogue_tables.copy_catalogue_line),
     results.RestoreOutcome: Form(catalogue_tables.restore_catalogue_table),
     results.RecordOutcome: Form(evidence_tables.record_fit_line),
     results.FitList: Form(evidence_tables.list_fits_table),

@@ -23,7 +23,8 @@ HEADINGS = {
     "What wearers say": "record-fit list-fits forget-fits",
     "The library of lasts": (
         "list-lasts show-last edit-last rename-last remove-last export-last catalogue-info"
-        " check-lasts check-catalogue backup-catalogue restore-catalogue upgrade-catalogue"
+        " check-lasts check-catalogue backup-catalogue restore-catalogue copy-catalogue"
+        " upgrade-catalogue"
     ),
 }
 """Every command below its heading in the help. Its file and its function have its name."""

@@ -17,6 +17,7 @@ if TYPE_CHECKING:
     from concurrent.futures import Executor
 
     from footfit.api.catalogues import Catalogue
+    from footfit.locations import Location
 
 UnitName = Literal["auto", "mm", "cm", "m", "in"]
 SideChoice = Literal["auto", "left", "right"]
@@ -122,14 +123,15 @@ CSV = output_file("--csv", "Write the answer as CSV; - writes it to stdout inste
 class Lasts:
     """The catalogue of lasts that a command uses."""
 
-    catalogue: Path | None = member(
+    catalogue: str | None = member(
         "--catalogue",
-        "Use this file. Else FOOTFIT_CATALOGUE, the settings file or your data folder.",
-        "PATH",
+        "Use this file, or the address of a server. Else FOOTFIT_CATALOGUE, the settings file or "
+        "your data folder.",
+        "PATH|ADDRESS",
         panel="Catalogue",
     )
 
-    def path(self) -> Path:
+    def path(self) -> Location:
         """Where the catalogue is, whether it exists or not."""
         from footfit.cli.settings import catalogue_path
 
@@ -341,11 +343,9 @@ class Crew:
 
     jobs: int = member_of(JOBS)
     scheduler: str | None = member(
-        "--scheduler",
-        "Work on the Dask cluster of this scheduler. The scans travel to its workers.",
-        "tcp://HOST:PORT",
-        panel=READING,
-    )
+        "--scheduler", "Work on this scheduler's Dask cluster. The scans travel to its workers.",
+        "tcp://HOST:PORT", panel=READING,
+    )  # fmt: skip
 
     @contextmanager
     def at_work(self) -> Iterator[int | Executor]:

@@ -5,7 +5,8 @@ from __future__ import annotations
 import os
 from pathlib import Path
 
-from footfit.errors import BadOption, BadProfile
+from footfit.errors import BadOption, BadProfile, errors_at
+from footfit.locations import Location, location_of
 
 ENVIRONMENT_NAME = "FOOTFIT_CATALOGUE"
 SETTINGS_NAME = "settings.toml"
@@ -20,7 +21,7 @@ def settings_path() -> Path:
     return Path(platformdirs.user_config_dir("footfit", appauthor=False)) / SETTINGS_NAME
 
 
-def settings_catalogue(path: Path) -> Path | None:
+def settings_catalogue(path: Path) -> Location | None:
     """The ``catalogue = "..."`` line of the settings file, relative to its folder.
 
     Raises
@@ -55,7 +56,9 @@ def settings_catalogue(path: Path) -> Path | None:
         raise BadOption('needs a line like: catalogue = "lasts.footfit"', str(path))
     if not value.isprintable():  # as in "C:\temp"
         raise BadOption(f"has a control character in the path; {SLASHES}", str(path))
-    return path.parent / _expanded(value, str(path))
+    with errors_at(str(path)):
+        given = location_of(value)
+    return path.parent / _expanded(value, str(path)) if isinstance(given, Path) else given
 
 
 def _expanded(text: str, origin: str) -> Path:
@@ -73,19 +76,20 @@ def _expanded(text: str, origin: str) -> Path:
         raise BadOption(words, origin) from error
 
 
-def catalogue_path(option: Path | None) -> Path:
+def catalogue_path(option: str | None) -> Location:
     """The catalogue to use, by the order of docs/command-line.md.
 
     Raises
     ------
     BadOption
-        The settings file is not valid.
+        The settings file, or the address of a server, is not valid.
     """
     if option is not None:
-        return option
+        return location_of(option)
     named = os.environ.get(ENVIRONMENT_NAME)
     if named:
-        return _expanded(named, ENVIRONMENT_NAME)
+        given = location_of(named)
+        return _expanded(named, ENVIRONMENT_NAME) if isinstance(given, Path) else given
     from_settings = settings_catalogue(settings_path())
     return data_folder() / CATALOGUE_NAME if from_settings is None else from_settings
 
@@ -97,8 +101,10 @@ def data_folder() -> Path:
     return Path(platformdirs.user_data_dir("footfit", appauthor=False))
 
 
-def make_folder_for(catalogue: Path, *, dry_run: bool = False) -> None:
+def make_folder_for(catalogue: Location, *, dry_run: bool = False) -> None:
     """Make the data folder for a catalogue that is to lie in it; no other folder is made.
+
+    A catalogue on a server needs none.
 
     A ``dry_run`` only refuses what could not be made.
 
@@ -112,6 +118,8 @@ def make_folder_for(catalogue: Path, *, dry_run: bool = False) -> None:
     from footfit.errors import CatalogueNotWritable
     from footfit.whole_files import require_folder
 
+    if not isinstance(catalogue, Path):
+        return
     if catalogue.parent == data_folder():
         if dry_run:
             return

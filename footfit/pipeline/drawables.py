@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from contextlib import suppress
 from dataclasses import replace
-from pathlib import Path
 
 import numpy as np
 
@@ -12,6 +11,7 @@ from footfit.catalogue.store import open_catalogue
 from footfit.errors import CatalogueDamaged, FootfitError, UnknownLast
 from footfit.geometry.mesh.nearest import nearest_on_surface
 from footfit.geometry.numeric.arrays import Floats, Ints
+from footfit.locations import Location
 from footfit.meshes.copies.compact_copy import expanded_mesh
 from footfit.meshes.copies.lighter import lighter_mesh
 from footfit.pipeline.fit.compare import best_comparison
@@ -24,7 +24,7 @@ DRAWN_FACES = 10_000
 """The faces of each mesh on a page: it is 0.3 mm from the scan, and has a tenth of its bytes."""
 
 
-def candidate_shapes(path: Path, match: Match) -> dict[str, tuple[Floats, Ints]]:
+def candidate_shapes(path: Location, match: Match) -> dict[str, tuple[Floats, Ints]]:
     """The mesh copies of the best lasts by name, or of the nearest if no last fits.
 
     They are in mm in the canonical frame, each on its own side. A last without a sound copy is
@@ -44,7 +44,7 @@ def foot_meshes(match: Match) -> tuple[tuple[Floats, Ints], ...]:
     return tuple(lighter_mesh(scan.vertices_mm, scan.faces, DRAWN_FACES) for scan in scans)
 
 
-def best_comparisons(path: Path, match: Match) -> tuple[Comparison, ...]:
+def best_comparisons(path: Location, match: Match) -> tuple[Comparison, ...]:
     """Each foot of a match in the best last, with drawable meshes; a foot that cannot be placed
     in it is left out.
     """

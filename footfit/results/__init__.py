@@ -57,6 +57,7 @@ from footfit.results.last_stance import LastStance as LastStance
 from footfit.results.library import BackupOutcome as BackupOutcome
 from footfit.results.library import CatalogueFacts as CatalogueFacts
 from footfit.results.library import CheckOutcome as CheckOutcome
+from footfit.results.library import CopyOutcome as CopyOutcome
 from footfit.results.library import DemoOutcome as DemoOutcome
 from footfit.results.library import EditOutcome as EditOutcome
 from footfit.results.library import ExportOutcome as ExportOutcome

@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
-from pathlib import Path
 from typing import Any
 
 from footfit.errors import FootfitError
 from footfit.geometry.fit.sizes import label_number
+from footfit.locations import Location
 from footfit.results.alignment import Reference
 from footfit.results.last_record import LastRecord
 from footfit.results.meshes import MeshInfo
@@ -254,6 +254,18 @@ class RestoreOutcome(Document):
     schema = "restore-catalogue/1"
 
 
+@dataclass(frozen=True, slots=True)
+class CopyOutcome(Document):
+    """A catalogue copied into another one: how many lasts and entries of the fit log it holds."""
+
+    path: str
+    copy: str
+    lasts: int
+    fits: int
+
+    schema = "copy-catalogue/1"
+
+
 SORTS: Mapping[str, Callable[[LastRecord], float | str | None]] = {
     "name": lambda record: record.labels.name.casefold(),
     "size": lambda record: (label_number(record.labels.size) or (None,))[0],
@@ -285,7 +297,7 @@ class Library(Document):
     reference: str | None
     rejected: tuple[tuple[str, int], ...] = ()
     warnings: tuple[Notice, ...] = ()
-    file: Path | None = None
+    file: Location | None = None
     sort: str = "name"
     filters: tuple[tuple[str, str], ...] = ()
     out_of_stock: tuple[LastRecord, ...] = ()

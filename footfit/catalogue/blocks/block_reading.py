@@ -6,12 +6,10 @@ the lasts of any other block are read from their rows.
 
 from __future__ import annotations
 
-import sqlite3
 import struct
 from collections.abc import Iterable, Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass, field, replace
-from pathlib import Path
 
 import numpy as np
 
@@ -26,10 +24,9 @@ from footfit.catalogue.blocks.block_bytes import (
 )
 from footfit.catalogue.blocks.record_columns import Kept, columns_of
 from footfit.catalogue.blocks.same_lasts import same_lasts
-from footfit.catalogue.file.descriptors import DESCRIPTORS
+from footfit.catalogue.file.dialect import Driver
 from footfit.catalogue.file.engine import SETTINGS
 from footfit.catalogue.file.migrate import Schema
-from footfit.catalogue.file.opening import open_for_reading
 from footfit.catalogue.rows.columns import SECTION
 from footfit.catalogue.rows.records import record_of, sections_of
 from footfit.catalogue.rows.verified_rows import (
@@ -39,7 +36,9 @@ from footfit.catalogue.rows.verified_rows import (
     shown_name,
     stored_lasts,
 )
+from footfit.catalogue.server.any_location import open_location_for_reading, stamp_of
 from footfit.geometry.numeric.arrays import Bools, Ints
+from footfit.locations import Location
 from footfit.results import LastRecord
 from footfit.results.columns.last_columns import (
     NOT_KEPT,
@@ -88,7 +87,7 @@ class BlockLasts:
     out because their rows are damaged, and ``bad`` the blocks that are not what was stored.
     """
 
-    path: Path
+    path: Location
     stamp: bytes
     base: LastColumns
     blocks: Ints
@@ -151,9 +150,7 @@ class BlockLasts:
 
     # ------------------------------------------------------------ reading
 
-    def _read(
-        self, connection: sqlite3.Connection, first: int, last: int, parts: Sequence[str]
-    ) -> LastColumns:
+    def _read(self, connection: Driver, first: int, last: int, parts: Sequence[str]) -> LastColumns:
         """The lasts of some neighbouring blocks."""
         ordered = [part for part in PARTS if part in parts]
         of_parts = [self._data(connection, part, first, last) for part in ordered]
@@ -168,9 +165,7 @@ class BlockLasts:
             found.append(lasts)
         return joined(found)
 
-    def _data(
-        self, connection: sqlite3.Connection, part: str, first: int, last: int
-    ) -> list[bytes]:
+    def _data(self, connection: Driver, part: str, first: int, last: int) -> list[bytes]:
         """One part of some neighbouring blocks, verified."""
         blocks = self.blocks[first:last].tolist()
         if all((part, block) in self._kept for block in blocks):
@@ -188,7 +183,7 @@ class BlockLasts:
             self._kept |= {(part, block): found[block] for block in blocks}
         return [found[block] for block in blocks]
 
-    def _shown(self, connection: sqlite3.Connection, row: int, mine: LastColumns) -> ShownLast:
+    def _shown(self, connection: Driver, row: int, mine: LastColumns) -> ShownLast:
         """The record of a last; ``mine`` is what its block says of it."""
         (key,) = mine.keys.tolist()
         stored = stored_lasts(connection, key)
@@ -208,11 +203,11 @@ class BlockLasts:
         return ShownLast(record, spoilt=kept == SPOILT and not known)
 
     @contextmanager
-    def _snapshot(self, parts: Sequence[str]) -> Iterator[sqlite3.Connection]:
+    def _snapshot(self, parts: Sequence[str]) -> Iterator[Driver]:
         """The catalogue as it was when the lasts were read."""
         for part in parts:
             self._asked[part] = self._asked.get(part, 0) + 1
-        file, _ = open_for_reading(self.path, Schema(), SETTINGS.busy_timeout_s)
+        file, _ = open_location_for_reading(self.path, Schema(), SETTINGS.busy_timeout_s)
         try:
             with file.reading() as connection:
                 if stamp_of(connection, self.path) != self.stamp:
@@ -225,19 +220,13 @@ class BlockLasts:
 STORED = "block, layout, data, hash"
 
 
-def stamp_of(connection: sqlite3.Connection, path: Path) -> bytes:
-    """A mark of the file that every commit changes; taken inside a transaction."""
-    connection.execute("SELECT count(*) FROM alembic_version").fetchone()  # begins to read
-    return DESCRIPTORS.first_bytes(path, 28)[24:]
-
-
 def is_sound(layout: object, data: object, digest: object) -> bool:
     """Whether a part is what this footfit stored."""
     return layout == LAYOUT and isinstance(data, bytes) and digest == checksum(data)
 
 
 def block_lasts(
-    connection: sqlite3.Connection, path: Path, untrusted: frozenset[int] = frozenset()
+    connection: Driver, path: Location, untrusted: frozenset[int] = frozenset()
 ) -> BlockLasts:
     """The lasts of a catalogue, inside a transaction; blocks in ``untrusted`` are not used."""
     stamp = stamp_of(connection, path)
@@ -272,7 +261,7 @@ def block_lasts(
 
 
 def _beside_blocks(
-    connection: sqlite3.Connection, found: dict[int, LastColumns], bad: set[int]
+    connection: Driver, found: dict[int, LastColumns], bad: set[int]
 ) -> list[LastRows]:
     """The rows of the lasts that no block has. A block that has other lasts than there are rows
     is taken from ``found``.
@@ -291,7 +280,7 @@ def _bare(lasts: LastColumns) -> LastColumns:
 
 
 def columns_of_rows(
-    connection: sqlite3.Connection, lasts: Sequence[LastRows], words: Vocabulary
+    connection: Driver, lasts: Sequence[LastRows], words: Vocabulary
 ) -> LastColumns:
     """Lasts whose rows are intact, by column, with all columns."""
     read = [last_of_rows(connection, stored) for stored in lasts]
@@ -304,7 +293,7 @@ def columns_of_rows(
     )
 
 
-def last_of_rows(connection: sqlite3.Connection, stored: LastRows) -> tuple[LastRecord, Kept]:
+def last_of_rows(connection: Driver, stored: LastRows) -> tuple[LastRecord, Kept]:
     """The record and the kept sections of a last whose rows are intact."""
     select = "SELECT id, name FROM last NOT INDEXED WHERE id = ?"
     parents = connection.execute(select, (stored.last.get("parent_id"),)).fetchall()

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import sqlite3
 import struct
 from collections.abc import Collection, Iterable
 
@@ -21,6 +20,7 @@ from footfit.catalogue.blocks.block_bytes import (
 )
 from footfit.catalogue.blocks.block_reading import columns_of_rows, is_sound
 from footfit.catalogue.blocks.same_lasts import same_lasts
+from footfit.catalogue.file.dialect import Driver
 from footfit.catalogue.rows.verified_rows import stored_lasts
 from footfit.results.columns.last_columns import LastColumns, joined
 from footfit.results.columns.vocabulary import Vocabulary
@@ -28,7 +28,7 @@ from footfit.results.columns.vocabulary import Vocabulary
 BLOCKS_ANEW = "type: footfit upgrade-catalogue, which makes it anew"
 
 
-def refresh_blocks(connection: sqlite3.Connection, keys: Iterable[int]) -> None:
+def refresh_blocks(connection: Driver, keys: Iterable[int]) -> None:
     """Write the blocks of lasts that were added, changed or removed, from their rows.
 
     The other lasts of a block stay as they are in it; if the block is not what was stored, all of
@@ -39,7 +39,7 @@ def refresh_blocks(connection: sqlite3.Connection, keys: Iterable[int]) -> None:
         _write(connection, block, _renewed(connection, block, changed))
 
 
-def fill_blocks(connection: sqlite3.Connection) -> int:
+def fill_blocks(connection: Driver) -> int:
     """Write every block that is missing or not what was stored; return how many."""
     wrong = wrong_blocks(connection)
     for block in wrong:
@@ -47,7 +47,7 @@ def fill_blocks(connection: sqlite3.Connection) -> int:
     return len(wrong)
 
 
-def wrong_blocks(connection: sqlite3.Connection) -> list[int]:
+def wrong_blocks(connection: Driver) -> list[int]:
     """The blocks that are missing, or do not say what their rows say."""
     keys = [key for (key,) in connection.execute("SELECT id FROM last NOT INDEXED")]
     stored = {block for (block,) in connection.execute("SELECT DISTINCT block FROM search_block")}
@@ -55,7 +55,7 @@ def wrong_blocks(connection: sqlite3.Connection) -> list[int]:
     return [block for block in blocks if not agrees(connection, block)]
 
 
-def agrees(connection: sqlite3.Connection, block: int) -> bool:
+def agrees(connection: Driver, block: int) -> bool:
     """Whether a block is what its rows say; of toes within rounding, which differs by machine.
 
     A last whose rows are damaged may be in it or not.
@@ -72,7 +72,7 @@ def agrees(connection: sqlite3.Connection, block: int) -> bool:
     return same_lasts(stored.taken(intact), rows_say)
 
 
-def _sound_parts(connection: sqlite3.Connection, block: int) -> dict[str, bytes]:
+def _sound_parts(connection: Driver, block: int) -> dict[str, bytes]:
     """The parts of a block that are what was stored, by name."""
     select = "SELECT part, layout, data, hash FROM search_block WHERE block = ?"
     return {
@@ -82,14 +82,14 @@ def _sound_parts(connection: sqlite3.Connection, block: int) -> dict[str, bytes]
     }
 
 
-def _keys(connection: sqlite3.Connection, block: int) -> list[int]:
+def _keys(connection: Driver, block: int) -> list[int]:
     """The keys of the lasts of a block, in order."""
     first = block * BLOCK_LASTS
     select = "SELECT id FROM last NOT INDEXED WHERE id BETWEEN ? AND ? ORDER BY id"
     return [key for (key,) in connection.execute(select, (first, first + BLOCK_LASTS - 1))]
 
 
-def _renewed(connection: sqlite3.Connection, block: int, changed: Collection[int]) -> LastColumns:
+def _renewed(connection: Driver, block: int, changed: Collection[int]) -> LastColumns:
     """The lasts of a block, with those that changed from their rows."""
     words, keys = Vocabulary(), _keys(connection, block)
     old = _whole(_sound_parts(connection, block), words)
@@ -115,13 +115,13 @@ def _whole(parts: dict[str, bytes], words: Vocabulary) -> LastColumns | None:
     return lasts
 
 
-def _of_rows(connection: sqlite3.Connection, keys: Iterable[int], words: Vocabulary) -> LastColumns:
+def _of_rows(connection: Driver, keys: Iterable[int], words: Vocabulary) -> LastColumns:
     """Lasts from their rows, without those whose rows are damaged."""
     lasts = [stored for key in keys for stored in stored_lasts(connection, key)]
     return columns_of_rows(connection, [stored for stored in lasts if stored.intact], words)
 
 
-def _write(connection: sqlite3.Connection, block: int, lasts: LastColumns) -> None:
+def _write(connection: Driver, block: int, lasts: LastColumns) -> None:
     connection.execute("DELETE FROM search_block WHERE block = ?", (block,))
     if not len(lasts):
         return

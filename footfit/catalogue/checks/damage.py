@@ -11,9 +11,10 @@ import numpy as np
 from footfit.catalogue.blocks.block_writing import BLOCKS_ANEW, wrong_blocks
 from footfit.catalogue.checks.plausible_values import implausible, implausible_values
 from footfit.catalogue.checks.schema_comparison import expected_objects, stored_objects
+from footfit.catalogue.file.dialect import Driver, ServerConnection, column_names, table_names
 from footfit.catalogue.file.migrate import Schema
 from footfit.catalogue.rows.array_blobs import array_of, definition_text
-from footfit.catalogue.rows.columns import FIT, REFERENCE, SEALED
+from footfit.catalogue.rows.columns import FIT, REFERENCE, SEALED, SEARCH_BLOCK, TABLES
 from footfit.catalogue.rows.reference_last import stored_reference, transform_by
 from footfit.catalogue.rows.verified_rows import (
     LastRows,
@@ -31,16 +32,18 @@ from footfit.results import Finding
 TRANSFORM_TOLERANCE = 1e-9
 """Relative: on another machine, the last bits of a computed paper transform may differ."""
 
-Check = Callable[[sqlite3.Connection], Iterator[Finding]]
+Check = Callable[[Driver], Iterator[Finding]]
 
 
-def findings(connection: sqlite3.Connection, schema: Schema) -> list[Finding]:
+def findings(connection: Driver, schema: Schema) -> list[Finding]:
     """What all checks report; empty for a sound catalogue whose tables are those of ``schema``.
 
     If SQLite cannot carry out a check, because a page is unreadable, that is a finding too.
     """
     reports: list[Finding] = []
-    checks: tuple[Check, ...] = (partial(_objects, schema=schema), *CHECKS)
+    checks: tuple[Check, ...] = (partial(_objects, schema=schema), *OF_FILES, *CHECKS)
+    if isinstance(connection, ServerConnection):  # the server looks after its own files
+        checks = (_columns, *CHECKS)
     for check in checks:
         try:
             reports.extend(check(connection))
@@ -51,7 +54,7 @@ def findings(connection: sqlite3.Connection, schema: Schema) -> list[Finding]:
     return reports
 
 
-def _marks(connection: sqlite3.Connection) -> Iterator[Finding]:
+def _marks(connection: Driver) -> Iterator[Finding]:
     (mirror,) = connection.execute("PRAGMA user_version").fetchone()
     (revision,) = connection.execute("SELECT version_num FROM alembic_version").fetchone()
     if mirror != int(revision):
@@ -64,14 +67,15 @@ def _marks(connection: sqlite3.Connection) -> Iterator[Finding]:
         yield Finding("journal_mode", words, damage=False)
 
 
-def _pages(connection: sqlite3.Connection) -> Iterator[Finding]:
+def _pages(connection: Driver) -> Iterator[Finding]:
     for (line,) in connection.execute("PRAGMA integrity_check"):
         if line != "ok":
             yield Finding("integrity", " ".join(str(line).split()))
 
 
-def _objects(connection: sqlite3.Connection, schema: Schema) -> Iterator[Finding]:
+def _objects(connection: Driver, schema: Schema) -> Iterator[Finding]:
     """Compare tables, indexes and triggers: their text lies in the file too, and is obeyed."""
+    assert isinstance(connection, sqlite3.Connection)
     stored, expected = stored_objects(connection), expected_objects(schema)
     for key in sorted(stored.keys() | expected.keys()):
         kind, name = key
@@ -83,12 +87,22 @@ def _objects(connection: sqlite3.Connection, schema: Schema) -> Iterator[Finding
             yield Finding("schema", f"the {kind} {name} is not as footfit made it")
 
 
-def _keys(connection: sqlite3.Connection) -> Iterator[Finding]:
+def _columns(connection: Driver) -> Iterator[Finding]:
+    """Compare the tables and columns on a server with the table of columns."""
+    there = column_names(connection)
+    for table in TABLES:
+        names = {column.name for column in table.columns}
+        for name in sorted(names ^ there.get(table.name, set())):
+            known = "is missing" if name in names else "is not footfit's"
+            yield Finding("schema", f"the column {name} of the table {table.name} {known}")
+
+
+def _keys(connection: Driver) -> Iterator[Finding]:
     for table, rowid, parent, _ in connection.execute("PRAGMA foreign_key_check"):
         yield Finding("foreign_key", f"row {rowid} of {table} belongs to no row of {parent}")
 
 
-def _lasts(connection: sqlite3.Connection) -> Iterator[Finding]:
+def _lasts(connection: Driver) -> Iterator[Finding]:
     for stored in stored_lasts(connection):
         if not stored.intact:
             yield Finding(
@@ -101,7 +115,7 @@ def _lasts(connection: sqlite3.Connection) -> Iterator[Finding]:
             yield Finding("range", words, stored.name)
 
 
-def _definitions(connection: sqlite3.Connection) -> Iterator[Finding]:
+def _definitions(connection: Driver) -> Iterator[Finding]:
     """A profile of another definition is not damaged, but it cannot be ranked."""
     current = definition_text(FlareDefinition())
     for stored in stored_lasts(connection):
@@ -111,10 +125,10 @@ def _definitions(connection: sqlite3.Connection) -> Iterator[Finding]:
             yield Finding("definition", words, stored.name, damage=False)
 
 
-def _sealed_rows(connection: sqlite3.Connection) -> Iterator[Finding]:
+def _sealed_rows(connection: Driver) -> Iterator[Finding]:
     """What ranking does not read, and what has a hash of its own for that."""
     names = last_names(connection)
-    there = {name for (name,) in connection.execute("SELECT name FROM sqlite_master")}
+    there = table_names(connection)
     for table in SEALED:
         if table.name not in there:  # an older schema has none; the schema's check names others
             continue
@@ -128,9 +142,9 @@ def _sealed_rows(connection: sqlite3.Connection) -> Iterator[Finding]:
                 yield Finding("range", words, name)
 
 
-def _blocks(connection: sqlite3.Connection) -> Iterator[Finding]:
+def _blocks(connection: Driver) -> Iterator[Finding]:
     """The search blocks against the rows that they are made of; an older schema has none."""
-    if not connection.execute("SELECT 1 FROM sqlite_master WHERE name = 'search_block'").fetchone():
+    if SEARCH_BLOCK.name not in table_names(connection):
         return
     try:
         wrong = wrong_blocks(connection)
@@ -141,9 +155,9 @@ def _blocks(connection: sqlite3.Connection) -> Iterator[Finding]:
         yield Finding("search_block", words)
 
 
-def _fits(connection: sqlite3.Connection) -> Iterator[Finding]:
+def _fits(connection: Driver) -> Iterator[Finding]:
     """The entries of the fit log; an older schema has none."""
-    if not connection.execute("SELECT 1 FROM sqlite_master WHERE name = 'fit'").fetchone():
+    if FIT.name not in table_names(connection):
         return
     for row in rows(connection, FIT):
         if row.get("sha256") != row_digest(FIT, row):
@@ -155,7 +169,7 @@ def _fits(connection: sqlite3.Connection) -> Iterator[Finding]:
             yield Finding("range", words)
 
 
-def _reference(connection: sqlite3.Connection) -> Iterator[Finding]:
+def _reference(connection: Driver) -> Iterator[Finding]:
     reference, lasts = stored_reference(connection), stored_lasts(connection)
     if reference is None:
         if lasts:
@@ -179,10 +193,9 @@ def _agrees(stored: LastRows, expected: Floats) -> bool:
     return bool(error <= TRANSFORM_TOLERANCE * np.abs(expected).max())
 
 
+OF_FILES: tuple[Check, ...] = (_marks, _pages, _keys)
+"""What SQLite does not keep sound by itself, before the other checks."""
 CHECKS: tuple[Check, ...] = (
-    _marks,
-    _pages,
-    _keys,
     _lasts,
     _definitions,
     _sealed_rows,
@@ -190,4 +203,4 @@ CHECKS: tuple[Check, ...] = (
     _fits,
     _reference,
 )
-"""All checks but the one of the schema, in the order of their findings."""
+"""The checks of what is stored, in the order of their findings."""

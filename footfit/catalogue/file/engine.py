@@ -177,6 +177,11 @@ class CatalogueFile:
     connection: sqlite3.Connection
     writable: bool
 
+    @property
+    def size_bytes(self) -> int:
+        """How large the file is."""
+        return self.path.stat().st_size
+
     @cached_property
     def _engine(self) -> Engine:
         return engine_on(self.connection)

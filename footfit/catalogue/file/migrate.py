@@ -10,15 +10,17 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from footfit.catalogue.file.copying import copy_into, partial_beside
+from footfit.catalogue.file.dialect import Driver
 from footfit.catalogue.file.engine import connect, engine_on
 from footfit.catalogue.file.file_signature import SIGNATURE
 from footfit.errors import CatalogueDamaged, CatalogueUnusable, NewerCatalogue
+from footfit.locations import Location
 from footfit.whole_files import give_name
 
 if TYPE_CHECKING:
     from sqlalchemy import Connection
 
-Finish = Callable[[sqlite3.Connection], object]
+Finish = Callable[[Driver], object]
 """What is done after the migrations of an older catalogue, in their transaction."""
 
 
@@ -76,6 +78,21 @@ def stored_revision(
     (mirror,) = connection.execute("PRAGMA user_version").fetchone()
     rows = connection.execute("SELECT version_num FROM alembic_version").fetchall()
     revision = str(rows[0][0]) if len(rows) == 1 else None
+    return require_known_revision(revision, schema, path, older=older, mirror=mirror)
+
+
+def require_known_revision(
+    revision: str | None, schema: Schema, place: Location, *, older: bool = True, mirror: int = 0
+) -> str:
+    """The revision that a catalogue names, if it is one of ``schema.revisions``.
+
+    ``mirror`` repeats it as a number in a file.
+
+    Raises
+    ------
+    NewerCatalogue, CatalogueDamaged, CatalogueUnusable
+        As `stored_revision`.
+    """
     later = mirror > int(schema.head) or (
         revision is not None and revision.isdecimal() and int(revision) > int(schema.head)
     )
@@ -83,16 +100,16 @@ def stored_revision(
         newest = max(f"{mirror:04d}", revision or "")
         raise NewerCatalogue(
             f"has schema {newest!r} and this footfit reads up to {schema.head!r}; update footfit",
-            str(path),
+            str(place),
         )
     if revision not in schema.revisions:
         raise CatalogueDamaged(
             f"names the schema {revision!r}, which does not exist; restore it from a backup",
-            str(path),
+            str(place),
         )
     if not older and revision != schema.head:
         raise CatalogueUnusable(
-            f"has the older schema {revision!r}; type: footfit upgrade-catalogue", str(path)
+            f"has the older schema {revision!r}; type: footfit upgrade-catalogue", str(place)
         )
     return revision
 
@@ -112,7 +129,7 @@ def create(connection: sqlite3.Connection, schema: Schema) -> None:
         if application_id == SIGNATURE.application_id:
             return
         begun.exec_driver_sql(f"PRAGMA application_id = {SIGNATURE.application_id}")
-        _run_migrations(begun, schema)
+        run_migrations(begun, schema)
 
 
 def upgrade(path: Path, schema: Schema, busy_timeout_s: float, finish: Finish) -> Revisions:
@@ -140,7 +157,7 @@ def upgrade(path: Path, schema: Schema, busy_timeout_s: float, finish: Finish) -
             with partial_beside(backup) as partial:
                 copy_into(path, partial, busy_timeout_s)
                 give_name(partial, backup, replace=True)
-            _run_migrations(begun, schema)
+            run_migrations(begun, schema)
             finish(connection)
             if connection.execute("PRAGMA foreign_key_check").fetchone():
                 raise CatalogueDamaged(
@@ -154,11 +171,13 @@ def copy_path(path: Path, revision: str) -> Path:
     return path.with_name(f"{path.name}.schema-{revision}")
 
 
-def _run_migrations(begun: Connection, schema: Schema) -> None:
+def run_migrations(begun: Connection, schema: Schema) -> None:
+    """Carry out the migrations that are left, in the caller's transaction."""
     from alembic import command
     from alembic.config import Config
 
     config = Config(attributes={"connection": begun})
     config.set_main_option("script_location", str(schema.folder).replace("%", "%%"))
     command.upgrade(config, schema.head)
-    begun.exec_driver_sql(f"PRAGMA user_version = {int(schema.head)}")
+    if begun.dialect.name == "sqlite":
+        begun.exec_driver_sql(f"PRAGMA user_version = {int(schema.head)}")

@@ -5,10 +5,10 @@
 
 from __future__ import annotations
 
-import sqlite3
 import unicodedata
 from collections.abc import Iterable
 
+from footfit.catalogue.file.dialect import Driver
 from footfit.catalogue.rows.verified_rows import key_where, last_names
 from footfit.errors import NameTaken, UnknownLast
 
@@ -69,7 +69,7 @@ def nearest_name(names: Iterable[str], name: str) -> str | None:
     return spelled[close[0]] if close else None
 
 
-def last_id(connection: sqlite3.Connection, name: str) -> int:
+def last_id(connection: Driver, name: str) -> int:
     """The key of the last that a name means.
 
     Raises
@@ -89,7 +89,7 @@ def last_id(connection: sqlite3.Connection, name: str) -> int:
     raise UnknownLast(f"no last is named {name!r}{nearest}; see footfit list-lasts")
 
 
-def id_of_same_name(connection: sqlite3.Connection, name: str) -> int | None:
+def id_of_same_name(connection: Driver, name: str) -> int | None:
     """The key of the last of that name, also if its accents are written otherwise; None for none.
 
     Raises

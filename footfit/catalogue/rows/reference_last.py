@@ -5,9 +5,9 @@ Everything here works on stored values: no mesh is needed to change the referenc
 
 from __future__ import annotations
 
-import sqlite3
 from typing import TYPE_CHECKING
 
+from footfit.catalogue.file.dialect import Driver, driver_of
 from footfit.catalogue.rows.array_blobs import blob
 from footfit.catalogue.rows.columns import FRAME, REFERENCE
 from footfit.catalogue.rows.records import printed_frame_of, record_of, reference_from
@@ -19,7 +19,7 @@ from footfit.catalogue.rows.verified_rows import (
     shown_name,
     stored_lasts,
 )
-from footfit.catalogue.rows.writing import driver_of, seal, update_row, write_reference
+from footfit.catalogue.rows.writing import seal, update_row, write_reference
 from footfit.errors import CatalogueDamaged
 from footfit.geometry.numeric.arrays import Floats
 from footfit.geometry.pose.paper_frame import (
@@ -34,7 +34,7 @@ if TYPE_CHECKING:
     import sqlalchemy as sa
 
 
-def stored_reference(connection: sqlite3.Connection) -> tuple[int, Reference] | None:
+def stored_reference(connection: Driver) -> tuple[int, Reference] | None:
     """The reference and its last's key; None in an empty catalogue.
 
     Raises

@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-import sqlite3
 from collections.abc import Mapping
 from typing import NamedTuple
 
+from footfit.catalogue.file.dialect import Driver
 from footfit.catalogue.rows.last_names import caseless, composed, id_of_same_name, last_id
 from footfit.catalogue.rows.verified_rows import key_where, last_names, stored_lasts
 from footfit.errors import BadOption, NameTaken
@@ -23,7 +23,7 @@ class Place(NamedTuple):
     same_file: bool = False
 
 
-def place_of(connection: sqlite3.Connection, record: LastRecord, *, replace: bool) -> Place:
+def place_of(connection: Driver, record: LastRecord, *, replace: bool) -> Place:
     """The place of a record. The parent of a last that is read from its file again stays.
 
     Without ``replace`` a record may only take the place of a damaged last that was made from the
@@ -77,7 +77,7 @@ def require_storable(name: str) -> None:
         raise BadOption(words) from error
 
 
-def require_free_name(connection: sqlite3.Connection, name: str, key: int) -> None:
+def require_free_name(connection: Driver, name: str, key: int) -> None:
     """Refuse a name for the last of that ``key`` that another last has, in any case.
 
     Raises
@@ -90,7 +90,7 @@ def require_free_name(connection: sqlite3.Connection, name: str, key: int) -> No
             raise NameTaken(f"{stored!r} is in the catalogue: choose another name")
 
 
-def require_removable(connection: sqlite3.Connection, key: int, names: Mapping[int, str]) -> None:
+def require_removable(connection: Driver, key: int, names: Mapping[int, str]) -> None:
     """Refuse to remove a last that others depend on; ``names`` are those of all lasts.
 
     Raises
@@ -105,15 +105,15 @@ def require_removable(connection: sqlite3.Connection, key: int, names: Mapping[i
             f"{name!r} is the reference: choose another reference first, with footfit set-reference"
         )
     children = connection.execute(
-        "SELECT name FROM last NOT INDEXED WHERE parent_id = ? ORDER BY name", (key,)
+        "SELECT name FROM last NOT INDEXED WHERE parent_id = ?", (key,)
     ).fetchall()
     if children:
-        children_names = ", ".join(repr(child) for (child,) in children)
+        children_names = ", ".join(repr(child) for (child,) in sorted(children))
         cut = "or remove the label: footfit edit-last NAME --parent ''"
         raise BadOption(f"{name!r} is the parent of {children_names}; remove those first, {cut}")
 
 
-def parent_key(connection: sqlite3.Connection, labels: LastLabels, key: int | None) -> int | None:
+def parent_key(connection: Driver, labels: LastLabels, key: int | None) -> int | None:
     """The key of the parent that labels name, of the last that has ``key``; None for no parent.
 
     Raises

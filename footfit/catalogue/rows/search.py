@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-import sqlite3
 from collections import Counter
 from collections.abc import Mapping
 from dataclasses import asdict, dataclass
 from typing import Any
 
+from footfit.catalogue.file.dialect import Driver
 from footfit.catalogue.rows.array_blobs import definition_text
 from footfit.catalogue.rows.last_names import caseless
 from footfit.catalogue.rows.records import record_of
@@ -33,7 +33,7 @@ class StoredLasts:
     outdated: tuple[str, ...]
 
 
-def verified_records(connection: sqlite3.Connection, **filters: str | None) -> StoredLasts:
+def verified_records(connection: Driver, **filters: str | None) -> StoredLasts:
     """The lasts that pass the filters (see :func:`rejection`)."""
     names = last_names(connection)
     current = definition_text(FlareDefinition())

@@ -2,17 +2,14 @@
 
 from __future__ import annotations
 
-import sqlite3
-from pathlib import Path
-
+from footfit.catalogue.file.dialect import Driver, table_names
+from footfit.locations import Location
 from footfit.results import CatalogueFacts
 
 Counts = tuple[tuple[str, int], ...]
-MARK_TABLE = "alembic_version"
-"""Alembic's table; it holds the schema's revision and nothing else."""
 
 
-def summary(connection: sqlite3.Connection, path: Path) -> CatalogueFacts:
+def summary(connection: Driver, path: Location, size_bytes: int) -> CatalogueFacts:
     """Counts by style, size system, side and flare definition ("" stands for no label)."""
     (lasts,) = connection.execute("SELECT count(*) FROM last NOT INDEXED").fetchone()
     (revision,) = connection.execute("SELECT version_num FROM alembic_version").fetchone()
@@ -24,7 +21,7 @@ def summary(connection: sqlite3.Connection, path: Path) -> CatalogueFacts:
     ).fetchone()
     return CatalogueFacts(
         path=str(path),
-        bytes=path.stat().st_size,
+        bytes=size_bytes,
         lasts=lasts,
         reference=reference[0] if reference else None,
         schema_revision=revision,
@@ -39,17 +36,15 @@ def summary(connection: sqlite3.Connection, path: Path) -> CatalogueFacts:
     )
 
 
-def _kept(connection: sqlite3.Connection) -> Counts:
+def _kept(connection: Driver) -> Counts:
     """Every table but Alembic's, with its number of rows: nothing is kept unseen."""
-    select = "SELECT name FROM sqlite_schema WHERE type = 'table' ORDER BY name"
-    tables = [str(name) for (name,) in connection.execute(select) if name != MARK_TABLE]
-    quoted = ((name, name.replace('"', '""')) for name in tables)
+    quoted = ((name, name.replace('"', '""')) for name in table_names(connection))
     return tuple(
         (name, int(connection.execute(f'SELECT count(*) FROM "{safe}"').fetchone()[0]))
         for name, safe in quoted
     )
 
 
-def _counts(connection: sqlite3.Connection, table: str, column: str) -> Counts:
-    select = f"SELECT coalesce({column}, ''), count(*) FROM {table} GROUP BY 1 ORDER BY 1"
-    return tuple((str(value), int(count)) for value, count in connection.execute(select))
+def _counts(connection: Driver, table: str, column: str) -> Counts:
+    select = f"SELECT coalesce({column}, ''), count(*) FROM {table} GROUP BY 1"
+    return tuple(sorted((str(value), int(count)) for value, count in connection.execute(select)))

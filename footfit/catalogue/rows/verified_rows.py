@@ -6,10 +6,10 @@ gives, so that a changed byte anywhere in it is seen.
 
 from __future__ import annotations
 
-import sqlite3
 from collections import defaultdict
 from dataclasses import dataclass
 
+from footfit.catalogue.file.dialect import Driver
 from footfit.catalogue.rows.columns import FLARE, FRAME, LAST, MEASURE, NOTICE, Table
 from footfit.catalogue.rows.digests import Row, digest, hash_content
 from footfit.errors import CatalogueDamaged
@@ -76,7 +76,7 @@ def row_digest(table: Table, row: Row) -> str:
     return digest({"row": hash_content(row, table.unhashed)})
 
 
-def rows(connection: sqlite3.Connection, table: Table, last_id: int | None = None) -> list[Row]:
+def rows(connection: Driver, table: Table, last_id: int | None = None) -> list[Row]:
     """The rows of a table in the order of storage; of one last alone if ``last_id`` is given.
 
     Raises
@@ -95,9 +95,7 @@ def rows(connection: sqlite3.Connection, table: Table, last_id: int | None = Non
     return [dict(zip(columns, row, strict=True)) for row in cursor]
 
 
-def sealed_row(
-    connection: sqlite3.Connection, table: Table, last_id: int, words: str
-) -> Row | None:
+def sealed_row(connection: Driver, table: Table, last_id: int, words: str) -> Row | None:
     """The row with a hash of its own that a table has for a last, verified; None for none.
 
     Raises
@@ -111,7 +109,7 @@ def sealed_row(
     return kept[0] if kept else None
 
 
-def stored_lasts(connection: sqlite3.Connection, last_id: int | None = None) -> list[LastRows]:
+def stored_lasts(connection: Driver, last_id: int | None = None) -> list[LastRows]:
     """The raw rows of every last, or of one, in the order in which they were first stored.
 
     This takes five SELECTs, however many lasts there are. They read the tables, not an index.
@@ -143,13 +141,13 @@ def _by_last(rows_of_all: list[Row]) -> dict[int, list[Row]]:
     return groups
 
 
-def last_names(connection: sqlite3.Connection) -> dict[int, str]:
+def last_names(connection: Driver) -> dict[int, str]:
     """The name of every last, damaged ones too, by its key."""
     pairs = connection.execute("SELECT id, name FROM last NOT INDEXED")
     return {key: shown_name(name) for key, name in pairs}
 
 
-def key_where(connection: sqlite3.Connection, column: str, value: str) -> int | None:
+def key_where(connection: Driver, column: str, value: str) -> int | None:
     """The key of the last whose ``column`` (a unique one) holds ``value``; no index is read."""
     select = f"SELECT id FROM last NOT INDEXED WHERE {column} = ?"
     try:
@@ -159,7 +157,7 @@ def key_where(connection: sqlite3.Connection, column: str, value: str) -> int | 
     return None if row is None else int(row[0])
 
 
-def intact_last(connection: sqlite3.Connection, key: int) -> LastRows:
+def intact_last(connection: Driver, key: int) -> LastRows:
     """The rows of one last, verified.
 
     Raises

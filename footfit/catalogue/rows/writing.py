@@ -5,9 +5,9 @@ Every function writes inside the caller's transaction. SQLAlchemy is opened at t
 
 from __future__ import annotations
 
-import sqlite3
 from typing import TYPE_CHECKING
 
+from footfit.catalogue.file.dialect import driver_of
 from footfit.catalogue.rows.columns import (
     FIT,
     FLARE,
@@ -34,13 +34,6 @@ STANCE_COLUMNS = ("standing_transform", "ground_sd_deg", "stance_by")
 """What a frame has that is measured again."""
 
 
-def driver_of(connection: sa.Connection) -> sqlite3.Connection:
-    """The driver's connection under SQLAlchemy's, inside the same transaction."""
-    driver = connection.connection.driver_connection
-    assert isinstance(driver, sqlite3.Connection)
-    return driver
-
-
 def write_last(
     connection: sa.Connection,
     record: LastRecord,
@@ -55,7 +48,7 @@ def write_last(
     added = {"parent_id": parent_id, "footfit_version": __version__, "record_sha256": ""}
     row = LAST.row(record, **added)
     if key is None:
-        key = connection.execute(_sql(LAST).insert(), row).lastrowid
+        key = _inserted_key(connection, LAST, row)
     else:
         update_row(connection, LAST, key, row)
     for table in (FRAME, FLARE, MEASURE, NOTICE):
@@ -130,7 +123,7 @@ def rename_base(connection: sa.Connection, base: LastRows, new_name: str) -> Non
 def add_fit(connection: sa.Connection, entry: FitEntry) -> None:
     """Add an entry to the fit log, sealed."""
     row = FIT.row(entry, sha256="")
-    key = connection.execute(_sql(FIT).insert(), row).lastrowid
+    key = _inserted_key(connection, FIT, row)
     _seal_row(connection, key, FIT)
 
 
@@ -165,6 +158,19 @@ def _write_rows(connection: sa.Connection, key: int, table: Table, values: list[
     delete_rows(connection, table, key)
     if values:
         connection.execute(_sql(table).insert(), [{"last_id": key} | row for row in values])
+
+
+def insert_rows(connection: sa.Connection, table: Table, values: list[Row]) -> None:
+    """Insert rows as they are, with their keys and hashes."""
+    if values:
+        connection.execute(_sql(table).insert(), values)
+
+
+def _inserted_key(connection: sa.Connection, table: Table, row: Row) -> int:
+    """Insert a row; return the key that it gets."""
+    keys = connection.execute(_sql(table).insert(), row).inserted_primary_key
+    assert keys is not None
+    return int(keys[0])
 
 
 def _sql(table: Table) -> sa.Table:

@@ -7,11 +7,11 @@ import secrets
 from collections.abc import Sequence
 from dataclasses import dataclass
 from datetime import UTC, datetime
-from pathlib import Path
 
 from footfit.errors import BadOption, HalfScan
 from footfit.geometry.flare.definition import FlareDefinition
 from footfit.geometry.measures.measure_table import MEASURES
+from footfit.locations import Location
 from footfit.pipeline.evidence.zone_ratings import place_ratings
 from footfit.pipeline.fit.judging.judged_lasts import asked_of
 from footfit.pipeline.fit.ranking import foot_fits, judged_last
@@ -84,7 +84,7 @@ def fit_entry(
     heel: HeelQuestion,
     said: Said,
     worn: Worn = BAREFOOT,
-    file: Path | None = None,
+    file: Location | None = None,
 ) -> FitEntry:
     """The entry for a foot that wore a shoe on this last, with the clearances of a match.
 

@@ -17,6 +17,7 @@ from footfit.geometry.measures.landmarks import Shape
 from footfit.geometry.measures.measure_table import measure_named
 from footfit.geometry.measures.measure_value import MeasureValue
 from footfit.geometry.numeric.arrays import Floats
+from footfit.locations import Location
 from footfit.number_words import plain
 from footfit.pipeline.batch.sources import ReadingOptions, Source
 from footfit.pipeline.fit.heel_model import heel_question
@@ -55,7 +56,7 @@ class LastShape:
     shape: Shape
 
 
-def stored_last(path: Path, name: str) -> LastShape:
+def stored_last(path: Location, name: str) -> LastShape:
     """A last of the catalogue with its mesh copy.
 
     Raises
@@ -154,7 +155,9 @@ def compared(
     )
 
 
-def best_comparison(path: Path, match: results.Match, foot: int = 0) -> results.Comparison | None:
+def best_comparison(
+    path: Location, match: results.Match, foot: int = 0
+) -> results.Comparison | None:
     """One foot of a match in its best last, or in the nearest if none fits.
 
     None if the catalogue has no sound copy of that last, or the two share no bottom to rest on.
@@ -188,7 +191,7 @@ def _warnings(
 # ---------------------------------------------------------------- the lasts of an answer
 
 
-def with_surface_clearance(match: results.Match, path: Path) -> results.Match:
+def with_surface_clearance(match: results.Match, path: Location) -> results.Match:
     """The same answer with the clearance in each last that it shows.
 
     It needs the lasts' meshes, which ranking does not read. So it is taken only if it is asked
@@ -202,7 +205,7 @@ def with_surface_clearance(match: results.Match, path: Path) -> results.Match:
 
 
 def _with_clearance(
-    candidate: results.Candidate, match: results.Match, path: Path
+    candidate: results.Candidate, match: results.Match, path: Location
 ) -> results.Candidate:
     try:
         last = stored_last(path, candidate.last)

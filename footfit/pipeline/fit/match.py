@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
-from pathlib import Path
 
 import numpy as np
 
@@ -13,6 +12,7 @@ from footfit.catalogue.blocks.block_bytes import BOTTOM, PLAN
 from footfit.catalogue.blocks.block_reading import BadBlocks, OtherCatalogue
 from footfit.errors import BadOption, HalfScan, NoCandidate
 from footfit.geometry.fit.sizes import label_in
+from footfit.locations import Location
 from footfit.number_words import signed
 from footfit.pipeline.fit import ranking, reasons
 from footfit.pipeline.fit.fit_profile import fit_profile
@@ -53,7 +53,7 @@ class Question:
     top: int = 5
     profile: results.FitProfile | None = None
     size_system: str | None = None
-    surfaces_in: Path | None = None
+    surfaces_in: Location | None = None
     heel: results.HeelQuestion = field(default_factory=heel_question)
     worn: results.Worn = BAREFOOT
     growth: results.GrowthQuestion | None = None

@@ -9,6 +9,7 @@ from pathlib import Path
 from footfit.catalogue.store import open_catalogue
 from footfit.errors import FootfitError
 from footfit.geometry.measures.landmarks import Shape
+from footfit.locations import Location
 from footfit.pipeline.batch.sources import ReadingOptions, Source
 from footfit.pipeline.scan.kept_sections import kept_sections
 from footfit.pipeline.scan.measure import last_record
@@ -38,7 +39,7 @@ class BaseLast:
         return self.record.labels.name
 
 
-def stored_base(path: Path, name: str, folders: Iterable[Path] = ()) -> BaseLast:
+def stored_base(path: Location, name: str, folders: Iterable[Path] = ()) -> BaseLast:
     """A last of the catalogue at ``path``, with the best mesh that there is of it.
 
     That is the full copy, else the original file if it lies in one of the ``folders`` and has the

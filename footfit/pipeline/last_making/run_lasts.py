@@ -7,6 +7,7 @@ from pathlib import Path
 
 from footfit.catalogue.store import open_catalogue
 from footfit.errors import BadOption
+from footfit.locations import Location
 from footfit.pipeline.batch.runs import HERE, outcomes
 from footfit.pipeline.batch.sources import Source
 from footfit.pipeline.last_making.run_increments import CHECKED
@@ -18,7 +19,7 @@ from footfit.results import LastRecord, Measure, MeasuredScan
 from footfit.results.last_making.run_check import RunLast
 
 
-def family_lasts(catalogue: Path, family: str) -> tuple[RunLast, ...]:
+def family_lasts(catalogue: Location, family: str) -> tuple[RunLast, ...]:
     """The lasts of a family, with the sizes of their labels; none if no last has that label.
 
     Raises
@@ -40,7 +41,7 @@ def stored_last(record: LastRecord) -> RunLast:
     return _last(labels.name, label, number, record.side.side, record.measures)
 
 
-def named_lasts(catalogue: Path, names: Sequence[str]) -> tuple[RunLast, ...]:
+def named_lasts(catalogue: Location, names: Sequence[str]) -> tuple[RunLast, ...]:
     """Lasts of the catalogue by their names, as a run has them.
 
     Raises

@@ -9,8 +9,10 @@ from footfit.catalogue.file.copying import partial_beside
 from footfit.catalogue.file.engine import SETTINGS
 from footfit.catalogue.file.migrate import copy_path
 from footfit.catalogue.file.restoring import put_in_place
+from footfit.catalogue.server.catalogue_server import NO_FILE
 from footfit.catalogue.store import open_catalogue
 from footfit.errors import BadOption, NoCatalogue, UnreadableFile
+from footfit.locations import Location, ServerUrl
 from footfit.pipeline.library.check import check, require_sound
 from footfit.results import BackupOutcome, CheckOutcome, RestoreOutcome
 from footfit.whole_files import give_name, require_folder, require_free
@@ -19,7 +21,7 @@ NO_BACKUP = "no backup was made; see footfit check-catalogue"
 NOT_RESTORED = "nothing was restored; the catalogue is as it was"
 
 
-def back_up(path: Path, backup: Path, *, replace: bool = False) -> BackupOutcome:
+def back_up(path: Location, backup: Path, *, replace: bool = False) -> BackupOutcome:
     """Copy a catalogue, check the copy, and only then give it its name.
 
     Other programs may write to the catalogue meanwhile.
@@ -33,6 +35,7 @@ def back_up(path: Path, backup: Path, *, replace: bool = False) -> BackupOutcome
     NoCatalogue, CatalogueUnusable
         There is no catalogue; it cannot be read, or the backup cannot be written.
     """
+    path = _file_of(path)
     _refuse_itself(path, backup, "name another file")
     require_free(backup, replace=replace)
     with open_catalogue(path, older=True) as catalogue, partial_beside(backup) as partial:
@@ -42,7 +45,7 @@ def back_up(path: Path, backup: Path, *, replace: bool = False) -> BackupOutcome
     return BackupOutcome(str(path), str(backup), backup.stat().st_size, outcome.lasts)
 
 
-def restore(path: Path, backup: Path) -> RestoreOutcome:
+def restore(path: Location, backup: Path) -> RestoreOutcome:
     """Make a catalogue what its backup is; the file that is there now is kept.
 
     The backup is checked first. Then a copy of it beside the catalogue is brought to this
@@ -57,6 +60,7 @@ def restore(path: Path, backup: Path) -> RestoreOutcome:
     CatalogueUnusable
         The backup, or the file in the catalogue's place, is no catalogue or cannot be used.
     """
+    path = _file_of(path)
     _refuse_itself(path, backup, "name a backup of it")
     try:
         require_sound(check(backup), NOT_RESTORED)
@@ -71,6 +75,19 @@ def restore(path: Path, backup: Path) -> RestoreOutcome:
     return RestoreOutcome(
         str(path), str(backup), outcome.lasts, None if kept is None else str(kept)
     )
+
+
+def _file_of(path: Location) -> Path:
+    """The catalogue's file.
+
+    Raises
+    ------
+    BadOption
+        The catalogue is on a server.
+    """
+    if isinstance(path, ServerUrl):
+        raise BadOption(NO_FILE, str(path))
+    return path
 
 
 def _refuse_itself(path: Path, backup: Path, instead: str) -> None:

@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from pathlib import Path
 
 from footfit.catalogue.store import Catalogue, open_catalogue
 from footfit.errors import CheckFailed, FootfitError
+from footfit.locations import Location
 from footfit.results import CheckOutcome, Finding
 
 
-def check(path: Path) -> CheckOutcome:
+def check(path: Location) -> CheckOutcome:
     """Compare a catalogue with what was stored, and change nothing; a sound one has no findings.
 
     Raises

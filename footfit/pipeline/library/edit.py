@@ -5,10 +5,10 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from dataclasses import replace
 from functools import partial
-from pathlib import Path
 
 from footfit.catalogue.store import open_catalogue
 from footfit.errors import BadOption, UnknownLast
+from footfit.locations import Location
 from footfit.pipeline.library.manifest import LABEL_HEIGHTS, LABEL_TEXTS, label_mm
 from footfit.pipeline.library.measured_copy import MeasuredCopy, measured_copy, with_measured
 from footfit.pipeline.scan.measure import END_MEASURES
@@ -22,7 +22,7 @@ OF_STANCE = ("stance_label_contradicted", "stance_label_unused")
 """The codes of the warnings that the labels of the stance give."""
 
 
-def edit_last(path: Path, name: str, labels: Mapping[str, Label]) -> EditOutcome:
+def edit_last(path: Location, name: str, labels: Mapping[str, Label]) -> EditOutcome:
     """Change labels of a last in one transaction; None or a blank text removes one.
 
     Heel height, toe spring and platform decide how a last stands. If one of them changes, the last

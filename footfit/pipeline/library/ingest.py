@@ -14,6 +14,7 @@ from footfit.catalogue.rows.last_names import caseless, composed, differs_in_cas
 from footfit.catalogue.rows.requirements import same_scan
 from footfit.catalogue.store import Catalogue, open_catalogue
 from footfit.errors import BadOption, ExitCode, FootfitError, NameTaken, NoCatalogue
+from footfit.locations import Location
 from footfit.pipeline.batch.runs import HERE, Jobs, Outcome, outcomes
 from footfit.pipeline.batch.sources import ReadingOptions, Source
 from footfit.pipeline.library.manifest import LABEL_HEIGHTS, ManifestRow
@@ -212,7 +213,7 @@ def _reads_alike(old: LastRecord, reading: ReadingOptions) -> bool:
 
 def ingest(
     batch: Sequence[Entry],
-    path: Path,
+    path: Location,
     *,
     jobs: Jobs = HERE,
     replace: bool = False,
@@ -233,12 +234,7 @@ def ingest(
         The catalogue cannot be opened or written; its folder is missing.
     """
     with ExitStack() as stack:
-        writing = partial(open_catalogue, path, write=True)
-        catalogue = None
-        if not dry_run and path.exists():
-            catalogue = stack.enter_context(writing())
-        elif not dry_run:
-            require_folder(path)
+        catalogue = None if dry_run else _existing(path, stack)
         holdings = Holdings(_stored_lasts(path) if catalogue is None else catalogue.lasts().records)
         again = replace and keep_mesh == "full"  # its copy may be a lighter one
         known = frozenset() if replace else frozenset(holdings.by_content)
@@ -247,12 +243,24 @@ def ingest(
         for work in outcomes(work_on, batch, jobs, known=partial(_known_last, known)):
             with hold_signals():
                 if catalogue is None and not dry_run and work.value is not None:
-                    catalogue = stack.enter_context(writing())  # made only for a last to store
+                    catalogue = stack.enter_context(open_catalogue(path, write=True))
                     holdings = Holdings(catalogue.lasts().records)
                     made = str(path) if catalogue.revisions.made else None
                 outcome = _store(work, holdings, catalogue, replace=replace, again=again)
                 yield dataclasses.replace(outcome, dry_run=dry_run, new_catalogue=made)
                 made = None
+
+
+def _existing(path: Location, stack: ExitStack) -> Catalogue | None:
+    """The catalogue, open for writing; None if there is none: it is made for a last to store."""
+    is_file = isinstance(path, Path)
+    if isinstance(path, Path) and not path.exists():
+        require_folder(path)
+        return None
+    try:
+        return stack.enter_context(open_catalogue(path, write=True, create=is_file))
+    except NoCatalogue:
+        return None
 
 
 def _known_last(known: frozenset[str], entry: Entry) -> NewLast | None:
@@ -261,7 +269,7 @@ def _known_last(known: frozenset[str], entry: Entry) -> NewLast | None:
     return NewLast(sha256) if sha256 in known else None
 
 
-def _stored_lasts(path: Path) -> Sequence[LastRecord]:
+def _stored_lasts(path: Location) -> Sequence[LastRecord]:
     """The lasts of a catalogue; none if there is no catalogue."""
     try:
         with open_catalogue(path) as catalogue:

@@ -3,18 +3,18 @@
 from __future__ import annotations
 
 from functools import lru_cache
-from pathlib import Path
 
 from footfit.catalogue.store import Catalogue, open_catalogue
 from footfit.errors import BadOption
 from footfit.geometry.measures.measure_table import of_kind
 from footfit.geometry.pose.paper_frame import paper_frame_angle_deg
+from footfit.locations import Location
 from footfit.results import LastRecord, Library, Notice, StoredLast
 from footfit.results.library import SORTS
 from footfit.results.values import notices_about
 
 
-def list_lasts(path: Path, sort: str = "name", **labels: str | None) -> Library:
+def list_lasts(path: Location, sort: str = "name", **labels: str | None) -> Library:
     """Every intact last, whatever its definition; a warning names each damaged one.
 
     ``labels`` filter: ``style``, ``size``, ``width_label`` and ``family``. ``sort`` is one of
@@ -42,7 +42,7 @@ def list_lasts(path: Path, sort: str = "name", **labels: str | None) -> Library:
     )
 
 
-def last(path: Path, name: str) -> StoredLast:
+def last(path: Location, name: str) -> StoredLast:
     """One last, and the reference's name.
 
     Raises

@@ -13,6 +13,7 @@ from footfit.catalogue.rows.last_names import caseless, meant_name, nearest_name
 from footfit.catalogue.store import open_catalogue
 from footfit.errors import CatalogueUnusable, FootfitError, NoCatalogue, UnreadableFile
 from footfit.geometry.measures.landmarks import Shape
+from footfit.locations import Location
 from footfit.meshes.copies.compact_copy import expanded_mesh
 from footfit.pipeline.batch.sources import GLOB_CHARACTERS, MESH_SUFFIXES, Source, is_no_path
 from footfit.pipeline.library.lasts import has_other_measures
@@ -31,7 +32,7 @@ LOOK_WAIT_S = 0.5
 class NamedLast:
     """What was typed in place of a mesh file, and the catalogue in which it may be a last."""
 
-    catalogue: Path
+    catalogue: Location
     name: str
 
     def __call__(self) -> Profiled:
@@ -75,7 +76,7 @@ def is_bare(argument: str) -> bool:
     return Path(argument).name == argument and Path(argument).suffix.lower() not in MESH_SUFFIXES
 
 
-def named_sources(arguments: Sequence[str], catalogue: Path) -> dict[str, Source]:
+def named_sources(arguments: Sequence[str], catalogue: Location) -> dict[str, Source]:
     """A source for each argument that is no file: it may be a last of the catalogue.
 
     A pattern counts as a name only if the catalogue has a last of that name.
@@ -88,7 +89,7 @@ def named_sources(arguments: Sequence[str], catalogue: Path) -> dict[str, Source
     }
 
 
-def hidden_lasts(arguments: Sequence[str], catalogue: Path) -> tuple[Notice, ...]:
+def hidden_lasts(arguments: Sequence[str], catalogue: Location) -> tuple[Notice, ...]:
     """A notice for each argument that is a file, or a folder, and also the name of a last.
 
     Nothing is said if the catalogue cannot be read: files need none.
@@ -110,14 +111,14 @@ def hidden_lasts(arguments: Sequence[str], catalogue: Path) -> tuple[Notice, ...
     )
 
 
-def stored_name(catalogue: Path, name: str) -> str | None:
+def stored_name(catalogue: Location, name: str) -> str | None:
     """The stored name that a name means; None if there is none, or the catalogue cannot be read."""
     with suppress(FootfitError), open_catalogue(catalogue) as opened:
         return opened.name(name)
     return None
 
 
-def profiled_last(catalogue: Path, name: str) -> Profiled:
+def profiled_last(catalogue: Location, name: str) -> Profiled:
     """A stored last as a scan of it is, aligned, profiled and measured.
 
     Its flare and its measures are the stored ones, taken from the scan. Its mesh is the stored

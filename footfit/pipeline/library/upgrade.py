@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
-from pathlib import Path
 
 from footfit.catalogue.store import Catalogue, open_catalogue
 from footfit.geometry.flare.definition import FlareDefinition
+from footfit.locations import Location
 from footfit.pipeline.batch.runs import HERE, outcomes
 from footfit.pipeline.library.lasts import has_other_measures
 from footfit.pipeline.library.measured_copy import MeasuredCopy, measured_copy, with_measured
@@ -27,7 +27,7 @@ class StoredMesh:
     reprofile: bool
 
 
-def upgrade(path: Path, jobs: int = HERE) -> UpgradeOutcome:
+def upgrade(path: Location, jobs: int = HERE) -> UpgradeOutcome:
     """Bring the schema up to date, and every last that was measured by other definitions.
 
     A copy of the file is kept beside it if its schema changes. Everything is measured from the
@@ -39,7 +39,7 @@ def upgrade(path: Path, jobs: int = HERE) -> UpgradeOutcome:
     NoCatalogue, CatalogueUnusable
         There is no catalogue, or it cannot be written; it is then as it was.
     """
-    with open_catalogue(path, write=True, create=False) as catalogue:
+    with open_catalogue(path, write=True, create=False, upgrade=True) as catalogue:
         older = _older(catalogue)
         names = [record.labels.name for record, _ in older]
         with_copy = frozenset(catalogue.mesh_copy_names())

@@ -4,13 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
-from pathlib import Path
 from typing import TypeVar
 
 import numpy as np
 
 from footfit.geometry.fit.toe_walls import ToesPlan, Walls
 from footfit.geometry.numeric.arrays import Bools, Floats, Ints
+from footfit.locations import Location
 from footfit.pipeline.fit.judging.bottom_gains import LENGTHS
 from footfit.pipeline.fit.judging.cells import last_shape
 from footfit.pipeline.fit.judging.toe_box import walls_of
@@ -106,7 +106,7 @@ def zone_measures(profile: FitProfile) -> tuple[str, ...]:
 
 
 def last_table(
-    records: Iterable[LastRecord], profile: FitProfile, file: Path | None = None
+    records: Iterable[LastRecord], profile: FitProfile, file: Location | None = None
 ) -> LastTable:
     """The lasts of a catalogue as columns; ``file`` is where their kept sections are read from."""
     lasts = sorted(records, key=lambda record: record.labels.name)

@@ -20,6 +20,7 @@ from footfit.errors import BadOption, EmptyCatalogue, NoCandidate
 from footfit.geometry.fit.sizes import SYSTEMS, system_named
 from footfit.geometry.flare.definition import FlareDefinition
 from footfit.geometry.numeric.arrays import Bools
+from footfit.locations import Location
 from footfit.pipeline.library.lasts import damaged_last, measure_definitions, reference_name
 from footfit.pipeline.library.stock import stock
 from footfit.pipeline.shelf.shelf import Shelf
@@ -34,14 +35,14 @@ NONE: frozenset[int] = frozenset()
 class _Read:
     """What was read of a catalogue."""
 
-    path: Path
+    path: Location
     lasts: BlockLasts
     reference: str | None
     rated: tuple[tuple[str, int], ...]
 
 
 def choice(
-    path: Path, style: str | None, size_system: str | None, untrusted: frozenset[int] = NONE
+    path: Location, style: str | None, size_system: str | None, untrusted: frozenset[int] = NONE
 ) -> Shelf:
     """The lasts to match against; the search blocks in ``untrusted`` are not used.
 
@@ -75,7 +76,7 @@ def choice(
     return replace(everything, warnings=(*everything.warnings, other), again=shelf.again)
 
 
-def _read(path: Path, untrusted: frozenset[int]) -> _Read:
+def _read(path: Location, untrusted: frozenset[int]) -> _Read:
     with open_catalogue(path) as catalogue:
         lasts = catalogue.block_lasts(untrusted)
         if not len(lasts.base) and not lasts.damaged:

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
-from pathlib import Path
 from typing import Protocol
 
 import numpy as np
@@ -14,6 +13,7 @@ from footfit.catalogue.blocks.record_columns import Kept, columns_of
 from footfit.catalogue.store import Catalogue, open_catalogue
 from footfit.errors import CatalogueDamaged, UnknownLast
 from footfit.geometry.numeric.arrays import Bools, Ints
+from footfit.locations import Location
 from footfit.pipeline.library.lasts import damaged_last
 from footfit.results import LastRecord, Library, Notice, ShapeSections
 from footfit.results.columns.last_columns import NOT_KEPT, SPOILT, LastColumns
@@ -69,7 +69,7 @@ class RecordLasts:
         return self
 
 
-KeptSections = Path | Mapping[str, ShapeSections] | None
+KeptSections = Location | Mapping[str, ShapeSections] | None
 """Where sections of lasts are kept: a catalogue, or by the lasts' names."""
 
 
@@ -108,7 +108,7 @@ class Shelf:
     rejected: tuple[tuple[str, int], ...] = ()
     warnings: tuple[Notice, ...] = ()
     rated: tuple[tuple[str, int], ...] = ()
-    file: Path | None = None
+    file: Location | None = None
     again: Callable[[frozenset[int]], Shelf] | None = None
 
     @property

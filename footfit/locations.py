@@ -1,0 +1,76 @@
+"""Where a catalogue is: a file, or the address of a PostgreSQL server."""
+
+from __future__ import annotations
+
+import os
+from dataclasses import dataclass, field
+from pathlib import Path
+from urllib.parse import unquote, urlsplit
+
+from footfit.errors import BadOption
+
+SCHEME = "postgresql+psycopg"
+FORM = f"{SCHEME}://USER@HOST:PORT/DATABASE"
+
+
+@dataclass(frozen=True, slots=True)
+class ServerUrl:
+    """The address of a shared catalogue. What people see of it has no password and no settings.
+
+    Attributes
+    ----------
+    shown : str
+        The address for messages, documents and pages.
+    secret : str
+        The address for the server. It may hold a password, so it is shown nowhere.
+    """
+
+    shown: str
+    secret: str = field(repr=False)
+
+    def __str__(self) -> str:
+        return self.shown
+
+    @property
+    def name(self) -> str:
+        """The name of the database."""
+        return self.shown.rpartition("/")[2]
+
+
+Location = Path | ServerUrl
+LocationName = str | os.PathLike[str] | ServerUrl
+"""A location as somebody types it."""
+
+
+def location_of(name: LocationName) -> Location:
+    """The location that a path or an address means.
+
+    Raises
+    ------
+    BadOption
+        It is an address of another kind of database, or it lacks the name of the database.
+
+    Examples
+    --------
+    >>> str(location_of("postgresql+psycopg://ann:secret@db.example/lasts?sslmode=require"))
+    'postgresql+psycopg://ann@db.example/lasts'
+    """
+    if isinstance(name, ServerUrl):
+        return name
+    text = os.fspath(name)
+    scheme, colon, rest = text.partition("://")
+    if not colon or not scheme.replace("+", "").isalnum():
+        return Path(text)
+    if scheme != SCHEME:
+        raise BadOption(f"a shared catalogue has an address like {FORM}, not {scheme}://")
+    try:
+        parts = urlsplit(f"//{rest}")
+        user, host, port = parts.username, parts.hostname, parts.port
+    except ValueError as error:
+        raise BadOption(f"the address of the catalogue is not valid; write {FORM}") from error
+    database = parts.path.strip("/")
+    if not database:
+        raise BadOption(f"the address of the catalogue names no database; write {FORM}")
+    where = f"{user + '@' if user else ''}{host or ''}{f':{port}' if port else ''}"
+    shown = f"{SCHEME}://{unquote(where)}/{unquote(database)}"
+    return ServerUrl(shown, f"postgresql://{rest}")
