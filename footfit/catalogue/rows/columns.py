@@ -140,7 +140,8 @@ class Table:
     @property
     def last_key(self) -> str:
         """The column that says which last a row belongs to; the key of what belongs to none."""
-        return {"last": "id", "fit": "number"}.get(self.name, "last_id")
+        keys = {"last": "id", "fit": "number", "search_block": "block"}
+        return keys.get(self.name, "last_id")
 
     def row(self, record: object, **added: object) -> Row:
         """The row of a record, with the values that the writer adds."""

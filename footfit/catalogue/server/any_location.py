@@ -15,12 +15,6 @@ from footfit.catalogue.server.server_opening import (
 )
 from footfit.locations import Location, ServerUrl
 
-    "OpenLocation",
-    "Writing",
-    "open_location_for_reading",
-    "open_location_for_writing",
-    "stamp_of",
-]
 OpenLocation = CatalogueFile | CatalogueServer
 """An open catalogue: both have the same transactions."""
 
