@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from collections import defaultdict
 from collections.abc import Iterator, Mapping, Sequence
-from pathlib import Path
 
 from footfit.errors import BadOption
+from footfit.locations import Location
 from footfit.number_words import plain
 from footfit.pipeline.last_checks.label_checks import label_findings
 from footfit.pipeline.last_checks.twin_lasts import comparable, last_measures, twin_findings
@@ -21,7 +21,7 @@ from footfit.results.population.checked_lasts import LastFinding, LastsCheck
 ORDER = ("twin", "near_twin")
 
 
-def check_lasts(path: Path, tolerance: str | None = None) -> LastsCheck:
+def check_lasts(path: Location, tolerance: str | None = None) -> LastsCheck:
     """The lasts of a catalogue: twins, labels that shapes contradict, runs that break.
 
     Raises
