@@ -119,7 +119,9 @@ def test_the_svg_is_in_mm() -> None:
     assert root.get("width").endswith("mm")
     assert root.get("height").endswith("mm")
     lines = root.iter(paper.SPACE + "polygon")
-    assert {line.get("stroke-width") for line in lines} == {"0.25"}
+    assert {(line.get("stroke-width"), line.get("id")) for line in lines} == {("0.25", None)}
+    names = [line.get("class") for line in root.iter(paper.SPACE + "polygon")]
+    assert names == [view.name for view in drawn("heel 25").views]
 
 
 def test_the_dxf_is_plain_and_in_mm_on_the_layers_of_shoe_cad() -> None:

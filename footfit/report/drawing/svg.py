@@ -47,7 +47,7 @@ def _add_line(root: Element, line: Line, height: float) -> None:
         "stroke-width": _number(line.width_mm),
     }
     if line.name:
-        style["id"] = line.name.replace(" ", "-")
+        style["class"] = line.name.replace(" ", "-")
     if line.layer == BOUNDARY:
         style["stroke-linejoin"] = "round"
     if line.dashed:

@@ -7,7 +7,7 @@ import numpy as np
 from footfit.geometry.drawing.views import SOLE_HEIGHT_MM, Mark, View, chord
 from footfit.geometry.numeric.arrays import Floats
 from footfit.number_words import plain
-from footfit.report.drawing.papers import TICK_MM
+from footfit.report.drawing.papers import TICK_MM, UNDER_CROSS_MM
 from footfit.report.drawing.parts import (
     BOUNDARY,
     EDGE_MM,
@@ -53,7 +53,7 @@ def _title_place(view: View, body: Block) -> tuple[float, float, Anchor]:
     """Where a title begins: in the widest gap between marks, over the toe, or below."""
     low, high = view.bounds_mm
     if view.name == "side":
-        return float(high[0]), float(high[1]), "end"
+        return float(high[0]), float(high[1]) - UNDER_CROSS_MM, "end"
     if view.name not in TITLES:
         return float(low[0]), float(body.bounds[0][1]) - 1.5, "start"
     levels = np.sort([mark.points_mm[:, 1].mean() for mark in view.marks])
@@ -70,6 +70,7 @@ def _details(drawing: Drawing, view: View) -> list[str]:
     kind = drawing.alignment.pose.kind
     medial = "left" if drawing.alignment.side.side == "right" else "right"
     seen = ["seen from above,", f"medial on the {medial}"]
+    stands = "resting" if drawing.alignment.standing_transform is None else "standing"
     if view.name == "bottom":
         if kind == "foot":
             return [f"what lies lower than {SOLE_HEIGHT_MM:.0f} mm,", *seen]
@@ -80,9 +81,9 @@ def _details(drawing: Drawing, view: View) -> list[str]:
             *(part for text in length for part in text.split(" ", 1)),
         ]
     if view.name == "plan":
-        return ["the standing last," if kind == "last" else "below the ankle,", *seen]
+        return [f"the {stands} last," if kind == "last" else "below the ankle,", *seen]
     if view.name == "side":
-        lines = [f"the standing {kind},", "the straight line is the ground"]
+        lines = [f"the {stands} {kind},", "the straight line is the ground"]
         named = (drawing.value_of(name) for name in ("heel_height", "toe_spring_tip"))
         return [*lines, *(text for measure in named for text in _measure_words(measure))]
     lines = [f"{plain(view.at_mm or 0.0)} mm from the heel", f"seen from the heel, medial {medial}"]
