@@ -28,8 +28,8 @@ if TYPE_CHECKING:
     from footfit.results import LastLabels
 
 _HOMES = (
-    *("api.scans", "api.files", "api.drawings", "api.last_making", "api.catalogues"),
-    *("errors", "results"),
+    *("api.scans", "api.files", "api.drawings", "api.last_making", "api.populations"),
+    *("api.catalogues", "errors", "results"),
 )
 """Where the names are, the lightest first."""
 

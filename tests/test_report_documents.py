@@ -17,6 +17,12 @@ from hypothesis import strategies as st
 
 from footfit import __version__
 from footfit.errors import SeveralFeet
+from footfit.geometry.fit.laid_bottoms import LaidBottom
+from footfit.geometry.fit.surface_difference import (
+    LargestDifference,
+    SurfaceDifference,
+    ZoneDifference,
+)
 from footfit.geometry.pose.paper_frame import paper_frame_angle_deg
 from footfit.pipeline.fit.fit_profile import fit_profile
 from footfit.pipeline.fit.match import matched
@@ -44,6 +50,7 @@ from footfit.results import (
 from footfit.results.evidence.fit_entries import FitList, ForgetOutcome, RecordOutcome
 from footfit.results.evidence.fit_evidence import Calibration
 from footfit.results.evidence.profiles import CheckedProfile, ProfileList, ShownProfile
+from footfit.results.last_making.last_difference import LastDifference
 from footfit.results.population.checked_lasts import LastFinding, LastsCheck
 from footfit.results.values import exact, json_number, part
 from tests import answers, fits, people
@@ -92,6 +99,7 @@ def every_document():
         Calibration(fit_profile(), fit_profile(), (), 0, {}),
         Drawing(answers.alignment(), (), (), (), {}, {}),
         RunCheck(None, "arithmetic", 1.0, None, {"girth": 2.0}, (), (), ()),
+        last_difference(),
         ExportOutcome("a", "a.stl", 10, 0.1),
         answers.facts(),
         upgrade,
@@ -104,6 +112,17 @@ def every_document():
         DemoOutcome("demo", 12, "derby-42", ("report.html",)),
     ]
     return [result.to_dict() for result in results]
+
+
+def last_difference():
+    """Two lasts that are one, without a measure that both have."""
+    drawn, shape = comparison(), answers.foot()
+    zones = (ZoneDifference("toe", 0.1, 0.0, 0.2, 9.0),)
+    largest = LargestDifference(0.3, (1.0, 2.0, 3.0), "toe", 0.9)
+    surface = SurfaceDifference(np.zeros(1), 0.1, 0.2, largest, zones)
+    laid = LaidBottom(np.eye(4), 0.0, 1.0)
+    tolerance = {"girth": 2.0}
+    return LastDifference(shape, shape, False, laid, tolerance, (), surface, (), 0.0, (), drawn)
 
 
 def listed_keys():
