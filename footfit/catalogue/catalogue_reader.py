@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -30,6 +31,7 @@ from footfit.catalogue.rows.verified_rows import (
     intact_last,
     last_names,
     sealed_row,
+    stored_lasts,
 )
 from footfit.catalogue.server.any_location import OpenLocation
 from footfit.catalogue.server.catalogue_server import NO_FILE, CatalogueServer
@@ -99,6 +101,15 @@ class CatalogueReader:
         """
         with self.file.reading() as connection:
             return block_lasts(connection, self.file.path, untrusted)
+
+    def each_last(self) -> Iterator[LastRecord]:
+        """Every intact last in one snapshot, by name, with one in memory at a time."""
+        with self.file.reading() as connection:
+            names = last_names(connection)
+            for key in sorted(names, key=lambda key: names[key]):
+                (stored,) = stored_lasts(connection, key)
+                if stored.intact:
+                    yield record_of(stored, names)
 
     def reference(self, name: str | None = None) -> Reference | None:
         """The reference last, None in an empty catalogue; or what the last ``name`` would be as it.

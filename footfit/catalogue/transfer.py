@@ -6,7 +6,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from footfit.catalogue.file.dialect import Driver, advance_keys, driver_of
+from footfit.catalogue.file.dialect import Driver, driver_of
 from footfit.catalogue.rows.columns import FIT, LAST, TABLES
 from footfit.catalogue.rows.verified_rows import last_names, rows, stored_lasts
 from footfit.catalogue.rows.writing import insert_rows
@@ -52,8 +52,6 @@ def copy_rows(source: OpenLocation, target: OpenLocation) -> Copied:
             count += 1
         for table in WHOLE:
             insert_rows(connection, table, rows(reader, table))
-        for table in (LAST, FIT):
-            advance_keys(driver, table.name, table.last_key)
         return Copied(count, len(rows(driver, FIT)))
 
 

@@ -116,12 +116,13 @@ def all_table_names(connection: Driver) -> list[str]:
     return sorted(str(name) for (name,) in connection.execute(select))
 
 
-def advance_keys(connection: Driver, table: str, column: str) -> None:
-    """Let new rows of a table get keys after those that it has; SQLite does so by itself."""
+def change_mark(connection: Driver) -> str:
+    """A mark that differs after another program changed the catalogue; for one connection."""
     if isinstance(connection, ServerConnection):
-        sequence = f"pg_get_serial_sequence('{table}', '{column}')"
-        highest = f"(SELECT coalesce(max({column}), 0) + 1 FROM {table})"
-        connection.execute(f"SELECT setval({sequence}, {highest}, false)")
+        (mark,) = connection.execute("SELECT xmin::text FROM alembic_version").fetchone()
+    else:
+        (mark,) = connection.execute("PRAGMA data_version").fetchone()
+    return str(mark)
 
 
 def column_names(connection: Driver) -> dict[str, set[str]]:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from footfit.catalogue.file.descriptors import DESCRIPTORS
-from footfit.catalogue.file.dialect import Driver
+from footfit.catalogue.file.dialect import Driver, change_mark
 from footfit.catalogue.file.engine import CatalogueFile
 from footfit.catalogue.file.migrate import Revisions, Schema
 from footfit.catalogue.file.opening import open_for_reading, open_for_writing
@@ -42,7 +42,6 @@ def open_location_for_writing(
 def stamp_of(connection: Driver, location: Location) -> bytes:
     """A mark of the catalogue that every commit changes; taken inside a transaction."""
     if isinstance(location, ServerUrl):
-        (mark,) = connection.execute("SELECT xmin::text FROM alembic_version").fetchone()
-        return str(mark).encode()
+        return change_mark(connection).encode()
     connection.execute("SELECT count(*) FROM alembic_version").fetchone()  # begins to read
     return DESCRIPTORS.first_bytes(location, 28)[24:]

@@ -21,7 +21,15 @@ from footfit.pipeline.library.manifest import LABEL_HEIGHTS, ManifestRow
 from footfit.pipeline.scan.kept_sections import kept_sections
 from footfit.pipeline.scan.measure import last_record
 from footfit.pipeline.scan.reading import content_hash, profiled_source
-from footfit.results import IngestOutcome, LastLabels, LastRecord, MeshCopy, Notice, ShapeSections
+from footfit.results import (
+    IngestOutcome,
+    LastLabels,
+    LastRecord,
+    MeshCopy,
+    Notice,
+    ShapeSections,
+    SideName,
+)
 from footfit.whole_files import require_folder
 
 KeepMesh = Literal["compact", "full"]
@@ -138,6 +146,25 @@ def new_last(entry: Entry, keep_mesh: KeepMesh = "compact") -> NewLast:
     return NewLast(record.info.sha256, record, copy, sections)
 
 
+@dataclass(frozen=True, slots=True)
+class Held:
+    """What an ingest must know of a stored last: few bytes, however many lasts there are."""
+
+    labels: LastLabels
+    sha256: str
+    units: str
+    lengths_mm: tuple[float | None, float]
+    side: SideName | None
+    flare_angle_deg: float
+
+
+def held_last(record: LastRecord) -> Held:
+    """What is known of a last; older versions scaled its extent and not its length."""
+    info, side, lengths_mm = record.info, record.side.side, (record.length_mm, record.extent_mm)
+    angle_deg = record.flare.angle_deg
+    return Held(record.labels, info.sha256, info.units, lengths_mm, side, angle_deg)
+
+
 class Holdings:
     """The lasts of the catalogue, kept up to date during a batch (also in a dry run).
 
@@ -146,7 +173,7 @@ class Holdings:
     """
 
     def __init__(self, records: Iterable[LastRecord]) -> None:
-        self.by_name: dict[str, LastRecord] = {}
+        self.by_name: dict[str, Held] = {}
         self.by_content: dict[str, str] = {}
         self.spellings: dict[str, str] = {}
         for record in records:
@@ -157,12 +184,12 @@ class Holdings:
         name = composed(record.labels.name)
         old = self.by_name.get(name)
         if old is not None:
-            self.by_content.pop(old.info.sha256, None)
-        self.by_name[name] = record
+            self.by_content.pop(old.sha256, None)
+        self.by_name[name] = held_last(record)
         self.by_content[record.info.sha256] = record.labels.name
         self.spellings[caseless(name)] = record.labels.name
 
-    def named(self, name: str) -> LastRecord | None:
+    def named(self, name: str) -> Held | None:
         """The last of that name.
 
         Raises
@@ -202,13 +229,12 @@ class Holdings:
         raise NameTaken(f"{name!r} is in the catalogue with {scan}; add --replace or --name")
 
 
-def _reads_alike(old: LastRecord, reading: ReadingOptions) -> bool:
+def _reads_alike(old: Held, reading: ReadingOptions) -> bool:
     """Whether these options would read the stored scan as it was read."""
     known = reading.known_length_mm
-    scaled_mm = (old.length_mm, old.extent_mm)  # older versions scaled the extent
-    length = known is None or any(abs(known - mm) < SAME_LENGTH_MM for mm in scaled_mm if mm)
-    units = reading.units in ("auto", old.info.units)
-    return length and units and reading.side in ("auto", old.side.side)
+    length = known is None or any(abs(known - mm) < SAME_LENGTH_MM for mm in old.lengths_mm if mm)
+    units = reading.units in ("auto", old.units)
+    return length and units and reading.side in ("auto", old.side)
 
 
 def ingest(
@@ -235,8 +261,7 @@ def ingest(
     """
     with ExitStack() as stack:
         catalogue = None if dry_run else _existing(path, stack)
-        holdings = Holdings(_stored_lasts(path) if catalogue is None else catalogue.lasts().records)
-        again = replace and keep_mesh == "full"  # its copy may be a lighter one
+        holdings = _stored_lasts(path) if catalogue is None else Holdings(catalogue.each_last())
         known = frozenset() if replace else frozenset(holdings.by_content)
         work_on = partial(new_last, keep_mesh=keep_mesh)
         made = None
@@ -244,9 +269,9 @@ def ingest(
             with hold_signals():
                 if catalogue is None and not dry_run and work.value is not None:
                     catalogue = stack.enter_context(open_catalogue(path, write=True))
-                    holdings = Holdings(catalogue.lasts().records)
+                    holdings = Holdings(catalogue.each_last())
                     made = str(path) if catalogue.revisions.made else None
-                outcome = _store(work, holdings, catalogue, replace=replace, again=again)
+                outcome = _store(work, holdings, catalogue, replace=replace, keep_mesh=keep_mesh)
                 yield dataclasses.replace(outcome, dry_run=dry_run, new_catalogue=made)
                 made = None
 
@@ -269,13 +294,13 @@ def _known_last(known: frozenset[str], entry: Entry) -> NewLast | None:
     return NewLast(sha256) if sha256 in known else None
 
 
-def _stored_lasts(path: Location) -> Sequence[LastRecord]:
+def _stored_lasts(path: Location) -> Holdings:
     """The lasts of a catalogue; none if there is no catalogue."""
     try:
         with open_catalogue(path) as catalogue:
-            return catalogue.lasts().records
+            return Holdings(catalogue.each_last())
     except NoCatalogue:
-        return ()
+        return Holdings(())
 
 
 def _store(
@@ -284,10 +309,11 @@ def _store(
     catalogue: Catalogue | None,
     *,
     replace: bool,
-    again: bool,
+    keep_mesh: KeepMesh,
 ) -> IngestOutcome:
     """Store what the work on one file made, and say what became of the file; None is a dry run."""
     entry, new = work.item, work.value
+    again = replace and keep_mesh == "full"  # its copy may be a lighter one
     name, path = entry.labels.name, entry.path
     if new is None:
         return IngestOutcome(path, "refused", failure=work.error)
@@ -295,41 +321,37 @@ def _store(
         status = holdings.status(new.sha256, entry, replace=replace)
         held = holdings.named(name)
         if held is not None and status == "unchanged" and not again:
-            return _success(path, status, held)
+            return _unchanged(path, held)
         if new.record is None:  # it was known when the batch began, and is not any more
-            new = new_last(entry)
+            new = new_last(entry, keep_mesh)
         assert new.record is not None
         first = not holdings.by_name
         if catalogue is not None:
             try:
                 catalogue.add(new.record, new.copy, new.sections, replace=replace)
             except NameTaken:  # another process stored it meanwhile: look again, and say so
-                holdings = Holdings(catalogue.lasts().records)
+                holdings = Holdings(catalogue.each_last())
                 status = holdings.status(new.sha256, entry, replace=replace)
                 held = holdings.named(name)
                 if held is None:  # the last of that name is damaged
                     raise
-                return _success(path, status, held)
+                return _unchanged(path, held)
         holdings.put(new.record)
         status = "replaced" if status == "unchanged" else status
     except FootfitError as error:
         if error.exit == ExitCode.CATALOGUE_UNUSABLE:
             raise
         return IngestOutcome(path, "refused", failure=error.at(path))
-    return _success(path, status, new.record, first=first)
+    done = _unchanged(path, held_last(new.record))
+    warnings, info = new.record.notices, new.record.info
+    return dataclasses.replace(done, status=status, warnings=warnings, reference=first, info=info)
 
 
-def _success(
-    path: str | None, status: str, record: LastRecord, *, first: bool = False
-) -> IngestOutcome:
-    changed = status != "unchanged"
+def _unchanged(path: str | None, held: Held) -> IngestOutcome:
     return IngestOutcome(
         path=path,
-        status=status,
-        last=record.labels.name,
-        side=record.side.side,
-        flare_angle_deg=record.flare.angle_deg,
-        warnings=record.notices if changed else (),
-        reference=first,
-        info=record.info if changed else None,
+        status="unchanged",
+        last=held.labels.name,
+        side=held.side,
+        flare_angle_deg=held.flare_angle_deg,
     )
