@@ -96,8 +96,10 @@ class Model:
         move = rhino3dm.Transform.Translation(rhino3dm.Vector3d(*shift))
         return rhino3dm.InstanceReference(block, rhino3dm.Transform.Multiply(move, turn))
 
-    def data(self) -> bytes:
-        return base64.b64decode(self.file.Encode())
+    def data(self, version: int = 8) -> bytes:
+        options = rhino3dm.File3dmWriteOptions()
+        options.Version = version
+        return base64.b64decode(self.file.Encode(options))
 
 
 def model(*geometries: Any, unit: str = "Millimeters") -> bytes:

@@ -50,6 +50,15 @@ def test_the_models_unit_is_taken(unit, name, scale):
     assert np.allclose(raw.vertices, VERTICES * scale, rtol=1e-12, atol=0)
 
 
+@pytest.mark.parametrize("version", [2, 4, 5, 8])
+def test_files_of_older_versions_are_read(version):
+    model = rhino.Model().add(rhino.mesh())
+    raw = read(model.data(version))
+    assert np.allclose(raw.vertices, VERTICES, atol=1e-5)  # float32 before version 6
+    with pytest.raises(DamagedMesh, match="cut off"):
+        read(model.data(version)[:-50])
+
+
 def test_a_unit_that_no_last_has_is_refused():
     with pytest.raises(UnknownFormat, match="set it to millimetres"):
         read(rhino.model(unit="LightYears"))

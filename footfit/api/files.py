@@ -55,7 +55,7 @@ def picture(result: Any, kind: str = "svg") -> bytes:
 
 
 def mesh_file(result: Any, kind: str) -> bytes:
-    """The mesh of a result as a file in mm: "stl", "ply", "obj" or "off".
+    """The mesh of a result as a file in mm: "stl", "ply", "obj", "off", "3mf" or "3dm".
 
     The result of `curvature` becomes a coloured "ply", or an "npz" with the values of every vertex.
     The result of `compare` becomes a "ply" coloured by the clearance, or a picture of it; that of

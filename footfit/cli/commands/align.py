@@ -14,7 +14,7 @@ MethodName = Literal["footfit", "paper", "paper-literal"]
 def align(
     meshes: list[str] = options.MESHES,
     output: Path | None = options.output_files(
-        "--output", "Write the aligned mesh in mm (.stl, .ply, .obj, .off).", "-o"
+        "--output", "Write the aligned mesh in mm (.stl, .ply, .obj, .off, .3mf, .3dm).", "-o"
     ),
     plot: Path | None = options.output_files(
         "--plot", "Draw the mesh and its eigenvectors before and after (.svg, .png)."

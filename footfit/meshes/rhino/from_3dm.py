@@ -62,7 +62,7 @@ def read_3dm(data: bytes, limits: Limits) -> RawMesh:
     """
     if not is_installed():
         raise UnknownFormat(f"footfit reads .3dm only with rhino3dm: {INSTALL}, or export STL")
-    if not _is_whole(data):
+    if not _is_whole(data, limits.elements):
         raise DamagedMesh(f"the .3dm is cut off or damaged: {_AGAIN}")
     try:
         answer = run("read", data, limits)
@@ -163,7 +163,7 @@ def _refuse(facts: dict[str, Any], limits: Limits) -> NoReturn:
     raise DamagedMesh(f"the .3dm is damaged and cannot be read: {_AGAIN}")
 
 
-def _is_whole(data: bytes) -> bool:
+def _is_whole(data: bytes, most_chunks: int) -> bool:
     """Whether the chunks of the file follow each other to its end mark.
 
     A chunk is a number for its kind, and the length of what follows; a short one has a value in
@@ -173,7 +173,7 @@ def _is_whole(data: bytes) -> bool:
         version = int(data[len(_MAGIC) : _HEADER_BYTES])
         head = struct.Struct("<Iq" if version >= _WIDE_FROM else "<Ii")
         at = _HEADER_BYTES
-        while True:
+        for _ in range(most_chunks):  # a model has some twenty at this level
             kind, length = head.unpack_from(data, at)
             at += head.size + (0 if kind & _SHORT else length)
             if length < 0 and not kind & _SHORT:
@@ -182,3 +182,4 @@ def _is_whole(data: bytes) -> bool:
                 return at <= len(data)
     except (ValueError, struct.error):
         return False
+    return False
