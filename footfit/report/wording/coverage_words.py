@@ -65,9 +65,9 @@ def go_words(answer: Coverage) -> str:
     if not names:
         return "No last could go: each one serves a foot that no other last serves."
     shown = ", ".join(names[:8]) + (f" and {len(names) - 8:,} more" if len(names) > 8 else "")
-    kept = "no foot loses its last acceptable one"
+    kept = "every foot that has an acceptable last keeps one"
     lost = answer.served.good.count - answer.good_if_gone
-    cost = f", and {feet_words(lost)} would lose the good one" if lost else ""
+    cost = f", but {feet_words(lost)} would have no good last any more" if lost else ""
     count = "1 last" if len(names) == 1 else f"{len(names):,} lasts"
     return f"{count} could go together: {kept}{cost}. {shown}."
 
