@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import defaultdict
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Sequence
 
 from footfit.errors import BadOption
 from footfit.locations import Location
@@ -15,10 +15,8 @@ from footfit.pipeline.last_making.run_lasts import stored_last
 from footfit.pipeline.last_making.tolerances import tolerances
 from footfit.pipeline.library.lasts import list_lasts
 from footfit.results import LastRecord
-from footfit.results.last_making.run_check import RunCheck, RunLast
+from footfit.results.last_making.run_check import OffLast, RunCheck, RunLast, RunStep
 from footfit.results.population.checked_lasts import LastFinding, LastsCheck
-
-ORDER = ("twin", "near_twin")
 
 
 def check_lasts(path: Location, tolerance: str | None = None) -> LastsCheck:
@@ -88,24 +86,49 @@ def _families(
 
 
 def _run_findings(name: str, checked: RunCheck) -> Iterator[LastFinding]:
-    """What breaks a run: lasts that are off by themselves, and steps that jump."""
-    allowed: Mapping[tuple[str, str], float] = {
-        (step.first, step.measure): step.tolerance_mm for step in checked.steps
-    }
-    told = set()
+    """What breaks a run: a finding for each last that is off by itself, and for each step that
+    jumps, with the measure that is farthest off in its tolerance.
+    """
+    allowed = {(step.first, step.measure): step.tolerance_mm for step in checked.steps}
+    off_lasts: dict[str, dict[str, OffLast]] = defaultdict(dict)
     for off in checked.off_lasts:
-        told.add((off.last, off.measure))
-        size = "large" if off.off_mm > 0.0 else "small"
-        amount = f"{off.measure.replace('_', ' ')} {plain(abs(off.off_mm))} mm too {size}"
+        off_lasts[off.last][off.measure] = off
+    for last, by_measure in off_lasts.items():
+        worst = max(
+            by_measure.values(), key=lambda off: _times(off.off_mm, allowed[off.last, off.measure])
+        )
+        size = "large" if worst.off_mm > 0.0 else "small"
+        amount = f"{worst.measure.replace('_', ' ')} {plain(abs(worst.off_mm))} mm too {size}"
+        words = f"is off in its run: {amount} beside its neighbours"
         yield LastFinding(
-            "off_in_family", off.last, f"is off in its run: {amount} beside its neighbours",
-            family=name, measure=off.measure, off_mm=off.off_mm,
-            tolerance_mm=allowed.get((off.last, off.measure)),
+            "off_in_family", last, words + _more(set(by_measure) - {worst.measure}), family=name,
+            measure=worst.measure, off_mm=worst.off_mm, tolerance_mm=allowed[last, worst.measure],
         )  # fmt: skip
+    jumps: dict[tuple[str, str], dict[str, RunStep]] = defaultdict(dict)
     for step in checked.broken:
-        if {(step.first, step.measure), (step.second, step.measure)} & told:
-            continue
+        told = (off_lasts.get(last, {}) for last in (step.first, step.second))
+        if not any(step.measure in measures for measures in told):
+            jumps[step.first, step.second][step.measure] = step
+    for (first, second), steps in jumps.items():
+        step = max(steps.values(), key=lambda each: _times(each.off_mm, each.tolerance_mm))
+        words = f"the run jumps: {step.words}{_more(set(steps) - {step.measure})}"
         yield LastFinding(
-            "jump_in_family", step.second, f"the run jumps: {step.words}", step.first, name,
-            step.measure, step.off_mm, step.tolerance_mm,
+            "jump_in_family", second, words, first, name, step.measure, step.off_mm, step.tolerance_mm,
         )  # fmt: skip
+
+
+def _times(off_mm: float, tolerance_mm: float) -> float:
+    """How many times its tolerance a measure is off."""
+    return abs(off_mm) / max(tolerance_mm, 1e-3)
+
+
+def _more(measures: set[str]) -> str:
+    """The other measures that are off.
+
+    Examples
+    --------
+    >>> _more({"heel_width", "ball_width"}), _more(set())
+    ('; also off: ball width, heel width', '')
+    """
+    names = ", ".join(sorted(measure.replace("_", " ") for measure in measures))
+    return f"; also off: {names}" if names else ""
