@@ -113,7 +113,8 @@ def _run_findings(name: str, checked: RunCheck) -> Iterator[LastFinding]:
         step = max(steps.values(), key=lambda each: _times(each.off_mm, each.tolerance_mm))
         words = f"the run jumps: {step.words}{_more(set(steps) - {step.measure})}"
         yield LastFinding(
-            "jump_in_family", second, words, first, name, step.measure, step.off_mm, step.tolerance_mm,
+            "jump_in_family", second, words, first, name,
+            step.measure, step.off_mm, step.tolerance_mm,
         )  # fmt: skip
 
 
