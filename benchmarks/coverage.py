@@ -53,10 +53,10 @@ MEMORY = Path("/dev/shm")
 """A disk in memory: a last is stored with a durable commit, which is not what is measured here."""
 
 
-def draws(*, even: bool, seed: int = 1) -> FootTable:
+def draws(*, even: bool, seed: int = 1, base2: int = 20) -> FootTable:
     """Women's feet, drawn: independently, or evenly spread (a scrambled Sobol sequence)."""
     if even:
-        z = norm.ppf(qmc.Sobol(2, seed=seed).random_base2(20)).T
+        z = norm.ppf(qmc.Sobol(2, seed=seed).random_base2(base2)).T
     else:
         z = np.random.default_rng(seed).normal(size=(2, DRAWS))
     length = MEAN_MM[0] + SD_MM[0] * z[0]

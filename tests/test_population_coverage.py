@@ -9,6 +9,7 @@ import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
+from benchmarks import coverage as coverage_benchmark
 from footfit.pipeline.population.cover import (
     counts,
     greedy_cover,
@@ -175,3 +176,18 @@ def test_an_interval_is_that_of_wilson() -> None:
     for (count, of), ends in known.items():
         share = Share(count, of)
         assert (share.low, share.high) == pytest.approx(ends, abs=5e-5)
+
+
+def test_a_run_serves_the_closed_form_of_a_normal_population() -> None:
+    """At most 0.1 points off for evenly drawn feet; benchmarks/coverage.py draws 10^6."""
+    feet = coverage_benchmark.draws(even=True, base2=15)
+    for sizes_made, widths in ((range(1, 12), 1), (range(5, 8), 3)):
+        half_mm = 0.5 * widths * coverage_benchmark.GIRTH_MM
+        line = np.array([228.1, 0.606 * 11.8 / 12.4])
+        lasts = coverage_benchmark.run_of(list(sizes_made), "ball_girth", line, 1)
+        box = {"length": 0.5 * coverage_benchmark.SIZE_MM + 1e-3, "ball_girth": half_mm}
+        share = coverage_benchmark.share_served(feet, lasts, coverage_benchmark.boxes(box))
+        known = coverage_benchmark.closed_form(list(sizes_made), half_mm, 1)
+        assert share == pytest.approx(known, abs=0.1)
+    assert coverage_benchmark.closed_form(range(1, 12), 3.25, 0) == pytest.approx(27.1, abs=0.05)
+    assert coverage_benchmark.closed_form(range(5, 8), 9.75, 0) == pytest.approx(48.7, abs=0.05)

@@ -9,7 +9,7 @@ import numpy as np
 
 from footfit.geometry.fit.sizes import SYSTEMS, size_words
 from footfit.geometry.numeric.arrays import Bools, Bytes, Floats
-from footfit.pipeline.fit.scoring import NOT_JUDGED, REJECT, VERDICTS
+from footfit.pipeline.fit.scoring import NOT_JUDGED, REJECT
 from footfit.pipeline.fit.zones import ZONES
 from footfit.pipeline.population import cover
 from footfit.pipeline.population.groups import (
@@ -202,7 +202,6 @@ def _foot_columns(
     """Each foot with its best last."""
     by = {each.by: each for each in groups[:2]}
     names = {name: [by[name].names[place] for place in by[name].group] for name in by}
-    verdicts = (*VERDICTS, None)  # NOT_JUDGED is the last one
     servers = [
         sum((np.unpackbits(row)[: len(feet)].astype(np.int64) for row in bits), np.zeros(len(feet)))
         for bits in served
@@ -224,7 +223,7 @@ def _foot_columns(
         margin=judged.margin,
         margin_zone=judged.margin_zone,
         zones=asking.zones,
-        zone_verdicts=[tuple(verdicts[level] for level in row) for row in judged.zone_level],
+        zone_level=judged.zone_level,
         counts=tuple(asking.counts.tolist()),
         clearances=judged.clearance,
         servers=np.stack(servers, axis=-1).astype(np.int64),

@@ -178,7 +178,7 @@ def _judged(feet: FootTable, lasts: LastTable, asking: Asking, heels: Heels) -> 
     return Judged(
         level=_verdicts(whole, sound, fits, last),
         last=last,
-        zone_level=zone_level,
+        zone_level=zone_level.astype(np.int8),
         clearance=clearance,
         margin=margin,
         margin_zone=margin_zone,

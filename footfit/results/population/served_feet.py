@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Literal
 
@@ -11,9 +11,11 @@ from footfit.results.values import LABELS, Json, Part, part, rows
 if TYPE_CHECKING:
     from footfit.geometry.numeric.arrays import Floats, Ints
     from footfit.results.population.shares import Share
-    from footfit.results.values import SideName, Verdict
+    from footfit.results.values import SideName
 
 FootStatus = Literal["good", "acceptable", "poor", "no_last_fits", "not_judged", "failed"]
+GOOD, POOR = 0, 2
+"""Places in VERDICTS: good, acceptable, poor, reject."""
 UNITS = {"ball_line": "percent", "flare": "deg", "plan": "ratio"}
 """The unit of a zone, if it is not mm."""
 
@@ -26,8 +28,9 @@ class FootColumns:
     ``status`` is the verdict of the first last, or why there is none. ``last`` (n,) is the place of
     that last in ``lasts``, -1 for none; if no last fits it is the nearest. ``margin`` (n,) is how
     far inside its acceptable range the zone ``margin_zone`` (n,) is, in the unit of the zone.
-    ``zone_verdicts`` (n, z) and ``clearances`` (n, z) are in that last, by ``zones``; None and NaN
-    where nothing was judged. ``servers`` (n, 2) are how many lasts are good, or acceptable.
+    ``zone_level`` (n, z) and ``clearances`` (n, z) are in that last, by ``zones``: an index of
+    VERDICTS, or -1, and NaN where nothing was judged. ``servers`` (n, 2) are how many lasts are
+    good, or acceptable.
     """
 
     ids: tuple[str, ...]
@@ -44,7 +47,7 @@ class FootColumns:
     margin: Floats
     margin_zone: Ints
     zones: tuple[str, ...]
-    zone_verdicts: Sequence[tuple[Verdict | None, ...]]
+    zone_level: Ints
     counts: tuple[bool, ...]
     clearances: Floats
     servers: Ints
@@ -74,12 +77,11 @@ class FootColumns:
         )
         last = self.lasts[self.last[at]] if self.last[at] >= 0 else None
         zone = self.zones[self.margin_zone[at]] if self.margin_zone[at] >= 0 else None
-        verdicts = list(zip(self.zones, self.zone_verdicts[at], self.counts, strict=True))
-        failing = [z for z, verdict, counts in verdicts if counts and verdict in ("poor", "reject")]
-        not_good = [
-            z for z, verdict, counts in verdicts if counts and verdict not in ("good", None)
-        ]
-        unknown = [z for z, verdict, counts in verdicts if counts and verdict is None]
+        levels = zip(self.zones, self.zone_level[at].tolist(), self.counts, strict=True)
+        judged = [(zone, level) for zone, level, counts in levels if counts]
+        failing = [zone for zone, level in judged if level >= POOR]
+        not_good = [zone for zone, level in judged if level > GOOD]
+        unknown = [zone for zone, level in judged if level < GOOD]
         margin = self.margin[at]
         return (
             self.ids[at],
