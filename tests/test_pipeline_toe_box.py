@@ -182,14 +182,16 @@ def test_an_outline_that_ends_before_the_tip_is_not_judged(
     lasts, sentences = columns_of([record, record], kept_toes, Vocabulary()), Words()
     heels = heels_of(AS_SCANNED, [record, record])
     toes = toe_box.foot_toes(right)
-    answer = toe_box.toe_cells(toes, lasts, heels, heels.share, np.array([14.0, 14.0]), sentences)
-    assert sentences.values[answer.reason[0]] == "the last: the scan is open at the toes"
-    assert np.isnan(answer.value[0])
-    assert answer.reason[1] == NO_WORD
+    reason = toe_box.toe_reasons(toes, lasts, sentences)
+    rooms_mm = np.array([14.0, 14.0])
+    tightest = toe_box.tightest_mm(toes, lasts, reason == NO_WORD, heels, heels.share, rooms_mm)
+    assert sentences.values[reason[0]] == "the last: the scan is open at the toes"
+    assert np.isnan(tightest[0])
+    assert reason[1] == NO_WORD
     assert toe_box.toe_box(toes, lasts, 0, heels, 14.0, 0.0) is None
     box = toe_box.toe_box(toes, lasts, 1, heels, 14.0, 0.0)
     assert box is not None
-    assert box.tightest.clearance.value == answer.value[1]
+    assert box.tightest.clearance.value == tightest[1]
 
 
 def test_nothing_is_read_of_a_last_that_another_zone_rejects(

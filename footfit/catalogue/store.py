@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass, replace
 
@@ -11,6 +11,7 @@ from footfit.catalogue.catalogue_reader import CatalogueReader
 from footfit.catalogue.file.dialect import driver_of
 from footfit.catalogue.file.engine import SETTINGS
 from footfit.catalogue.file.migrate import Schema
+from footfit.catalogue.group_commit import KnownLasts, NewLast, groups, write_group
 from footfit.catalogue.rows.columns import (
     LAST,
     MESH_COPY,
@@ -140,6 +141,48 @@ class Catalogue(CatalogueReader):
             write_parentage(connection, key, parentage, keep=place.same_file)
             express(connection, key)
             refresh_blocks(driver_of(connection), [key])
+
+    def add_many(
+        self, lasts: Iterable[LastRecord | NewLast], *, replace: bool = False
+    ) -> Iterator[str]:
+        """Store many lasts, several in one commit; yield each name after the commit that holds it.
+
+        A commit holds the lasts that come within 0.2 s, at most 256. Otherwise it is as if each
+        last were added alone: if one cannot be stored, those before it are, and those after it are
+        not.
+
+        Raises
+        ------
+        NameTaken, UnknownLast, BadOption
+            As `add`, for the first last that cannot be stored.
+        """
+        known = KnownLasts()
+        for group in groups(lasts):
+            left = group
+            while left:
+                if self._stored_together(left, known):
+                    yield from (last.record.labels.name for last in left)
+                    break
+                self.add(*left[0], replace=replace)
+                known.add(left[:1])
+                yield left[0].record.labels.name
+                left = left[1:]
+
+    def _stored_together(self, group: Sequence[NewLast], known: KnownLasts) -> bool:
+        """Whether a group was stored in one commit: it is, if all of its lasts are new ones and
+        the catalogue has a reference.
+        """
+        if len(group) < 2:
+            return False
+        with self.file.atomic() as connection:
+            driver = driver_of(connection)
+            known.refresh(driver)
+            if not known.names or not known.are_new(group):
+                return False
+            stored = write_group(driver, group)
+            refresh_blocks(driver, [last.id for last in stored], stored)
+        known.add(group)
+        return True
 
     def remove(self, name: str) -> RemoveOutcome:
         """Remove a last with everything that the catalogue holds of it.

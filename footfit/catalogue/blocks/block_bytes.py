@@ -122,10 +122,10 @@ def parts_of(lasts: LastColumns) -> dict[str, bytes]:
     assert lasts.toes is not None
     assert lasts.flare.plan is not None
     assert lasts.flare.bottom is not None
-    words = lasts.words
+    words, measures = lasts.words, lasts.measures.used()
     local = [_local(getattr(words, f"{name}s"), getattr(lasts, name)) for name in CODES[:3]]
     codes = [places for places, _ in local] + [getattr(lasts, name) for name in CODES[3:]]
-    measure_places, measure_words = _local(words.measures, lasts.measures.word)
+    measure_places, measure_words = _local(words.measures, measures.word)
     toes = lasts.toes
     plan = np.concatenate(
         [
@@ -148,10 +148,10 @@ def parts_of(lasts: LastColumns) -> dict[str, bytes]:
         ),
         MEASURES: _packed(
             [
-                _text(lasts.measures.names),
+                _text(measures.names),
                 measure_words,
-                _bytes(lasts.measures.value, "<f8"),
-                _bytes(lasts.measures.sd, "<f8"),
+                _bytes(measures.value, "<f8"),
+                _bytes(measures.sd, "<f8"),
                 _bytes(measure_places, "<u2"),
             ]
         ),

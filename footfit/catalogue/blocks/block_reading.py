@@ -14,10 +14,14 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 
 from footfit.catalogue.blocks.block_bytes import (
+    BOTTOM,
     LASTS,
     LAYOUT,
+    MEASURES,
     PARTS,
+    PLAN,
     READERS,
+    TOES,
     block_of,
     checksum,
     lasts_of,
@@ -50,8 +54,10 @@ from footfit.results.columns.vocabulary import Vocabulary
 
 CHUNK_BLOCKS = 16
 """So many blocks are looked at together: 4,096 lasts take some MB."""
-KEPT_BYTES = 100_000_000
-"""What is read of blocks stays in memory for the next question up to this size for each part."""
+KEPT_BYTES = 4_000_000
+"""What is read of blocks stays in memory up to this size for each part; if it is asked for again,
+as for the next customer, whatever its size.
+"""
 
 
 class OtherCatalogue(Exception):
@@ -112,21 +118,21 @@ class BlockLasts:
                 last = min(first + CHUNK_BLOCKS, len(self.blocks))
                 yield int(self.starts[first]), self._read(connection, first, last, parts)
         if len(self.from_rows):
-            yield int(self.starts[-1]), self.from_rows
+            yield int(self.starts[-1]), _only(self.from_rows, parts)
 
     def taken(self, chosen: Ints, parts: Sequence[str]) -> LastColumns:
         """Some lasts with these parts, in the order of ``chosen``; raises as `chunks`."""
         order = np.argsort(chosen, kind="stable")
         wanted = chosen[order]
         of_block = np.searchsorted(self.starts, wanted, side="right") - 1
-        picked = []
+        picked, apart = [], _only(self.from_rows, parts)
         with self._snapshot(parts) as connection:
             for at in np.unique(of_block).tolist():
                 rows_there = wanted[of_block == at] - self.starts[at]
                 there = at < len(self.blocks)
-                lasts = self._read(connection, at, at + 1, parts) if there else self.from_rows
+                lasts = self._read(connection, at, at + 1, parts) if there else apart
                 picked.append(lasts.taken(rows_there))
-        lasts = joined(picked or [self.from_rows.taken(chosen)]).taken(np.argsort(order))
+        lasts = joined(picked or [apart.taken(chosen)]).taken(np.argsort(order))
         return _spoilt(lasts, np.isin(chosen, list(self.spoilt))) if self.spoilt else lasts
 
     def with_spoilt(self, chosen: Sequence[int]) -> BlockLasts:
@@ -276,7 +282,7 @@ def _beside_blocks(
 
 
 def _bare(lasts: LastColumns) -> LastColumns:
-    return replace(lasts, measures=None, flare=None, toes=None)
+    return _only(lasts, ())
 
 
 def columns_of_rows(
@@ -303,6 +309,19 @@ def last_of_rows(connection: Driver, stored: LastRows) -> tuple[LastRecord, Kept
         return record, NOT_KEPT
     intact = kept[0].get("sha256") == row_digest(SECTION, kept[0])
     return record, sections_of(kept[0]) if intact else SPOILT
+
+
+def _only(lasts: LastColumns, parts: Sequence[str]) -> LastColumns:
+    """Lasts with no more than these parts."""
+    flare = lasts.flare if PLAN in parts else None
+    if flare is not None and BOTTOM not in parts:
+        flare = replace(flare, bottom=None)
+    return replace(
+        lasts,
+        measures=lasts.measures if MEASURES in parts else None,
+        flare=flare,
+        toes=lasts.toes if TOES in parts else None,
+    )
 
 
 def _spoilt(lasts: LastColumns, rows: Bools) -> LastColumns:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import struct
-from collections.abc import Collection, Iterable
+from collections.abc import Collection, Iterable, Mapping, Sequence
 
 import numpy as np
 
@@ -21,22 +21,26 @@ from footfit.catalogue.blocks.block_bytes import (
 from footfit.catalogue.blocks.block_reading import columns_of_rows, is_sound
 from footfit.catalogue.blocks.same_lasts import same_lasts
 from footfit.catalogue.file.dialect import Driver
-from footfit.catalogue.rows.verified_rows import stored_lasts
+from footfit.catalogue.rows.verified_rows import LastRows, stored_lasts
 from footfit.results.columns.last_columns import LastColumns, joined
 from footfit.results.columns.vocabulary import Vocabulary
 
 BLOCKS_ANEW = "type: footfit upgrade-catalogue, which makes it anew"
 
 
-def refresh_blocks(connection: Driver, keys: Iterable[int]) -> None:
+def refresh_blocks(
+    connection: Driver, keys: Iterable[int], sealed: Sequence[LastRows] = ()
+) -> None:
     """Write the blocks of lasts that were added, changed or removed, from their rows.
 
     The other lasts of a block stay as they are in it; if the block is not what was stored, all of
-    it is made from rows. A damaged last is in no block.
+    it is made from rows. A damaged last is in no block. ``sealed`` are rows that were sealed in
+    this transaction: they are not verified again.
     """
     changed = sorted(set(keys))
+    known = {last.id: last for last in sealed}
     for block in sorted({block_of(key) for key in changed}):
-        _write(connection, block, _renewed(connection, block, changed))
+        _write(connection, block, _renewed(connection, block, changed, known))
 
 
 def fill_blocks(connection: Driver) -> int:
@@ -89,17 +93,42 @@ def _keys(connection: Driver, block: int) -> list[int]:
     return [key for (key,) in connection.execute(select, (first, first + BLOCK_LASTS - 1))]
 
 
-def _renewed(connection: Driver, block: int, changed: Collection[int]) -> LastColumns:
+def _renewed(
+    connection: Driver,
+    block: int,
+    changed: Collection[int],
+    sealed: Mapping[int, LastRows],
+) -> LastColumns:
     """The lasts of a block, with those that changed from their rows."""
     words, keys = Vocabulary(), _keys(connection, block)
+    parts = (
+        []
+        if all(key in sealed for key in keys)
+        else [_kept(connection, block, keys, changed, words)]
+    )
+    there = {key for part in parts for key in part.keys.tolist()}
+    fresh = [key for key in keys if key not in there]
+    parts.append(_of_rows(connection, [key for key in fresh if key not in sealed], words))
+    parts.append(
+        columns_of_rows(connection, [sealed[key] for key in fresh if key in sealed], words)
+    )
+    together = joined(parts)
+    return together.taken(np.argsort(together.keys))
+
+
+def _kept(
+    connection: Driver,
+    block: int,
+    keys: Collection[int],
+    changed: Collection[int],
+    words: Vocabulary,
+) -> LastColumns:
+    """The lasts of a stored block that are still there and did not change; none of a wrong one."""
     old = _whole(_sound_parts(connection, block), words)
     if old is None:
-        return _of_rows(connection, keys, words)
-    kept = np.isin(old.keys, keys) & ~np.isin(old.keys, list(changed))
-    known = set(old.keys[kept].tolist())
-    fresh = _of_rows(connection, [key for key in keys if key not in known], words)
-    together = joined([old.taken(np.flatnonzero(kept)), fresh])
-    return together.taken(np.argsort(together.keys))
+        return columns_of_rows(connection, [], words)
+    kept = np.isin(old.keys, list(keys)) & ~np.isin(old.keys, list(changed))
+    return old.taken(np.flatnonzero(kept))
 
 
 def _whole(parts: dict[str, bytes], words: Vocabulary) -> LastColumns | None:

@@ -72,8 +72,8 @@ def columns_of(
 
 
 def measure_columns(tables: Sequence[Sequence[Measure]], words: Vocabulary) -> MeasureColumns:
-    """Tables of measures by column, in the order in which the names are met first."""
-    names = tuple(dict.fromkeys(row.name for table in tables for row in table))
+    """Tables of measures by column, in the order of their names."""
+    names = tuple(sorted({row.name for table in tables for row in table}))
     place = {name: at for at, name in enumerate(names)}
     value = np.full((len(names), len(tables)), np.nan)
     sd, word = np.zeros_like(value), np.full(value.shape, NO_WORD, dtype=np.int64)

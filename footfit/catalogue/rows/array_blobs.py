@@ -37,6 +37,7 @@ def array_of(data: bytes, *shape: int) -> Floats:
     return flat.reshape(shape) if shape else flat
 
 
+@lru_cache(maxsize=64)
 def definition_text(definition: FlareDefinition) -> str:
     """A flare definition with all its parameters, as canonical JSON."""
     return json.dumps(asdict(definition), sort_keys=True, separators=(",", ":"))

@@ -14,7 +14,7 @@ import json
 import math
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
-from functools import cached_property, reduce
+from functools import cached_property
 from operator import itemgetter
 from pathlib import PurePath
 from typing import Any, Literal, TypeVar, cast
@@ -102,8 +102,17 @@ class Column:
 
     def value_in(self, record: object) -> Any:
         """What is stored of a record."""
-        value = reduce(_member, self.path.split("."), record)
+        value: Any = record
+        for step in self._steps:
+            if value is None:
+                return None
+            plain = type(value) is dict or isinstance(value, Mapping)
+            value = value.get(step) if plain else getattr(value, step)
         return None if value is None else self.kind.to_sql(value)
+
+    @cached_property
+    def _steps(self) -> list[str]:
+        return self.path.split(".")
 
     def reader(self) -> Reader[Any]:
         """A function from a row to what the value is in a record."""
@@ -116,12 +125,6 @@ class Column:
         """What the value must be, in words; None if it is plausible."""
         rule = self.rule or self.kind.rule
         return None if (value is None and self.nullable) or rule.holds(value) else rule.words
-
-
-def _member(whole: Any, name: str) -> Any:
-    if whole is None:
-        return None
-    return whole.get(name) if isinstance(whole, Mapping) else getattr(whole, name)
 
 
 @dataclass(frozen=True)
@@ -145,7 +148,11 @@ class Table:
 
     def row(self, record: object, **added: object) -> Row:
         """The row of a record, with the values that the writer adds."""
-        return {c.name: c.value_in(record) for c in self.columns if c.path} | added
+        return {column.name: column.value_in(record) for column in self._of_records} | added
+
+    @cached_property
+    def _of_records(self) -> tuple[Column, ...]:
+        return tuple(column for column in self.columns if column.path)
 
     def readers(self, part: str) -> dict[str, Reader[Any]]:
         """A reader for each field of one part of a record: of the paths that begin with it."""

@@ -81,6 +81,14 @@ def transform_by(reference: Reference, stored: LastRows) -> Floats:
     return paper_transform(P_c, R, reference.om_e, reference.centroid_mm, scale)
 
 
+def expressed(record: LastRecord, reference: Reference) -> Floats:
+    """The ``paper_transform`` (4, 4) of a record to the frame of a reference (Eq. 8)."""
+    P_c, R = record.printed_frame.centroid_mm, record.printed_frame.eigenvectors
+    if record.side.side == "left":
+        P_c, R = mirrored_frame(P_c, R)
+    return paper_transform(P_c, R, reference.om_e, reference.centroid_mm, record.info.unit_scale)
+
+
 def express(connection: sa.Connection, key: int) -> None:
     """Seal a last that was just written, with its ``paper_transform``; the first last of a
     catalogue becomes the reference.

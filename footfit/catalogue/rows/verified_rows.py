@@ -114,10 +114,23 @@ def stored_lasts(connection: Driver, last_id: int | None = None) -> list[LastRow
 
     This takes five SELECTs, however many lasts there are. They read the tables, not an index.
     """
-    frames = {row["last_id"]: row for row in rows(connection, FRAME, last_id)}
-    flares = {row["last_id"]: row for row in rows(connection, FLARE, last_id)}
-    measures = _by_last(rows(connection, MEASURE, last_id))
-    notices = _by_last(rows(connection, NOTICE, last_id))
+    return _of_rows(*(rows(connection, table, last_id) for table in PARTS_OF_LAST))
+
+
+PARTS_OF_LAST = (LAST, FRAME, FLARE, MEASURE, NOTICE)
+"""The tables that the hash of a last is taken over."""
+
+
+def _of_rows(
+    lasts: list[Row],
+    frame_rows: list[Row],
+    flare_rows: list[Row],
+    measure_rows: list[Row],
+    notice_rows: list[Row],
+) -> list[LastRows]:
+    frames = {row["last_id"]: row for row in frame_rows}
+    flares = {row["last_id"]: row for row in flare_rows}
+    measures, notices = _by_last(measure_rows), _by_last(notice_rows)
     return [
         LastRows(
             id=row["id"],
@@ -127,8 +140,20 @@ def stored_lasts(connection: Driver, last_id: int | None = None) -> list[LastRow
             measures=tuple(measures[row["id"]]),
             notices=tuple(notices[row["id"]]),
         )
-        for row in rows(connection, LAST, last_id)
+        for row in lasts
     ]
+
+
+def stored_range(connection: Driver, first: int, last: int) -> list[LastRows]:
+    """The raw rows of the lasts whose keys lie in a range, as `stored_lasts` gives them."""
+    return _of_rows(*(_rows_between(connection, table, first, last) for table in PARTS_OF_LAST))
+
+
+def _rows_between(connection: Driver, table: Table, first: int, last: int) -> list[Row]:
+    select = f"SELECT * FROM {table.name} WHERE {table.last_key} BETWEEN ? AND ? ORDER BY rowid"
+    cursor = connection.execute(select, (first, last))
+    columns = [column[0] for column in cursor.description]
+    return [dict(zip(columns, row, strict=True)) for row in cursor]
 
 
 def _by_last(rows_of_all: list[Row]) -> dict[int, list[Row]]:

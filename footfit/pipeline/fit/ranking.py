@@ -25,7 +25,7 @@ from footfit.pipeline.fit.judging.judged_lasts import (
     refusals_of,
     rooms_of,
 )
-from footfit.pipeline.fit.judging.toe_box import toe_box
+from footfit.pipeline.fit.judging.toe_box import toe_box, toes_can_reject
 from footfit.pipeline.fit.scoring import (
     NOT_JUDGED,
     REJECT,
@@ -48,6 +48,8 @@ from footfit.results.heel import FLARE
 
 DISTANCE_DIGITS = 6
 """Lasts whose distances are equal to so many decimals are ordered by name."""
+FIRST_LAID, LAY_MORE = 32, 4
+"""Toes are laid into so many of the most promising lasts first, then into so many times more."""
 FIRST_LOOK, LOOK_FURTHER = 8, 8
 """A search by flare or shape sorts so many of the best lasts first, then so many times more."""
 
@@ -87,19 +89,49 @@ def ranking(asked: Asked, lasts: Lasts, among: Bools, top: int, nearest: int) ->
     if asked.by != "fit":
         return _ranked_by_distance(asked, lasts, chosen, top)
     judged, gated = _gate(asked, lasts, chosen, rejects=False)
-    kept = np.flatnonzero(judged.level < REJECT)
-    if not len(kept):
+    if not (judged.level < REJECT).any():
         judged, gated = _gate(asked, lasts, chosen, rejects=True)
         one = np.zeros(len(judged.rows), dtype=np.int64)
         order = _by_distance(judged.distance, one, judged.lasts.names)[:nearest]
         return Ranking(judged.taken(order), gated, (), (), nearest=True)
+    return _ranked_by_fit(asked, judged, gated, top)
+
+
+def _ranked_by_fit(asked: Asked, best: JudgedLasts, gated: Gated, top: int) -> Ranking:
+    """The order by fit. ``best`` is what each last can be at best: toes are laid only into those
+    that can come into what is shown, the most promising first.
+    """
+    bounds = _keys(best)
+    promising = np.lexsort(bounds)
+    exact = not asked.toes or toes_can_reject(asked.columns)
+    wanted = len(promising) if exact or not top else FIRST_LAID
+    while True:
+        some = promising[:wanted]
+        judged = best.taken(some)
+        if not exact:
+            judged = judged_lasts(
+                asked, judged.lasts, judged.rows, judged.heels, judged.clearances, gated.known
+            )
+        digits, group = _keys(judged)
+        kept = np.flatnonzero(judged.level < REJECT)
+        if wanted < len(promising):  # only those that no other last can come before
+            least, of_group = (key[promising[wanted]] for key in bounds)
+            ahead = (group < of_group) | ((group == of_group) & (digits < least))
+            kept = kept[ahead[kept]]
+        names = [judged.lasts.names[row] for row in kept.tolist()]
+        order = kept[_by_distance(judged.distance[kept], group[kept], names)]
+        tier = tiers(order, judged.distance, group, judged.spread, asked.tie_sds, top)
+        if wanted >= len(promising) or (len(order) >= top and len(tier) < len(order)):
+            ordered = tuple(judged.lasts.names[row] for row in order[: len(tier)].tolist())
+            return Ranking(judged.taken(order[: top or None]), gated, ordered, tuple(tier))
+        wanted *= LAY_MORE
+
+
+def _keys(judged: JudgedLasts) -> tuple[Floats, Ints]:
+    """What lasts are ordered by, the last first: the distance, and the group."""
     group = 2 * judged.level + ~judged.sound
     group = len(VERDICTS) * group + judged.toe_room_level
-    names = judged.lasts.names
-    order = kept[_by_distance(judged.distance[kept], group[kept], [names[i] for i in kept])]
-    tier = tiers(order.tolist(), judged.distance, group, judged.spread, asked.tie_sds, top)
-    ordered = tuple(names[row] for row in order[: len(tier)].tolist())
-    return Ranking(judged.taken(order[: top or None]), gated, ordered, tuple(tier))
+    return np.round(judged.distance, DISTANCE_DIGITS), group
 
 
 def _by_distance(distance: Floats, group: Ints, names: Sequence[str]) -> Ints:
@@ -183,7 +215,8 @@ def _gate(asked: Asked, lasts: Lasts, chosen: Bools, *, rejects: bool) -> tuple[
     room = joined_clearances([room for *_, room in parts])
     if asked.toes and len(rows):
         part = replace(part, toes=lasts.taken(rows, (TOES,)).toes)
-    judged = judged_lasts(asked, part, rows, heels, room, gated.known)
+    walls = rejects or toes_can_reject(asked.columns)
+    judged = judged_lasts(asked, part, rows, heels, room, gated.known, walls=walls)
     return judged, gated.and_toes(asked, judged)
 
 

@@ -49,6 +49,12 @@ class MeasureColumns:
         nothing = np.full(count, np.nan)
         return MeasureColumn(nothing, np.zeros(count), np.full(count, NO_WORD))
 
+    def used(self) -> MeasureColumns:
+        """Those that any of the lasts has."""
+        there = np.flatnonzero((self.word != NO_WORD).any(axis=1))
+        names = tuple(self.names[at] for at in there.tolist())
+        return MeasureColumns(names, self.value[there], self.sd[there], self.word[there])
+
     def taken(self, rows: Ints | slice) -> MeasureColumns:
         """Those of some lasts."""
         return MeasureColumns(self.names, self.value[:, rows], self.sd[:, rows], self.word[:, rows])
@@ -185,10 +191,10 @@ def joined(parts: Sequence[LastColumns]) -> LastColumns:
 
 
 def joined_measures(parts: Sequence[MeasureColumns]) -> MeasureColumns | None:
-    """The measures of several parts, by name, in the order in which the names are met first."""
+    """The measures of several parts, in the order of their names."""
     if not parts:
         return None
-    names = tuple(dict.fromkeys(name for part in parts for name in part.names))
+    names = tuple(sorted({name for part in parts for name in part.names}))
     if all(part.names == names for part in parts):
         arrays = ([getattr(part, name) for part in parts] for name in ("value", "sd", "word"))
         return MeasureColumns(names, *(np.concatenate(each, axis=1) for each in arrays))

@@ -221,15 +221,19 @@ def judged_lasts(
     heels: Heels,
     room: Clearances,
     known: Bools | None = None,
+    *,
+    walls: bool = True,
 ) -> JudgedLasts:
     """Lasts with their scores, after the toe boxes of those that no other zone rejects.
 
-    ``known`` (z,) says which columns any last of the answer was judged in before that.
+    ``known`` (z,) says which columns any last of the answer was judged in before that. Without
+    ``walls`` toes are taken to be on target, so no verdict and no distance can be better.
     """
     room = room.copied()
     if asked.toes and len(rows):
         looked = np.flatnonzero(_looked_at(asked, room))
-        put_toe_boxes(room, asked.columns, asked.toes, lasts.taken(looked), looked, heels)
+        boxes = lasts.taken(looked)
+        put_toe_boxes(room, asked.columns, asked.toes, boxes, looked, heels, walls=walls)
     any_known = np.asarray(np.isfinite(room.value).any(axis=0))
     judged = scores(
         room.value,

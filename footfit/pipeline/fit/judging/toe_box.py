@@ -33,7 +33,7 @@ HEIGHT_SHARES = (0.80, 0.96)
 """A last's height is drawn on from its two known places as far as this, over its length."""
 NOT_STORED = "no sections are stored; type: footfit upgrade-catalogue"
 OPEN_TOES = f"the last: {OPEN.format(place='toes')}"
-TOGETHER = 64
+TOGETHER = 16
 """So many lasts are laid around a foot's toes at once: more would need more memory than a core has
 near it.
 """
@@ -74,10 +74,14 @@ def put_toe_boxes(
     lasts: LastColumns,
     rows: Ints,
     heels: Heels,
+    *,
+    walls: bool,
 ) -> None:
     """Write the toe boxes of some lasts into their rows of the clearances.
 
     ``lasts`` (n) have measures and toes, ``rows`` (n,) are theirs, and ``heels`` those of all rows.
+    Without ``walls`` toes whose clearance can be known are taken to be on target: no last can be
+    better than that, and laying a foot into a last takes most of the time of a match.
     """
     only = heels.length_only[rows]
     share = heels.share[rows]
@@ -88,7 +92,11 @@ def put_toe_boxes(
         rooms_mm = room.value[rows, places["length"]] + rules["length"].cavity
         cells: dict[str, Cells] = {}
         if TOES in places:
-            cells[TOES] = toe_cells(toes, lasts, heels, share, rooms_mm, room.sentences)
+            reason = toe_reasons(toes, lasts, room.sentences)
+            value = np.full(len(rows), rules[TOES].target + rules[TOES].cavity)
+            if walls:
+                value = tightest_mm(toes, lasts, reason == NO_WORD, heels, share, rooms_mm)
+            cells[TOES] = _toe_cells(value, reason)
         if TOE_HEIGHT in places:
             cells[TOE_HEIGHT] = toe_height(toes.foot, lasts, rooms_mm, room.sentences)
         for zone, cell in cells.items():
@@ -155,25 +163,31 @@ def toe_reasons(foot: FootToes, lasts: LastColumns, sentences: Words) -> Ints:
     return reason
 
 
-def toe_cells(
+def tightest_mm(
     foot: FootToes,
     lasts: LastColumns,
+    known: Bools,
     heels: Heels,
     share: Floats,
     rooms_mm: Floats,
-    sentences: Words,
-) -> Cells:
-    """The clearance of the tightest toe of a foot in each of n lasts, without a cavity."""
+) -> Floats:
+    """The clearance of the tightest toe of a foot in each of n lasts, without a cavity; NaN where
+    the toes are not ``known``.
+    """
     assert lasts.toes is not None
-    reason = toe_reasons(foot, lasts, sentences)
     value = np.full(len(lasts), np.nan)
-    rows = np.flatnonzero(reason == NO_WORD)
+    rows = np.flatnonzero(known)
     for start in range(0, len(rows), TOGETHER):
         some = rows[start : start + TOGETHER]
         inside = _toes_in_lasts(foot, lasts.toes, some, heels, share, rooms_mm)
         value[some] = inside.value_mm.min(axis=1)
-    sd_mm = np.where(reason == NO_WORD, TOES_SD_MM, 0.0)
-    return Cells(value, sd_mm, sd_mm, reason)
+    return value
+
+
+def _toe_cells(value: Floats, reason: Ints) -> Cells:
+    known = reason == NO_WORD
+    sd_mm = np.where(known, TOES_SD_MM, 0.0)
+    return Cells(np.where(known, value, np.nan), sd_mm, sd_mm, reason)
 
 
 def _toes_in_lasts(
@@ -226,6 +240,6 @@ def judges_toes(columns: Sequence[Column]) -> bool:
     return any(column.rule.zone in TOE_BOX for column in columns)
 
 
-def can_reject(columns: Sequence[Column]) -> Bools:
-    """Which columns are of the toe box and may reject a last, (z,)."""
-    return np.array([c.rule.zone in TOE_BOX and c.rule.poor is not None for c in columns])
+def toes_can_reject(columns: Sequence[Column]) -> bool:
+    """Whether the toes' clearance may reject a last: no shipped profile lets it."""
+    return any(c.counts and c.rule.zone == TOES and c.rule.poor is not None for c in columns)
