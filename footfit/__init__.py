@@ -8,6 +8,7 @@ from footfit.version import __version__
 if TYPE_CHECKING:
     from footfit import errors, results
     from footfit.api.catalogues import Catalogue, match, open_catalogue
+    from footfit.api.custom_lasts import customise, store_custom
     from footfit.api.drawings import draw_last, drawing, drawing_file
     from footfit.api.files import mesh_file, page, picture, sheet, to_trimesh
     from footfit.api.last_making import check_run, compare_lasts
@@ -28,8 +29,8 @@ if TYPE_CHECKING:
     from footfit.results import LastLabels
 
 _HOMES = (
-    *("api.scans", "api.files", "api.drawings", "api.last_making", "api.populations"),
-    *("api.catalogues", "errors", "results"),
+    *("api.scans", "api.files", "api.drawings", "api.custom_lasts", "api.last_making"),
+    *("api.populations", "api.catalogues", "errors", "results"),
 )
 """Where the names are, the lightest first."""
 
@@ -46,6 +47,7 @@ __all__ = [
     "coverage",
     "curvature",
     "customers",
+    "customise",
     "draw_last",
     "drawing",
     "drawing_file",
@@ -62,6 +64,7 @@ __all__ = [
     "results",
     "sheet",
     "sources",
+    "store_custom",
     "to_trimesh",
 ]
 

@@ -225,6 +225,10 @@ class NoSole(GeometryRefused):
     """The scan has no sole, and the answer needs one."""
 
 
+class OutOfReach(GeometryRefused):
+    """The base cannot be changed into the last that is asked for; the message names the zone."""
+
+
 class CatalogueUnusable(FootfitError):
     """The catalogue, or the cluster that works for it, cannot be used."""
 

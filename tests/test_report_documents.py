@@ -56,6 +56,7 @@ from footfit.results.values import exact, json_number, part
 from tests import answers, fits, people
 from tests.bounds import ROUNDING, printed
 from tests.comparisons import comparison
+from tests.customs import custom_last
 
 PAGE = Path(__file__).resolve().parents[1] / "docs" / "json.md"
 
@@ -100,6 +101,7 @@ def every_document():
         Drawing(answers.alignment(), (), (), (), {}, {}),
         RunCheck(None, "arithmetic", 1.0, None, {"girth": 2.0}, (), (), ()),
         last_difference(),
+        custom_last(),
         ExportOutcome("a", "a.stl", 10, 0.1),
         answers.facts(),
         upgrade,

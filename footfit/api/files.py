@@ -18,8 +18,9 @@ MOST_LETTERS = 80
 
 
 def picture(result: Any, kind: str = "svg") -> bytes:
-    """A result of `align`, `flare`, `curvature`, `compare`, `compare_lasts` or a calibration as
-    "svg" or "png".
+    """A result as "svg" or "png": of `align`, `flare`, `curvature`, `compare`, `compare_lasts`,
+    `customise` or a calibration.
+
 
     Raises
     ------
@@ -28,6 +29,7 @@ def picture(result: Any, kind: str = "svg") -> bytes:
     """
     from footfit.pipeline import export
     from footfit.pipeline.drawables import canonical_view
+    from footfit.report.page.custom_figure import custom_figure
     from footfit.report.pictures.curvature_figure import curvature_figure
     from footfit.report.pictures.figures import picture_bytes
     from footfit.report.pictures.flare_figure import flare_figure
@@ -47,6 +49,8 @@ def picture(result: Any, kind: str = "svg") -> bytes:
             figure = section_figure(result)
         case results.LastDifference():
             figure = section_figure(result.drawn)
+        case results.CustomLast():
+            figure = custom_figure(result)
         case results.Calibration():
             figure = ratings_figure(result)
         case _:
@@ -83,6 +87,8 @@ def mesh_file(result: Any, kind: str) -> bytes:
     match result:
         case results.AlignedScan():
             return encoded_mesh(export.method_vertices(result), result.faces, kind)
+        case results.CustomLast():
+            return encoded_mesh(result.vertices_mm, result.faces, kind)
         case results.MeshCopy():
             return encoded_mesh(*expanded_mesh(result.data), kind)
         case results.SurfaceCurvature():
@@ -108,14 +114,19 @@ def to_trimesh(result: results.Scan | results.AlignedScan | results.Profiled) ->
 
 
 def page(
-    result: results.Match | results.Comparison | results.LastDifference | Coverage,
+    result: results.Match
+    | results.Comparison
+    | results.LastDifference
+    | results.CustomLast
+    | Coverage,
     catalogue: LocationName | None = None,
     *,
     title: str = "",
     customer: str = "",
 ) -> str:
-    """A match, a comparison or a coverage as one HTML page; a match with its ``catalogue`` draws
-    the lasts.
+    """A match, a comparison, a custom last or a coverage as one HTML page.
+
+    A match with its ``catalogue`` draws the lasts.
 
     The page of a match shows ``title`` and ``customer``, which are kept nowhere.
 
@@ -129,6 +140,7 @@ def page(
     require_short(title=title, customer=customer)
     from footfit.pipeline import drawables
     from footfit.report.page.compare_page import compare_page
+    from footfit.report.page.custom_page import custom_page
     from footfit.report.page.difference_page import difference_page
     from footfit.report.page.match_page import match_page
 
@@ -138,6 +150,8 @@ def page(
         return coverage_page(result)
     if isinstance(result, results.LastDifference):
         return difference_page(result, drawables.drawable(result.drawn))
+    if isinstance(result, results.CustomLast):
+        return custom_page(result)
     if isinstance(result, results.Comparison):
         return compare_page(drawables.drawable(result))
     if catalogue is None:

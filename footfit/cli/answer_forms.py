@@ -14,6 +14,7 @@ from footfit.report.terminal import (
     catalogue_tables,
     comparison_tables,
     coverage_tables,
+    custom_tables,
     difference_tables,
     evidence_tables,
     last_making_tables,
@@ -114,6 +115,9 @@ FORMS: dict[type, Form] = {
     ),
     results.LastDifference: Form(
         difference_tables.compare_lasts_table, lambda difference: (None, difference.warnings)
+    ),
+    results.CustomLast: Form(
+        custom_tables.custom_table, lambda custom: (custom.foot or STDIN, custom.warnings)
     ),
     results.IngestOutcome: Form(
         scan_tables.ingest_line,

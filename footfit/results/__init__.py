@@ -40,6 +40,12 @@ from footfit.results.heel import HeelChange as HeelChange
 from footfit.results.heel import HeelModel as HeelModel
 from footfit.results.heel import HeelQuestion as HeelQuestion
 from footfit.results.heel import HeelRule as HeelRule
+from footfit.results.last_making.custom_last import BaseMesh as BaseMesh
+from footfit.results.last_making.custom_last import CustomLast as CustomLast
+from footfit.results.last_making.custom_last import CustomZone as CustomZone
+from footfit.results.last_making.custom_last import GirthPlane as GirthPlane
+from footfit.results.last_making.custom_last import JudgedZone as JudgedZone
+from footfit.results.last_making.custom_last import KeptPlace as KeptPlace
 from footfit.results.last_making.drawing import Drawing as Drawing
 from footfit.results.last_making.grading_rule import GradingRule as GradingRule
 from footfit.results.last_making.last_difference import LastDifference as LastDifference

@@ -48,8 +48,9 @@ class ChartSettings:
     behind, flat, rounds : float, float, int
         The top plane is fitted to what lies behind this place, with Cauchy weights of this width,
         so often.
-    rim : float
-        What lies so little under the top plane still belongs to it.
+    rim : tuple of float
+        What lies so little under the top plane still belongs to it, at least and at most: a top may
+        be domed.
     """
 
     knots: int = 19
@@ -64,7 +65,7 @@ class ChartSettings:
     behind: float = 0.33
     flat: float = 0.004
     rounds: int = 12
-    rim: float = 0.005
+    rim: tuple[float, float] = (0.005, 0.02)
 
 
 CHART = ChartSettings()
@@ -122,7 +123,8 @@ class Chart:
         The middle of the plan across, the bottom's highest edge over its line, and the last's
         height over that.
     top : Plane or None
-        The plane of the cone's top; None if it has none, or if it is not held.
+        What lies over this plane belongs to the cone's top; None if there is none, or if it is not
+        held.
     front, deep_mm : float
         Where along the arc the top plane ends, and how deep under it its hold reaches.
     """
@@ -176,8 +178,7 @@ class Chart:
         """How free of the top plane points (n, 3) are, (n,): 0 on it, 1 deep under it."""
         if self.top is None:
             return np.ones(len(points_mm))
-        below_mm = -self.top.heights(points_mm) - self.settings.rim * self.arc.length_mm
-        held = 1.0 - eased(below_mm / self.deep_mm)
+        held = 1.0 - eased(-self.top.heights(points_mm) / self.deep_mm)
         start, end = self.settings.fade
         held *= 1.0 - eased((share - self.front - start) / (end - start))
         free: Floats = 1.0 - held
@@ -220,13 +221,17 @@ def chart_of(shape: Shape, *, hold_top: bool = True, settings: ChartSettings = C
     if not hold_top or not (along[faces[shape.top_cut]] < settings.behind).any():
         return plain
     lid = faces[shape.top_cut]
-    top = _top_plane(standing, lid[along[lid].mean(axis=1) < settings.behind], settings, arc)
+    behind = lid[along[lid].mean(axis=1) < settings.behind]
+    top = _top_plane(standing, behind, settings, arc)
+    under_mm = -top.heights(standing[np.unique(behind)])
+    low_mm, high_mm = (share * arc.length_mm for share in settings.rim)
+    rim_mm = float(np.clip(under_mm.max(), low_mm, high_mm))
     corners = np.unique(lid)
-    corners = corners[np.abs(top.heights(standing[corners])) < settings.rim * arc.length_mm]
+    corners = corners[-top.heights(standing[corners]) <= max(rim_mm, float(under_mm.min()))]
     return replace(
         plain,
-        top=top,
-        front=float(along[corners].max(initial=0.0)),
+        top=replace(top, offset=top.offset - rim_mm),
+        front=float(along[corners].max()),
         deep_mm=settings.deep * float(over[corners].mean()) * arc.length_mm,
     )
 

@@ -27,18 +27,25 @@ class SolverSettings:
     bend, size : float
         What costs as much as a goal's ``miss_mm``, of a logarithm of a scale: the second difference
         from knot to knot, and the value.
-    settled_mm : float
-        The search ends when no firm measure is farther from its target.
-    rounds : int
-    step : float
-        Of the differences that a knob's effect is taken by, in the knob's unit.
+    settled_mm, near_mm : float
+        The search ends when no firm measure is farther from its target, and does not begin if none
+        is farther than ``near_mm``: a last that fits is left as it is.
+    rounds, shaping : int, int
+        After the first ``shaping`` rounds nothing is pulled any more, and a round is the smoothest
+        step that brings the firm measures to their targets.
+    step, most : float
+        Of the differences that a knob's effect is taken by, and the most that a knob is turned in
+        a round, in the knob's unit.
     """
 
     bend: float = 0.01
     size: float = 0.2
-    settled_mm: float = 0.03
-    rounds: int = 8
-    step: float = 1e-3
+    settled_mm: float = 0.05
+    near_mm: float = 0.1
+    rounds: int = 12
+    shaping: int = 3
+    step: float = 3e-3
+    most: float = 0.25
 
 
 SOLVER = SolverSettings()
@@ -97,6 +104,7 @@ def solution(
     vertices_mm: Floats,
     goals: Sequence[Goal],
     read: Callable[[Floats], Floats],
+    costs: Floats | None = None,
     settings: SolverSettings = SOLVER,
 ) -> Solution:
     """The smoothest field whose measures meet their targets, or come as near as they can.
@@ -111,27 +119,39 @@ def solution(
     goals : sequence of Goal
     read : callable
         The measures (goals,) of moved vertices (n, 3).
+    costs : (k, knobs), optional
+        Sums of knobs that should stay small, beside their sizes and bends.
     """
     targets = np.array([goal.target_mm for goal in goals])
     miss = np.array([goal.miss_mm for goal in goals])
     firm = np.array([goal.firm for goal in goals], dtype=bool)
+    units = np.array([knob.unit for knob in knobs])
+    bends = [_bends(start, knobs, name) / settings.bend for name in SCALES]
+    own_costs = np.vstack([np.diag(1.0 / (settings.size * units)), *bends])
+    all_costs = own_costs if costs is None else np.vstack([own_costs, costs])
     values = np.zeros(len(knobs))
-    now = Solution(start, start.moved_points(vertices_mm), np.empty(0), 0)
-    best = now = replace(now, values_mm=read(now.vertices_mm))
-    if _worst(now, targets, firm) <= settings.settled_mm:
-        return now
+    best = Solution(start, start.moved_points(vertices_mm), np.empty(0), 0)
+    best = replace(best, values_mm=read(best.vertices_mm))
+    if _worst(best, targets, firm) <= settings.near_mm:
+        return best
     effect = _effects(start, knobs, [goal.probe for goal in goals], vertices_mm, settings)
-    while _worst(best, targets, firm) > settings.settled_mm and now.rounds < settings.rounds:
-        misses = (targets - now.values_mm) / miss
-        step = _step(start, knobs, values, effect / miss[:, None], misses, settings)
-        values = values + step
-        field = turned_field(start, knobs, values)
+    rounds = 0
+    while _worst(best, targets, firm) > settings.settled_mm and rounds < settings.rounds:
+        rounds += 1
+        misses, from_still = (targets - best.values_mm) / miss, values
+        if rounds > settings.shaping:  # the shape is found: only what the firm goals still miss
+            misses, from_still = np.where(firm, misses, 0.0), np.zeros(len(knobs))
+        step = _step(from_still, effect / miss[:, None], misses, all_costs)
+        step *= min(1.0, settings.most / float(np.abs(step / units).max()))
+        field = turned_field(start, knobs, values + step)
         moved = field.moved_points(vertices_mm)
-        after = Solution(field, moved, read(moved), now.rounds + 1)
-        effect += np.outer(after.values_mm - now.values_mm - effect @ step, step) / (step @ step)
-        now = after
-        best = min(best, now, key=lambda each: _worst(each, targets, firm))
-    return replace(best, rounds=now.rounds)
+        trial = Solution(field, moved, read(moved), rounds)
+        if not np.isfinite(trial.values_mm).all():  # moved so far that a measure is gone
+            break
+        effect += np.outer(trial.values_mm - best.values_mm - effect @ step, step) / (step @ step)
+        if _worst(trial, targets, firm) < _worst(best, targets, firm):
+            best, values = trial, values + step
+    return replace(best, rounds=rounds)
 
 
 def _worst(solved: Solution, targets_mm: Floats, firm: Bools) -> float:
@@ -163,21 +183,11 @@ def _effects(
     return result
 
 
-def _step(
-    start: Field,
-    knobs: Sequence[Knob],
-    values: Floats,
-    effects: Floats,
-    misses: Floats,
-    settings: SolverSettings,
-) -> Floats:
+def _step(values: Floats, effects: Floats, misses: Floats, costs: Floats) -> Floats:
     """By how much the knobs are turned next, (knobs,): the least squares of misses and costs.
 
     ``effects`` (goals, knobs) and ``misses`` (goals,) are over what each miss may cost.
     """
-    size = np.diag([1.0 / (settings.size * knob.unit) for knob in knobs])
-    bends = [_bends(start, knobs, name) / settings.bend for name in SCALES]
-    costs = np.vstack([size, *bends])
     rows = np.vstack([effects, costs])
     wanted = np.concatenate([misses, -costs @ values])
     return np.asarray(np.linalg.lstsq(rows, wanted, rcond=None)[0])

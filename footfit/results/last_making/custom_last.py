@@ -5,13 +5,28 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Literal
 
-from footfit.results.values import Document, Json, Notice, Part, SideName, Verdict, fields
+from footfit.results.values import (
+    Document,
+    Json,
+    Notice,
+    Part,
+    SideName,
+    Verdict,
+    fields,
+    json_number,
+)
 
 if TYPE_CHECKING:
     from footfit.geometry.numeric.arrays import Floats, Ints
     from footfit.results.heel import HeelChange
     from footfit.results.last_record import LastRecord, Parentage
     from footfit.results.meshes import ShapeSections
+
+
+def in_mm(keys: Json) -> Json:
+    """Keys whose numbers have the digits of millimetres: the unit is in a key of its own."""
+    return {key: json_number(v) if isinstance(v, float) else v for key, v in keys.items()}
+
 
 MeshOfBase = Literal["file", "full copy", "original file", "light copy"]
 
@@ -44,7 +59,8 @@ class CustomZone(Part):
     ``name`` is that of the measure, and ``zone`` that of the fit profile's zone whose allowance
     counts. ``foot`` is the foot's measure as it would be in the base's heel, and ``allowance`` what
     the target is more than that. ``room`` is what ``--room`` adds to the target. A girth has its
-    ``plane``.
+    ``plane``. One that ``follows`` has no target of its own: the parts that are kept nearly set it,
+    and its target is what the others bring it to.
     """
 
     name: str
@@ -56,7 +72,11 @@ class CustomZone(Part):
     target: float
     reached: float
     room: float = 0.0
+    follows: bool = False
     plane: GirthPlane | None = None
+
+    def _keys(self) -> Json:
+        return in_mm(fields(self))
 
 
 @dataclass(frozen=True, slots=True)
@@ -71,6 +91,9 @@ class JudgedZone(Part):
     base_verdict: Verdict | None
     custom: float | None
     custom_verdict: Verdict | None
+
+    def _keys(self) -> Json:
+        return in_mm(fields(self))
 
 
 @dataclass(frozen=True, slots=True)

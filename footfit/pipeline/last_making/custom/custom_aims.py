@@ -7,7 +7,7 @@ have girths in upright planes, in which a match judges; those two are pulled alo
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from footfit.geometry.measures.measure_table import measure_named
 from footfit.pipeline.fit.heels import Heels, full_change
@@ -25,19 +25,25 @@ LEAST_TAPES = {
 """Each girth, and the zones of a fit profile whose mean allowance it has."""
 WIDTHS = ("ball_width", "heel_width")
 PULLED = ("ball_girth", "instep_girth")
-LENGTH = "length"
+FOLLOWING = ("heel_girth_instep",)
+"""The girth that is only pulled along: the bottom, the back and the top, which are kept, nearly set
+it; and a foot that was scanned flat has another one in a heel."""
+INNER_GOOD, MOST_BALL_MM = 0.7, 3.0
+"""The ball comes so far into its good range, as a share of that; it moves at most so far."""
+LENGTH, BALL_LENGTH = "length", "ball_length"
 
 
 @dataclass(frozen=True, slots=True)
 class CustomQuestion:
     """How a foot is fitted: as `match` is asked, and by how much the last's flare follows the
-    foot's (0 to 1).
+    foot's (0 to 1). With ``bottom_kept`` the widths are no aims: the bottom nearly sets them.
     """
 
     profile: FitProfile
     heel: HeelQuestion
     worn: Worn
     flare_follow: float = 0.0
+    bottom_kept: bool = False
 
 
 @dataclass(frozen=True, slots=True)
@@ -55,6 +61,11 @@ class CustomAim:
     foot: float | None = None
     allowance: float | None = None
     firm: bool = True
+
+    @property
+    def words(self) -> str:
+        """The measure in words."""
+        return self.measure.replace("_", " ")
 
 
 def fit_in(foot: Profiled, last: LastRecord, base: BaseLast, question: CustomQuestion) -> FootFit:
@@ -83,8 +94,10 @@ def custom_aims(foot: Profiled, base: BaseLast, question: CustomQuestion) -> tup
     aims = [] if LENGTH not in off else [_toe_room(base, off[LENGTH])]
     if bool(judged.heels.length_only[0]):
         return tuple(aims)
+    if "ball_line" in off:
+        aims += _ball_line(foot, base, rules, judged.heels)
     aims += _girths(foot, base, rules, judged.heels)
-    for name in (*WIDTHS, *PULLED):
+    for name in PULLED if question.bottom_kept else (*WIDTHS, *PULLED):
         own, stored = measure_named(name).value_of(base.shape).value, base.record.value_of(name)
         if own is not None and stored is not None and name in off:
             allowance = rules[name].target + rules[name].cavity
@@ -98,6 +111,23 @@ def _toe_room(base: BaseLast, more_mm: float) -> CustomAim:
     """The aim of the length: by how much the toe room of the base must grow."""
     length_mm = base.record.value_of(LENGTH) or base.shape.length_mm
     return CustomAim(LENGTH, LENGTH, length_mm, length_mm + more_mm)
+
+
+def _ball_line(
+    foot: Profiled, base: BaseLast, rules: Mapping[str, ZoneRule], heels: Heels
+) -> list[CustomAim]:
+    """The pull on the ball's place along the last: it stays, or comes well into its good range."""
+    own = measure_named(BALL_LENGTH).value_of(base.shape).value
+    scanned = next((row.measured.value for row in foot.measures if row.name == BALL_LENGTH), None)
+    if own is None or scanned is None or "ball_line" not in rules:
+        return []
+    share, model = float(heels.share[0]), heels.question.model
+    foot_mm = scanned + share * full_change(model, foot, BALL_LENGTH)[0]
+    percent_mm = 0.01 * foot.aligned.alignment.extent_mm
+    low, high = (INNER_GOOD * end * percent_mm for end in rules["ball_line"].good)
+    target = foot_mm + min(max(own - foot_mm, low), high)
+    target = own + min(max(target - own, -MOST_BALL_MM), MOST_BALL_MM)
+    return [CustomAim(BALL_LENGTH, "ball_line", own, target, foot_mm, 0.0, firm=False)]
 
 
 def _girths(
@@ -116,7 +146,8 @@ def _girths(
             continue
         foot_mm = scanned_mm + share * full_change(model, foot, name)[0]
         allowance = _mean([rules[zone].target + rules[zone].cavity for zone in zones])
-        aims.append(CustomAim(name, zones[-1], base_mm, foot_mm + allowance, foot_mm, allowance))
+        aim = CustomAim(name, zones[-1], base_mm, foot_mm + allowance, foot_mm, allowance)
+        aims.append(replace(aim, firm=name not in FOLLOWING))
     return aims
 
 

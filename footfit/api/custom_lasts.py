@@ -1,0 +1,160 @@
+"""Custom lasts: a last for one customer, made from the best last or a named one."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import TYPE_CHECKING, Any, Unpack
+
+from footfit import results
+from footfit.api.inputs import (
+    CompareKeywords,
+    Feet,
+    Mesh,
+    WornKeywords,
+    heel_options,
+    source_of,
+    worn_options,
+)
+from footfit.api.scans import profiled_shape
+from footfit.errors import BadOption, UnreadableFile
+from footfit.locations import Location, LocationName, location_of
+from footfit.pipeline.batch.sources import ReadingOptions, is_no_path
+from footfit.results import SideName
+
+if TYPE_CHECKING:
+    from footfit.pipeline.last_making.base_last import BaseLast
+    from footfit.pipeline.last_making.custom.custom_making import Making
+
+AUTO = "auto"
+"""The base that a foot matches best."""
+
+
+class CustomKeywords(CompareKeywords, WornKeywords, total=False):
+    """How a foot is to be understood, and what is asked of its custom last.
+
+    ``profile`` is the name or the file of a fit profile. ``flare_follow`` (0 to 1) says how far the
+    flare goes towards the foot's, ``keep_bottom`` keeps the outline of the bottom, and ``room_mm``
+    gives single places more room, such as {"ball-medial": 4.0}. ``name`` is that of the new last.
+    """
+
+    profile: str
+    flare_follow: float
+    keep_bottom: bool
+    room_mm: Mapping[str, float]
+    name: str
+
+
+def customise(
+    feet: Feet,
+    base: Mesh = AUTO,
+    *,
+    catalogue: LocationName | None = None,
+    both: bool = False,
+    **asked: Unpack[CustomKeywords],
+) -> tuple[results.CustomLast, ...]:
+    """A last for each foot, made from a base so that it has the fit profile's allowances.
+
+    Parameters
+    ----------
+    feet : one foot, or the list of the two of one customer
+    base : str or mesh
+        The name of a last of the ``catalogue``, a mesh, or "auto" for the best match.
+    catalogue : path, optional
+    both : bool
+        One foot gets two lasts: its own, and the mirror image for the other side.
+    **asked
+        See `CustomKeywords`.
+
+    Raises
+    ------
+    OutOfReach
+        A measure is out of reach of the base.
+    BadOption
+        An option is out of range, or the base is "auto" and there is no catalogue.
+    InputError, GeometryRefused, NotInCatalogue, CatalogueUnusable
+        A foot or the base cannot be read.
+    """
+    from footfit.pipeline.customers.pair_sides import pair_of_feet
+    from footfit.pipeline.last_making.custom import base_choice
+    from footfit.pipeline.last_making.custom.custom_making import customised
+
+    making, path = _making(asked), None if catalogue is None else location_of(catalogue)
+    given: list[Any] = feet if isinstance(feet, list) else [feet]
+    if len(given) not in (1, 2) or (both and len(given) == 2):
+        raise BadOption("give one foot, with both=True or without, or the two of one customer")
+    shapes = pair_of_feet([profiled_shape(foot, _reading(asked)) for foot in given])
+    lasts: list[results.CustomLast] = []
+    if isinstance(base, str) and base == AUTO:
+        if path is None:
+            raise BadOption("the base is found in a catalogue: name a catalogue, or a base")
+        chosen, first = base_choice.customised_from_best(shapes, path, making)
+        lasts, rest = [first], shapes[1:]
+    else:
+        chosen, rest = _base(base, path), shapes
+    lasts += [base_choice.customised_from(foot, chosen, making, path) for foot in rest]
+    if both:
+        other: SideName = "left" if lasts[0].side == "right" else "right"
+        lasts.append(customised(shapes[0], chosen, making, other))
+    return tuple(lasts)
+
+
+def store_custom(
+    custom: results.CustomLast, catalogue: LocationName, *, replace: bool = False
+) -> None:
+    """Store a custom last in a catalogue, with its full mesh and how it was made.
+
+    Raises
+    ------
+    CatalogueUnusable, NameTaken
+        The catalogue cannot be written; it has another last of that name.
+    """
+    from footfit.pipeline.last_making.custom.base_choice import store_custom_last
+
+    store_custom_last(location_of(catalogue), custom, replaces=replace)
+
+
+def _reading(asked: Mapping[str, Any]) -> dict[str, Any]:
+    """The keywords of `ReadingKeywords`, without any others."""
+    return {name: asked[name] for name in ReadingOptions.__dataclass_fields__ if name in asked}
+
+
+def _making(asked: CustomKeywords) -> Making:
+    """How the lasts are made.
+
+    Raises
+    ------
+    BadOption
+        The flare follows by less than 0 or more than 1; there is no such profile.
+    """
+    from footfit.pipeline.fit.fit_profile import fit_profile
+    from footfit.pipeline.fit.worn_shifts import worn_with
+    from footfit.pipeline.last_making.custom.custom_aims import CustomQuestion
+    from footfit.pipeline.last_making.custom.custom_making import Making
+
+    follow = asked.get("flare_follow", 0.0)
+    if not 0.0 <= follow <= 1.0:
+        raise BadOption(f"--flare-follow takes 0 to 1, not {follow:g}")
+    profile = fit_profile(asked.get("profile", "walking"))
+    worn = worn_with(profile, worn_options(asked))
+    kept = asked.get("keep_bottom", False)
+    question = CustomQuestion(profile, heel_options(asked), worn, follow, kept)
+    rooms = dict(asked.get("room_mm", {}))
+    return Making(question, rooms, asked.get("name", "custom"))
+
+
+def _base(base: Mesh, path: Location | None) -> BaseLast:
+    """The base that is named: a last of the catalogue, or a mesh.
+
+    Raises
+    ------
+    UnreadableFile
+        There is no such file and no such last.
+    """
+    from footfit.pipeline.last_making.base_last import scanned_base, stored_base
+    from footfit.pipeline.last_making.custom.base_choice import base_folders
+
+    if isinstance(base, str) and is_no_path(base):
+        if path is None:
+            raise UnreadableFile("there is no such file: check the path", base)
+        return stored_base(path, base, base_folders(path))
+    return scanned_base(source_of(base, {}), ReadingOptions())

@@ -1,0 +1,118 @@
+"""Which last a custom one is made from: the best match, or the base that was named."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from contextlib import suppress
+from dataclasses import replace
+from pathlib import Path
+
+from footfit.catalogue.store import open_catalogue
+from footfit.errors import FootfitError, NoCandidate, OutOfReach
+from footfit.locations import Location
+from footfit.pipeline.fit.match import Question, matched
+from footfit.pipeline.last_making.base_last import BaseLast, stored_base
+from footfit.pipeline.last_making.custom.custom_making import Making, customised
+from footfit.pipeline.shelf.candidates import choice
+from footfit.results import MeshCopy, Profiled, SideName
+from footfit.results.last_making.custom_last import CustomLast
+
+TRIED = 3
+"""So many of the best lasts are tried before a foot is refused."""
+
+
+def best_bases(
+    feet: Sequence[Profiled], path: Location, making: Making, without: str | None = None
+) -> Iterator[BaseLast]:
+    """The lasts of a catalogue that match a customer best, or the nearest if none fits.
+
+    Raises
+    ------
+    NotInCatalogue, HalfScan
+        There is no catalogue or no last in it; a foot's length is not known.
+    """
+    asked = making.question
+    question = Question(top=TRIED + 1, profile=asked.profile, heel=asked.heel, worn=asked.worn)
+    match = matched(feet, choice(path, None, None), question)
+    names = [each.last for each in (match.candidates or match.nearest) if each.last != without]
+    for name in names[:TRIED]:
+        with suppress(FootfitError):  # a last without a sound mesh is no base
+            yield stored_base(path, name, base_folders(path))
+
+
+def base_folders(path: Location) -> tuple[Path, ...]:
+    """Where the original file of a stored last is looked for: here, and beside the catalogue."""
+    return (Path(), path.parent) if isinstance(path, Path) else (Path(),)
+
+
+def customised_from_best(
+    feet: Sequence[Profiled], path: Location, making: Making
+) -> tuple[BaseLast, CustomLast]:
+    """The best base for a customer, and the custom last that it gives for the first foot.
+
+    Raises
+    ------
+    OutOfReach
+        No base can be changed so far; the message is that of the best match.
+    NoCandidate
+        The catalogue has no last with a mesh.
+    """
+    first: OutOfReach | None = None
+    for base in best_bases(feet, path, making):
+        try:
+            return base, customised(feet[0], base, making)
+        except OutOfReach as error:
+            first = first or OutOfReach(error.message, base.name)
+    if first is None:
+        raise NoCandidate("no last of the catalogue has a mesh: ingest lasts first", str(path))
+    raise first
+
+
+def customised_from(
+    foot: Profiled,
+    base: BaseLast,
+    making: Making,
+    path: Location | None,
+    side: SideName | None = None,
+) -> CustomLast:
+    """The custom last that a named base gives; a refusal names a better base if there is one.
+
+    Raises
+    ------
+    OutOfReach
+        A target is out of reach of the base.
+    """
+    try:
+        return customised(foot, base, making, side)
+    except OutOfReach as error:
+        better = None if path is None else _better_base(foot, path, making, base.name)
+        words = f"; use --base {better}" if better else ""
+        raise OutOfReach(f"{error.message}{words}", base.name) from error
+
+
+def _better_base(foot: Profiled, path: Location, making: Making, without: str) -> str | None:
+    """Another last that can be changed to fit; None if there is none."""
+    with suppress(FootfitError):
+        for base in best_bases([foot], path, making, without):
+            with suppress(OutOfReach):
+                return customised(foot, base, making).base
+    return None
+
+
+def store_custom_last(path: Location, custom: CustomLast, *, replaces: bool = False) -> None:
+    """Store a custom last with its full mesh, and with how it was made.
+
+    Raises
+    ------
+    CatalogueUnusable, NameTaken
+        The catalogue cannot be written; it has another last of that name.
+    """
+    from footfit.meshes.copies.compact_copy import compact_copy
+
+    copy: MeshCopy = compact_copy(custom.vertices_mm, custom.faces, len(custom.faces))
+    with open_catalogue(path, write=True) as catalogue:
+        record = custom.record
+        known = custom.base in catalogue.names()
+        labels = replace(record.labels, parent=custom.base if known else None)
+        record = replace(record, labels=labels)
+        catalogue.add(record, copy, custom.sections, custom.parentage, replace=replaces)

@@ -1,0 +1,215 @@
+"""How the aims of a custom last are read from a mesh, and where its tapes lie."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from footfit.geometry.deform.probes import DIRECTIONS, Probe, girth_probe, span_probe
+from footfit.geometry.measures.landmarks import AXES, Shape
+from footfit.geometry.measures.least_tape import (
+    TAPE,
+    RoughGirths,
+    Tape,
+    heel_tape,
+    tape_about,
+    tape_over,
+    tilted,
+)
+from footfit.geometry.measures.measure_table import measure_named
+from footfit.geometry.measures.widths import WIDTHS
+from footfit.geometry.mesh.outermost_point import tip
+from footfit.geometry.mesh.surface import cross
+from footfit.geometry.numeric.arrays import Floats
+from footfit.pipeline.fit.judging.bottom_gains import LENGTHS, bottom_gain
+from footfit.pipeline.fit.judging.cells import ZoneShape
+from footfit.pipeline.last_making.base_last import BaseLast
+from footfit.pipeline.last_making.custom.custom_aims import BALL_LENGTH, LENGTH, CustomAim
+from footfit.results import Measure, Measured
+
+LEVEL = np.array([1.0, 1.0, 0.0])
+BALL = ("ball_girth_least", "ball_girth", "ball_width", BALL_LENGTH)
+MIDDLE_MM, LOW = 15.0, 0.04
+"""Places so near to the middle, and so low over the bottom over the arc's length, say how far the
+bottom moved ahead."""
+BALL_REACH, BALL_UP = 0.08, 0.06
+"""So far along and up from a joint it is looked for again, over the length."""
+
+
+@dataclass(frozen=True, slots=True)
+class TapePlane:
+    """The plane in which a girth is taken: a point (3,), and the axes across and up, (2, 3).
+
+    What lies farther across than ``reach_mm`` is not within the tape.
+    """
+
+    origin: Floats
+    axes: Floats
+    reach_mm: float = np.inf
+
+    @property
+    def normal(self) -> Floats:
+        """The plane's normal, (3,)."""
+        return cross(*self.axes)
+
+
+def _around_ball(shape: Shape) -> Tape:
+    assert shape.joints is not None
+    return tape_about(shape, *shape.joints, shape.upright)
+
+
+def _over_waist(shape: Shape) -> Tape:
+    assert shape.waist_crown is not None
+    return tape_over(shape, shape.waist_crown.place)
+
+
+TAPES: dict[str, Callable[[Shape], Tape]] = {
+    "ball_girth_least": _around_ball,
+    "waist_girth_least": _over_waist,
+    "instep_girth_least": lambda shape: tape_over(shape, shape.instep_crown.place),
+    "heel_girth_instep": heel_tape,
+}
+
+
+def tape_plane(shape: Shape, measure: str) -> TapePlane | None:
+    """The plane of a girth on a shape that has it; None of a measure that is no girth."""
+    if measure in TAPES:
+        tape = TAPES[measure](shape)
+        return TapePlane(tape.origin, tape.axes, tape.reach_mm + TAPE.beyond * shape.length_mm)
+    if measure == "ball_girth":
+        assert shape.ball_plane is not None
+        return TapePlane(*shape.ball_plane)
+    if measure == "instep_girth":
+        return TapePlane(shape.instep, AXES[1:])
+    return None
+
+
+def value_mm(shape: Shape, measure: str, base: BaseLast) -> float:
+    """A measure of a shape; of the length, that which the toe room goes by.
+
+    NaN if the shape does not have it.
+    """
+    if measure == LENGTH:
+        return _toe_room_length_mm(shape, base)
+    value = measure_named(measure).value_of(shape).value
+    return np.nan if value is None else value
+
+
+def _toe_room_length_mm(shape: Shape, base: BaseLast) -> float:
+    """The length that counts for the toe room: the functional length, along the bottom."""
+    names = ("functional_length", LENGTH, "heel_height", *LENGTHS)
+    values = {name: measure_named(name).value_of(shape).value for name in names}
+    measures = {
+        name: Measure(name, Measured(value), measure_named(name).definition_id)
+        for name, value in values.items()
+    }
+    labels = base.record.labels
+    last = ZoneShape(base.record.extent_mm, base.record.flare, measures, labels.heel_height_mm)
+    return (values["functional_length"] or shape.length_mm) + bottom_gain(last)[0]
+
+
+def probe_of(shape: Shape, measure: str) -> Probe:
+    """What answers for a measure when the shape changes a little."""
+    vertices_mm, faces = shape.vertices_mm, shape.faces
+    if measure in BALL:
+        return _ball_probe(shape, measure)
+    plane = tape_plane(shape, measure)
+    if plane is not None:
+        return girth_probe(vertices_mm, faces, plane.origin, plane.axes, plane.reach_mm)
+    if measure == LENGTH:
+        rear, front = shape.ends
+        return span_probe(vertices_mm, rear.place, front.place, AXES[0])
+    section = shape.across(WIDTHS.heel).points
+    low = section[section[:, 1] < section[:, 1].min() + WIDTHS.height * shape.length_mm]
+    ends = (low[np.argmin(low[:, 0])], low[np.argmax(low[:, 0])])
+    lateral, medial = (np.array([shape.x_mm(WIDTHS.heel), *end]) for end in ends)
+    return span_probe(vertices_mm, lateral, medial, AXES[1])
+
+
+def _ball_probe(shape: Shape, measure: str) -> Probe:
+    """A girth, the width or the place of the ball. When widths change, the joints move: they are
+    found anew.
+
+    The tilt of the tape stays.
+    """
+    least = measure == "ball_girth_least"
+    joints = shape.joints if least else (shape.mt5, shape.mt1)
+    assert joints is not None
+    x = shape.vertices_mm[shape.faces, 0]
+    ends = [joint[0] for joint in joints if joint is not None]
+    reach_mm = BALL_REACH * shape.length_mm
+    kept = (x.max(axis=1) > min(ends) - reach_mm) & (x.min(axis=1) < max(ends) + reach_mm)
+    rows, near = np.unique(shape.faces[kept], return_inverse=True)
+    faces = near.reshape(-1, 3).astype(np.int64)
+    middles = shape.vertices_mm[rows][faces].mean(axis=1)
+    windows = []
+    for joint in joints:
+        assert joint is not None
+        by_mm = np.abs(middles - joint) / shape.length_mm
+        windows.append(faces[(by_mm[:, 0] < BALL_REACH) & (by_mm[:, 2] < BALL_UP)])
+    tilt_deg = _around_ball(shape).tilt_deg if least else 0.0
+    upright = shape.upright if least else AXES[2]
+
+    def value(points: Floats) -> float:
+        outer, inner = (
+            tip(points, window, side * AXES[1], shape.length_mm).place
+            for window, side in zip(windows, (-1.0, 1.0), strict=True)
+        )
+        if measure == BALL_LENGTH:
+            return float(inner[0])
+        across = inner - outer if least else (inner - outer) * LEVEL
+        width_mm = float(np.linalg.norm(across))
+        if measure == "ball_width":
+            return width_mm
+        axes = tilted(across / width_mm, upright, tilt_deg)
+        middle = Shape(points, faces)
+        return RoughGirths(middle, 0.5 * (outer + inner), DIRECTIONS).at(axes)
+
+    return Probe(rows.astype(np.int64), value)
+
+
+class Carried:
+    """Shapes that a base becomes while its bottom's heights stay: each stands as the base does.
+
+    A stance that is found anew would waver by some tenths of a degree from step to step.
+    """
+
+    def __init__(self, base: Shape) -> None:
+        assert base.bottom_arc is not None
+        along, over = base.bottom_arc.shares(base.vertices_mm)
+        middle = np.abs(base.vertices_mm[:, 1] - np.median(base.vertices_mm[:, 1])) < MIDDLE_MM
+        low = np.flatnonzero((over < LOW) & middle)
+        self._rows = low[np.argsort(along[low])]
+        self._along = base.bottom_arc.stands[0, :3]
+        self._base = base
+
+    def shape(self, vertices_mm: Floats) -> Shape:
+        """The base with moved vertices (n, 3)."""
+        base, rows = self._base, self._rows
+        stance = base.stance
+        assert stance is not None
+        start_mm = base.vertices_mm[rows] @ self._along - stance.rear_mm
+        shift_mm = (vertices_mm[rows] - base.vertices_mm[rows]) @ self._along
+        middle_mm = stance.middle_mm.copy()
+        middle_mm[:, 0] += np.interp(middle_mm[:, 0], start_mm, shift_mm)
+        by_mm = float(np.interp(stance.touching_x_mm, start_mm, shift_mm))
+        x_mm, z_mm = stance.touching_mm
+        moved = replace(
+            stance,
+            touching_mm=(x_mm + by_mm * self._along[0], z_mm + by_mm * self._along[2]),
+            length_mm=stance.length_mm + float(shift_mm[-1]),
+            middle_mm=middle_mm,
+        )
+        shape = Shape(vertices_mm, base.faces, "last", base.labels)
+        vars(shape)["stance"] = moved  # it need not be found
+        return shape
+
+
+def values_mm(
+    vertices_mm: Floats, carried: Carried, aims: Sequence[CustomAim], base: BaseLast
+) -> Floats:
+    """The aims' measures of a moved base, (aims,)."""
+    shape = carried.shape(vertices_mm)
+    return np.array([value_mm(shape, aim.measure, base) for aim in aims])

@@ -1,0 +1,18 @@
+"""The page of a custom last."""
+
+from __future__ import annotations
+
+from footfit.report.page.custom_figure import custom_figure
+from footfit.report.page.rendering import html_page, picture_data
+from footfit.report.wording.text import file_name
+from footfit.results import CustomLast
+
+
+def custom_page(custom: CustomLast) -> str:
+    """A custom last as a whole HTML page; the same bytes for the same last."""
+    return html_page(
+        "custom.html.jinja",
+        custom=custom,
+        foot=file_name(custom.foot),
+        moved=picture_data(custom_figure(custom, titled=False)),
+    )

@@ -1,0 +1,87 @@
+"""A custom last as a table for a terminal."""
+
+from __future__ import annotations
+
+from rich.console import Group, RenderableType
+from rich.text import Text
+
+from footfit.number_words import plain, signed
+from footfit.report.terminal.scan_tables import lined_table
+from footfit.report.wording.text import file_name, visible
+from footfit.results import CustomLast, CustomZone, JudgedZone
+
+
+def custom_table(custom: CustomLast) -> RenderableType:
+    """The targets and what was reached, the zones of the profile, and what was kept."""
+    return Group(
+        _headline(custom),
+        Text(_made_words(custom)),
+        Text(),
+        _zones_table(custom),
+        Text(
+            "follows: the parts that are kept nearly set this girth, so it has no own target.",
+            "dim",
+        ),
+        Text(),
+        Text(f"The zones of profile {custom.profile}: last minus foot"),
+        _judged_table(custom),
+        Text(),
+        Text(_kept_words(custom)),
+    )
+
+
+def _headline(custom: CustomLast) -> Text:
+    line = Text(visible(custom.record.labels.name), "bold")
+    line.append(f", {custom.side} last from ", "not bold").append(visible(custom.base), "bold")
+    line.append(f" for {file_name(custom.foot)}", "not bold")
+    return line.append(" (mirror image)" if custom.mirrored else "", "not bold")
+
+
+def _made_words(custom: CustomLast) -> str:
+    """What moved, and how far the change is from a fold."""
+    words = f"the toe moved {signed(custom.toe_shift_mm)} mm, the surface up to"
+    words += f" {plain(custom.largest_move_mm)} mm"
+    if custom.flare_turn_deg:
+        words += f"; the flare was turned by {signed(custom.flare_turn_deg)} deg"
+    return f"{words}; the smallest volume left is {plain(custom.least_determinant, 2)} of 1"
+
+
+def _zones_table(custom: CustomLast) -> RenderableType:
+    columns = ("base mm", "target mm", "reached mm", "change")
+    table = lined_table("measure", *columns, "", right=frozenset(columns))
+    for zone in custom.zones:
+        values = (plain(zone.base), plain(zone.target), plain(zone.reached))
+        table.add_row(_words(zone), *values, signed(zone.reached - zone.base), _note(zone))
+    return table
+
+
+def _words(zone: CustomZone) -> str:
+    return zone.name.replace("_", " ")
+
+
+def _note(zone: CustomZone) -> str:
+    """What should be known of a target."""
+    if zone.follows:
+        return "follows"
+    return f"with {signed(zone.room)} of room" if abs(zone.room) >= 0.05 else ""
+
+
+def _judged_table(custom: CustomLast) -> RenderableType:
+    columns = ("target", "base", "custom")
+    table = lined_table("zone", *columns, "base is", "custom is", right=frozenset(columns))
+    for zone in custom.judged:
+        values = (_value(zone, zone.base), _value(zone, zone.custom))
+        verdicts = (zone.base_verdict or "-", zone.custom_verdict or "-")
+        table.add_row(zone.label, _value(zone, zone.target), *values, *verdicts)
+    return table
+
+
+def _value(zone: JudgedZone, value: float | None) -> str:
+    unit = {"percent": " %", "ratio": ""}.get(zone.unit, f" {zone.unit}")
+    return "-" if value is None else f"{signed(value)}{unit}"
+
+
+def _kept_words(custom: CustomLast) -> str:
+    """What a last maker keeps, and by how much it moved."""
+    parts = (f"{part.name} {plain(part.moved_mm, 2)}" for part in custom.kept)
+    return f"Kept, and moved by at most so many mm: {', '.join(parts)}"

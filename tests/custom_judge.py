@@ -1,0 +1,96 @@
+"""A judge of custom lasts: it reads the written STL and the JSON.
+
+It shares no code with footfit.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from tests.self_intersection import self_intersections, welded
+from tests.tape_peer import edges_of, hull_perimeter, turned
+
+TILTS_DEG = np.arange(-8.0, 8.1, 2.0)
+
+
+def stl_mesh(data: bytes):
+    """The corners (3 n, 3) and faces (n, 3) of a binary STL."""
+    kind = np.dtype([("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("spare", "<u2")])
+    rows = np.frombuffer(data, kind, offset=84)
+    return rows["corners"].reshape(-1, 3).astype(float), np.arange(3 * len(rows)).reshape(-1, 3)
+
+
+def girth_misses(data: bytes, document) -> dict[str, float]:
+    """By girth, how far the section in the stated plane is from the target, in mm."""
+    vertices, faces = welded(*stl_mesh(data))
+    edges = edges_of(faces)
+    misses = {}
+    for zone in document["zones"]:
+        if zone["plane"] is not None:
+            point, normal = (np.array(zone["plane"][key]) for key in ("point_mm", "normal"))
+            misses[zone["name"]] = hull_perimeter(vertices, edges, point, normal) - zone["target"]
+    return misses
+
+
+def least_misses(data: bytes, document) -> dict[str, float]:
+    """By girth, how far the least perimeter of planes through its point is from the target.
+
+    The planes are turned by a few degrees about the two level axes of the stated plane.
+    """
+    vertices, faces = welded(*stl_mesh(data))
+    edges = edges_of(faces)
+    misses = {}
+    for zone in document["zones"]:
+        if zone["plane"] is None or zone["name"] in ("ball_girth_least", "heel_girth_instep"):
+            continue
+        point, normal = (np.array(zone["plane"][key]) for key in ("point_mm", "normal"))
+        across = np.cross([0.0, 0.0, 1.0], normal)
+        planes = (turned(across, normal, tilt) for tilt in TILTS_DEG)
+        least = min(hull_perimeter(vertices, edges, point, plane) for plane in planes)
+        misses[zone["name"]] = least - zone["target"]
+    return misses
+
+
+def mesh_changes(before, after, faces) -> dict[str, float]:
+    """What became of a mesh whose faces stayed: flipped faces, aspect ratios, dihedral angles.
+
+    ``aspect`` is the worst aspect ratio over the worst one before, ``dihedral_deg`` the 99th
+    percentile of how far the angles at edges changed.
+    """
+    normals = [_normals(points, faces) for points in (before, after)]
+    worst = [_aspects(points, faces).max() for points in (before, after)]
+    angles = [_dihedrals(each, faces) for each in normals]
+    return {
+        "flipped": float((np.einsum("ij,ij->i", *normals) < 0.0).sum()),
+        "aspect": float(worst[1] / worst[0]),
+        "dihedral_deg": float(np.percentile(np.abs(angles[1] - angles[0]), 99.0)),
+        "intersections": float(self_intersections(after, faces)),
+    }
+
+
+def _normals(points, faces):
+    a, b, c = (points[faces[:, k]] for k in range(3))
+    normal = np.cross(b - a, c - a)
+    length = np.linalg.norm(normal, axis=1, keepdims=True)
+    return normal / np.where(length > 0.0, length, 1.0)
+
+
+def _aspects(points, faces):
+    """The longest edge over the height on it."""
+    corners = points[faces]
+    edges = np.linalg.norm(corners - np.roll(corners, 1, axis=1), axis=2)
+    area = 0.5 * np.linalg.norm(
+        np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]), axis=1
+    )
+    return edges.max(axis=1) ** 2 / np.maximum(2.0 * area, 1e-12)
+
+
+def _dihedrals(normals, faces):
+    """The angle between the two faces of each edge, in degrees."""
+    half = np.sort(faces[:, [0, 1, 1, 2, 2, 0]].reshape(-1, 2), axis=1)
+    order = np.lexsort((half[:, 1], half[:, 0]))
+    face = np.repeat(np.arange(len(faces)), 3)[order]
+    ordered = half[order]
+    same = np.flatnonzero((ordered[1:] == ordered[:-1]).all(axis=1))
+    one, other = normals[face[same]], normals[face[same + 1]]
+    return np.degrees(np.arccos(np.clip((one * other).sum(axis=1), -1.0, 1.0)))

@@ -1,0 +1,185 @@
+"""Custom lasts: targets are met on the written file, what a last maker keeps stays."""
+
+from __future__ import annotations
+
+import json
+from functools import cache
+
+import numpy as np
+import pytest
+
+import footfit
+from footfit.meshes.write import encoded_mesh
+from footfit.report.page.custom_page import custom_page
+from footfit.report.terminal.custom_tables import custom_table
+from footfit.report.terminal.scan_tables import terminal_text
+from tests import shapes
+from tests.conftest import ROOT, Footfit
+from tests.custom_judge import girth_misses, least_misses, mesh_changes
+from tests.customs import custom_last
+from tests.distortions import random_pose
+from tests.self_intersection import self_intersections
+from tools.lasts import LastSpec, last_mesh
+
+FOOT = ROOT / "sample_data" / "feet" / "mh007_R.stl"
+CLOSE_MM = 0.5
+"""The bar for girths and widths on the written file, by a judge of its own."""
+
+
+@cache
+def base(heel_mm: float = 20.0, **given: float):
+    """A last that fits the foot nearly: vertices and faces."""
+    spec = LastSpec(
+        length_mm=266.0,
+        ball_width_mm=92.0,
+        heel_width_mm=62.0,
+        heel_height_mm=heel_mm,
+        level_tread=True,
+        rings=110,
+        segments=80,
+        **given,
+    )
+    return last_mesh(spec)
+
+
+@cache
+def foot():
+    return footfit.flare(str(FOOT))
+
+
+@cache
+def custom(**asked):
+    (made,) = footfit.customise(foot(), base(), **asked)
+    return made
+
+
+def values(made) -> np.ndarray:
+    return np.array([(zone.base, zone.target, zone.reached) for zone in made.zones])
+
+
+def test_the_written_file_meets_its_targets() -> None:
+    made = custom()
+    data = footfit.mesh_file(made, "stl")
+    document = json.loads(json.dumps(made.to_dict()))
+    names = [zone["name"] for zone in document["zones"]]
+    assert names[0] == "length"
+    assert {"ball_girth_least", "waist_girth_least", "instep_girth_least", "ball_width"} <= {*names}
+    misses = girth_misses(data, document)
+    assert len(misses) == 4
+    assert max(map(abs, misses.values())) < CLOSE_MM
+    assert max(map(abs, least_misses(data, document).values())) < CLOSE_MM
+    again = footfit.measure(data, units="mm", side="right")
+    measured = {row.name: row.measured.value for row in again.measures}
+    for zone in document["zones"]:
+        assert measured[zone["name"]] == pytest.approx(zone["reached"], abs=0.3), zone["name"]
+    moved = np.abs(values(made)[:, 2] - values(made)[:, 0])
+    assert moved.max() > 3.0  # the base was not right before
+
+
+def test_the_mesh_stays_sound_and_what_is_kept_stays() -> None:
+    made = custom()
+    changes = mesh_changes(made.base_vertices_mm, made.vertices_mm, made.faces)
+    assert changes["flipped"] == changes["intersections"] == 0.0
+    assert changes["aspect"] < 2.0
+    assert changes["dihedral_deg"] < 2.0
+    kept = {part.name: part.moved_mm for part in made.kept}
+    assert set(kept) >= {"bottom heights", "heel height", "toe spring", "toe shape", "top plane"}
+    assert max(kept.values()) < 0.1
+    assert made.least_determinant > 0.3
+
+
+def test_the_judge_of_intersections_sees_one() -> None:
+    vertices, faces = shapes.sphere(50.0, 2)
+    assert self_intersections(vertices, faces) == 0
+    both = np.concatenate([vertices, vertices + np.array([30.0, 1.0, 2.0])])
+    assert self_intersections(both, np.concatenate([faces, faces + len(vertices)])) > 10
+
+
+def test_a_custom_last_needs_no_other_one() -> None:
+    """Targets that are the base's own move nothing."""
+    made = custom()
+    data = footfit.mesh_file(made, "stl")
+    (again,) = footfit.customise(foot(), data)
+    assert again.largest_move_mm < 0.25  # the first one met its targets within .05 mm
+    np.testing.assert_allclose(values(again)[:, 2], values(made)[:, 2], atol=0.3)
+
+
+def test_a_mirrored_foot_gives_the_mirrored_last() -> None:
+    mirror = np.array([-1.0, 1.0, 1.0])
+    scan = footfit.read(str(FOOT))
+    left = footfit.flare((scan.vertices_mm * mirror, scan.faces[:, ::-1]), units="mm")
+    (made,) = footfit.customise(left, base())
+    assert made.side == "left"
+    np.testing.assert_allclose(made.vertices_mm, custom().vertices_mm * [1.0, -1.0, 1.0], atol=0.05)
+    own, other = footfit.customise(foot(), base(), both=True)
+    assert (own.side, other.side, other.mirrored) == ("right", "left", True)
+    np.testing.assert_allclose(other.vertices_mm, own.vertices_mm * [1.0, -1.0, 1.0], atol=1e-9)
+    assert max(
+        map(abs, girth_misses(footfit.mesh_file(other, "stl"), other.to_dict()).values())
+    ) < (CLOSE_MM)
+
+
+def test_the_pose_of_the_base_does_not_matter() -> None:
+    vertices, faces = base()
+    turn = random_pose(np.random.default_rng(5))
+    moved = vertices @ turn[:3, :3].T + turn[:3, 3]
+    (made,) = footfit.customise(foot(), (moved, faces))
+    np.testing.assert_allclose(values(made), values(custom()), atol=0.1)
+
+
+def test_room_keep_bottom_and_flare() -> None:
+    made = custom(keep_bottom=True, flare_follow=0.5)
+    before, after = made.base_vertices_mm, made.vertices_mm
+    assert 0.0 < abs(made.flare_turn_deg) <= 6.0
+    assert mesh_changes(before, after, made.faces)["dihedral_deg"] < 4.0
+    assert not any(zone.name.endswith("width") for zone in made.zones)
+    (roomy,) = footfit.customise(foot(), base(), room_mm={"ball-medial": 4.0})
+    by_name = {zone.name: zone for zone in roomy.zones}
+    assert by_name["ball_girth_least"].room > 1.0
+    assert abs(by_name["instep_girth_least"].room) < 0.1
+    gap = roomy.vertices_mm - custom().vertices_mm
+    assert gap[:, 1].max() == pytest.approx(4.0, abs=0.3)
+
+
+def test_a_base_that_is_too_far_is_refused(footfit: Footfit, tmp_path) -> None:
+    small = tmp_path / "small.stl"
+    small.write_bytes(encoded_mesh(*last_mesh(LastSpec(length_mm=225.0, rings=80)), "stl"))
+    output = tmp_path / "custom.stl"
+    run = footfit("customise", FOOT, "--base", small, "-o", output)
+    assert run.code == 5
+    assert "the length is out of reach" in run.err
+    assert not output.exists()
+
+
+def test_the_command_writes_stores_and_draws(footfit: Footfit, tmp_path) -> None:
+    file = tmp_path / "derby.stl"
+    file.write_bytes(encoded_mesh(*base(), "stl"))
+    catalogue = tmp_path / "lasts.footfit"
+    at = ("--catalogue", catalogue)
+    assert footfit("ingest-last", file, *at, "--keep-mesh", "full").code == 0
+    output, page = tmp_path / "anna.stl", tmp_path / "anna.html"
+    asked = ("customise", FOOT, "-o", output, "--store", "anna", *at)
+    run = footfit(*asked, "--html", page, "--json")
+    assert run.code == 0
+    document = run.document
+    assert (document["base"], document["stored_as"]) == ("derby", "anna")
+    assert document["base_mesh"]["kind"] == "full copy"
+    assert max(map(abs, girth_misses(output.read_bytes(), document).values())) < CLOSE_MM
+    assert "anna" in page.read_text(encoding="utf-8")
+    shown = footfit("show-last", "anna", *at, "--json").document
+    assert shown["parent"] == shown["parentage"]["base"] == "derby"
+    first = footfit("match", FOOT, *at, "--json").document["candidates"][0]
+    assert first["last"] == "anna" or "anna" in first["tied_with"]
+    assert footfit(*asked).code == 2  # the file is there
+    for wrong in (["--room", "nose=3"], ["--room", "nose"], ["--flare-follow", "2"]):
+        assert footfit(*asked, "--force", *wrong).code == 2
+
+
+def test_the_table_and_the_page_say_what_was_made() -> None:
+    made = custom_last()
+    table = terminal_text(custom_table(made), 100)
+    assert "derby-42" in table
+    assert "follows" in table
+    page = custom_page(made)
+    assert "ball girth least" in page
+    assert page == custom_page(made)
