@@ -7,14 +7,16 @@ import os
 import resource
 import signal
 import time
+from concurrent.futures import Executor, Future, ThreadPoolExecutor, as_completed
 from contextlib import suppress
 
 import pytest
 
 from footfit.errors import DamagedMesh, NotAFoot, TooLarge, TooSlow, UnreadableFile
-from footfit.pipeline.batch.runs import HERE, outcomes
+from footfit.pipeline.batch.runs import AHEAD_PER_JOB, HERE, outcomes
 from footfit.pipeline.batch.sources import Source
 from footfit.pipeline.batch.work_limits import WorkLimits
+from footfit.pipeline.batch.workers import WorkerPool
 
 
 def length_of_name(source: Source) -> int:
@@ -122,4 +124,69 @@ def own_process(source: Source) -> int:
 def test_a_bug_in_a_worker_is_raised_and_leaves_no_process() -> None:
     with pytest.raises(ValueError, match="bug"):
         list(outcomes(length_of_name, [Source("a"), Source("bug"), Source("c")], 2))
+    assert not multiprocessing.active_children()
+
+
+def test_any_executor_of_the_library_can_work() -> None:
+    with ThreadPoolExecutor(2) as executor:
+        found = list(outcomes(length_of_name, ITEMS, executor))
+        assert executor.submit(len, "abc").result() == 3, "it is not shut down"
+    assert [outcome.value for outcome in found] == [1, None, 3, None, 5, 6]
+
+
+class Counting(Executor):
+    """An executor that notes how many calls were in flight at most."""
+
+    width = 3
+
+    def __init__(self) -> None:
+        self.flying, self.most = 0, 0
+
+    def submit(self, fn, /, *args, **kwargs):  # type: ignore[no-untyped-def]
+        self.flying += 1
+        self.most = max(self.most, self.flying)
+        outer, future = self, Future()
+
+        def result(timeout: float | None = None) -> object:
+            outer.flying -= 1
+            return fn(*args, **kwargs)
+
+        future.result = result  # type: ignore[method-assign]
+        return future
+
+
+def test_few_items_are_in_flight_however_many_there_are() -> None:
+    """The memory of the parent does not grow with the batch."""
+    executor = Counting()
+    items = [Source("x" * (1 + number % 7)) for number in range(1_000)]
+    values = [outcome.value for outcome in outcomes(length_of_name, items, executor)]
+    assert values == [1 + number % 7 for number in range(1_000)]
+    assert executor.most == 3 * AHEAD_PER_JOB
+
+
+def test_what_is_known_is_not_worked_on() -> None:
+    known = {"a": 100}.get
+    for jobs in (HERE, 2):
+        found = outcomes(length_of_name, ITEMS, jobs, known=lambda item: known(item.path or ""))
+        assert [outcome.value for outcome in found] == [100, None, 3, None, 5, 6]
+
+
+def test_a_pool_is_an_executor() -> None:
+    with WorkerPool(2) as pool:
+        futures = [pool.submit(pow, base, 2) for base in range(9)]
+        assert sorted(done.result() for done in as_completed(futures)) == [n * n for n in range(9)]
+        with pytest.raises(Exception, match="pickle"):
+            pool.submit(lambda: 1)
+    assert not multiprocessing.active_children()
+    with pytest.raises(RuntimeError, match="shut down"):
+        pool.submit(pow, 2, 2)
+
+
+def test_a_pool_that_is_ended_at_once_leaves_no_future_open() -> None:
+    pool = WorkerPool(1)
+    futures = [pool.submit(time.sleep, 60) for _ in range(3)]
+    while not futures[0].running():
+        time.sleep(0.01)
+    pool.shutdown(cancel_futures=True)
+    assert all(future.done() for future in futures)
     assert not multiprocessing.active_children()

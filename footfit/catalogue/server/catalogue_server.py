@@ -47,8 +47,10 @@ _BY_STATE: tuple[tuple[str, type[CatalogueUnusable], str], ...] = (
 """What PostgreSQL's error codes, or their beginnings, mean; the first one that fits counts."""
 
 
-def connect(url: ServerUrl) -> ServerConnection:
+def connect(url: ServerUrl, patience_s: float = CONNECT_S) -> ServerConnection:
     """A connection in autocommit. A password comes from PGPASSWORD, .pgpass or the address.
+
+    It is waited for as long as for a lock, but from 2 to `CONNECT_S` seconds.
 
     Raises
     ------
@@ -61,9 +63,10 @@ def connect(url: ServerUrl) -> ServerConnection:
         import psycopg
     except ImportError as error:
         raise BadOption(NOT_INSTALLED, str(url)) from error
+    wait_s = round(min(max(patience_s, 2.0), CONNECT_S))  # libpq takes no less
     try:
         connection = psycopg.connect(
-            url.secret, autocommit=True, connect_timeout=CONNECT_S, client_encoding="utf8"
+            url.secret, autocommit=True, connect_timeout=wait_s, client_encoding="utf8"
         )
     except psycopg.Error as error:
         raise _not_connected(error, url) from None

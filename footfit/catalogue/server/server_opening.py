@@ -52,7 +52,7 @@ def open_server_for_reading(
     CatalogueUnusable
         The server cannot be reached; the database is something else, or of another schema.
     """
-    connection = connect(url)
+    connection = connect(url, lock_timeout_s)
     try:
         with server_errors_in_words(url):
             revision = _stored_revision(connection, schema, url, older=older)
@@ -83,7 +83,7 @@ def open_server_for_writing(
     NotACatalogue, CatalogueUnusable
         The server cannot be reached; the database is something else, or of another schema.
     """
-    connection = connect(url)
+    connection = connect(url, lock_timeout_s)
     try:
         with server_errors_in_words(url):
             revisions = _prepared(connection, url, schema, lock_timeout_s, how)
