@@ -10,6 +10,7 @@ import pytest
 from scipy.spatial import ConvexHull
 
 import footfit as library
+from footfit.errors import SideUndecided
 from footfit.geometry.fit.clearance import ZONES, zone_of
 from footfit.geometry.mesh.sections import sections_across
 from footfit.meshes.read import file_mesh
@@ -148,6 +149,33 @@ def test_another_heel_is_said_and_the_treads_lie_on_each_other():
     assert abs(np.nanmean(found.surface.at_first_mm[tread])) < 0.2  # measured 0.1: tread on tread
     assert found.surface.largest.value_mm < -20.0  # the low seat lies outside of the high last
     assert found.surface.largest.station < 0.2
+
+
+@pytest.mark.parametrize("side", ["right", "left"])
+def test_the_other_last_decides_a_doubtful_side(side):
+    """A last that is nearly straight shows no side; its bottom still turns by 1 deg."""
+    straight = LastSpec(
+        flare_deg=3.0,
+        toe_turn_deg=0.0,
+        waist_cut_mm=0.0,
+        joint_bulge_mm=0.0,
+        arch_mm=0.0,
+        arch_cut_mm=0.0,
+        ridge_mm=0.0,
+        medial_wall=0.0,
+        rings=80,
+        segments=40,
+    )
+    mesh = last_mesh(straight)
+    assert library.align(mesh, units="mm").alignment.side.side is None
+    first = library.flare(mesh, units="mm", side=side)
+    found = library.compare_lasts(first, mesh)
+    assert found.second.aligned.alignment.side.side == side
+    assert not found.mirrored
+    assert abs(found.surface.largest.value_mm) < 1e-4
+    assert "side_from_other_last" in [notice.code for notice in found.warnings]
+    with pytest.raises(SideUndecided):
+        library.compare_lasts(mesh, mesh)
 
 
 # ---------------------------------------------------------------- tolerances

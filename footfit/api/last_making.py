@@ -9,7 +9,7 @@ from typing import Any, Unpack
 from footfit import results
 from footfit.api.inputs import FilePath, ReadingKeywords, Shape
 from footfit.api.scans import profiled_shape
-from footfit.errors import BadOption
+from footfit.errors import BadOption, SideUndecided
 from footfit.locations import LocationName, location_of
 from footfit.pipeline.batch.runs import HERE
 from footfit.pipeline.batch.sources import is_no_path, mesh_sources
@@ -84,7 +84,8 @@ def compare_lasts(
     Parameters
     ----------
     first, second : path, bytes, (vertices, faces), or what `align` or `flare` gave
-        `Catalogue.shape` gives a stored last. A last of the other side is mirrored.
+        `Catalogue.shape` gives a stored last. A last of the other side is mirrored. A side that is
+        not sure is the one with which the bottoms lie closer.
     tolerance : str, optional
         In mm by kind of measure; without it "girth=2,length=1.5,width=1,height=1.5".
     **reading
@@ -97,8 +98,30 @@ def compare_lasts(
     InputError, GeometryRefused
         As `flare`, for either; NoSole if their bottoms do not lie together.
     """
+    from footfit.pipeline.last_making.pair_of_lasts import closest_sides
     from footfit.pipeline.last_making.tolerances import tolerances
     from footfit.pipeline.last_making.two_lasts import last_difference
 
-    shapes = profiled_shape(first, reading), profiled_shape(second, reading)
-    return last_difference(*shapes, tolerances(tolerance))
+    tolerance_mm = tolerances(tolerance)
+    pair = closest_sides(_either_side(first, reading), _either_side(second, reading))
+    return last_difference(pair.first, pair.second, tolerance_mm, pair.notices)
+
+
+def _either_side(shape: Shape, reading: ReadingKeywords) -> list[results.Profiled]:
+    """A last by its detected side, and by the other one if that is not sure.
+
+    If the shape shows no side, the last by both; neither is then detected.
+    """
+    settled = isinstance(shape, results.AlignedScan | results.Profiled)
+    if settled or reading.get("side", "auto") != "auto":
+        return [profiled_shape(shape, reading)]
+    sides: list[results.SideName] = ["right", "left"]
+    try:
+        shown = [profiled_shape(shape, reading)]
+    except SideUndecided:
+        shown = []
+    if shown:
+        side = shown[0].aligned.alignment.side
+        sure = side.confidence == "sure" or shown[0].aligned.alignment.info.is_stored_last
+        sides = [] if sure else [name for name in sides if name != side.side]
+    return shown + [profiled_shape(shape, {**reading, "side": name}) for name in sides]

@@ -49,6 +49,8 @@ OTHER_HEEL_MM = 3.0
 """With heels so different, the bottoms lie on each other at the tread alone."""
 COLOUR_STEPS_MM = (0.05, 0.1, 0.25, 0.5, 1.0, 2.0)
 """The finest step is taken whose colours reach as far as nearly all of the differences."""
+SIDE_DOUBTS = ("side_contradicted", "low_side_confidence")
+"""What is no longer said of a last whose side the other last decided."""
 NOT_JUDGED = ("tread_from", "tread_to")
 """Where the tread begins and ends is no length, and a second scan differs by 2 mm."""
 MOST_NAMED = 3
@@ -56,9 +58,14 @@ MOST_NAMED = 3
 
 
 def last_difference(
-    first: Profiled, second: Profiled, tolerance_mm: Mapping[str, float] = TOLERANCE_MM
+    first: Profiled,
+    second: Profiled,
+    tolerance_mm: Mapping[str, float] = TOLERANCE_MM,
+    notices: tuple[Notice, ...] = (),
 ) -> LastDifference:
     """Lay a second last on the bottom of a first one, and say how it differs.
+
+    ``notices`` are what is known already, such as of the sides.
 
     Raises
     ------
@@ -91,7 +98,7 @@ def last_difference(
         surface=surface,
         sections=tuple(_station(*pair) for pair in pairs),
         resolution_mm=max(info.resolution_mm for info in infos),
-        warnings=_warnings(first, second, measures, one_label=any(said) and not all(said)),
+        warnings=_warnings(first, second, measures, notices, one_label=any(said) and not all(said)),
         drawn=_drawn(first, second, moved, surface, pairs, laid.transform),
     )
 
@@ -186,10 +193,12 @@ def _warnings(
     first: Profiled,
     second: Profiled,
     measures: tuple[ValueDifference, ...],
+    known: tuple[Notice, ...],
     *,
     one_label: bool,
 ) -> tuple[Notice, ...]:
-    notices: list[Notice] = []
+    notices = list(known)
+    decided = {notice.path for notice in known if notice.code == "side_from_other_last"}
     if one_label:
         words = (
             "only one of the two has labels of its heel or its toe spring: both stand, and are"
@@ -198,7 +207,10 @@ def _warnings(
         notices.append(Notice("stance_by_shape", words))
     for last in (first, second):
         alignment = last.aligned.alignment
-        notices += notices_about(alignment.info.path, alignment.warnings)
+        path = alignment.info.path
+        doubts = SIDE_DOUBTS if path in decided else ()
+        own = (notice for notice in alignment.warnings if notice.code not in doubts)
+        notices += notices_about(path, own)
         if not last.is_last:
             words = "its shape is nearer to a foot's than to a last's: it is measured as a foot"
             notices += notices_about(alignment.info.path, (Notice("looks_like_a_foot", words),))
