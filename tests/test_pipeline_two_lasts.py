@@ -151,31 +151,34 @@ def test_another_heel_is_said_and_the_treads_lie_on_each_other():
     assert found.surface.largest.station < 0.2
 
 
+def straight(flare_deg: float):
+    """A last that is nearly its own mirror image."""
+    flat = ("toe_turn_deg", "waist_cut_mm", "joint_bulge_mm", "arch_mm", "arch_cut_mm", "ridge_mm")
+    more = {**dict.fromkeys(flat, 0.0), "medial_wall": 0.0, "rings": 80, "segments": 40}
+    return last_mesh(LastSpec(flare_deg=flare_deg, **more))
+
+
 @pytest.mark.parametrize("side", ["right", "left"])
 def test_the_other_last_decides_a_doubtful_side(side):
-    """A last that is nearly straight shows no side; its bottom still turns by 1 deg."""
-    straight = LastSpec(
-        flare_deg=3.0,
-        toe_turn_deg=0.0,
-        waist_cut_mm=0.0,
-        joint_bulge_mm=0.0,
-        arch_mm=0.0,
-        arch_cut_mm=0.0,
-        ridge_mm=0.0,
-        medial_wall=0.0,
-        rings=80,
-        segments=40,
-    )
-    mesh = last_mesh(straight)
-    assert library.align(mesh, units="mm").alignment.side.side is None
-    first = library.flare(mesh, units="mm", side=side)
-    found = library.compare_lasts(first, mesh)
+    mesh = straight(1.0)
+    detected = library.align(mesh, units="mm").alignment.side
+    assert (detected.side, detected.confidence) == ("right", "low")
+    found = library.compare_lasts(library.flare(mesh, units="mm", side=side), mesh)
     assert found.second.aligned.alignment.side.side == side
     assert not found.mirrored
     assert abs(found.surface.largest.value_mm) < 1e-4
-    assert "side_from_other_last" in [notice.code for notice in found.warnings]
-    with pytest.raises(SideUndecided):
+    codes = [notice.code for notice in found.warnings]
+    assert ("side_from_other_last" in codes) == (side == "left")
+
+
+def test_two_lasts_without_a_side_need_one():
+    mesh = straight(0.0)
+    assert library.align(mesh, units="mm").alignment.side.side is None
+    with pytest.raises(SideUndecided, match="for both"):
         library.compare_lasts(mesh, mesh)
+    found = library.compare_lasts(library.flare(mesh, units="mm", side="left"), mesh)
+    assert abs(found.surface.largest.value_mm) < 1e-4
+    assert "side_from_other_last" in [notice.code for notice in found.warnings]
 
 
 # ---------------------------------------------------------------- tolerances
