@@ -1,4 +1,4 @@
-"""The lasts of a run: a family of the catalogue, or files with the sizes that their names say."""
+"""The lasts of a run: a family of the catalogue, or files whose names say the sizes."""
 
 from __future__ import annotations
 
