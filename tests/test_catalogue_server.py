@@ -14,6 +14,7 @@ from pathlib import Path
 import pytest
 
 from footfit.catalogue.file.migrate import Schema
+from footfit.catalogue.group_commit import NewLast
 from footfit.catalogue.store import open_catalogue
 from footfit.errors import (
     BadOption,
@@ -327,3 +328,18 @@ def test_a_server_that_is_gone_when_a_reader_asks(own_server: Server) -> None:
         own_server.stop(at_once=True)
         with pytest.raises(CatalogueUnreachable, match="run the command again"):
             catalogue.names()
+
+
+def test_groups_of_lasts_and_single_ones_are_stored_alike(url: str, tmp_path: Path) -> None:
+    """Keys, hashes and search blocks do not depend on how lasts came, nor on where they are."""
+    lasts = [
+        NewLast(records.last(f"last-{seed}", seed), records.mesh_copy(seed)) for seed in range(6)
+    ]
+    file = str(tmp_path / "lasts.footfit")
+    for place in (url, file):
+        with open_catalogue(place, write=True) as catalogue:
+            list(catalogue.add_many(lasts[:3]))
+            catalogue.add(*lasts[3])
+            list(catalogue.add_many(lasts[4:]))
+            assert catalogue.findings() == []
+    assert content(url) == content(file)
