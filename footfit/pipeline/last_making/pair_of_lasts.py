@@ -53,9 +53,8 @@ def closest_sides(firsts: Sequence[Profiled], seconds: Sequence[Profiled]) -> Pa
     doubtful = pairs[best][0] if len(firsts) > 1 else pairs[best][1]
     alignment = doubtful.aligned.alignment
     words = (
-        f"the side is not sure: the last is taken as a {alignment.side.side} one, because its"
-        f" bottom then lies closer to that of the other last ({apart[best]:.2f} mm, and"
-        f" {apart[1 - best]:.2f} mm as the other side)"
+        f"the side is not sure, and is taken as {alignment.side.side}: the bottoms then lie"
+        f" closer ({apart[best]:.2f} mm, and {apart[1 - best]:.2f} mm as the other side)"
     )
     notice = Notice("side_from_other_last", words, alignment.info.path)
     return Pair(*pairs[best], (notice,) if best or not decided else ())
