@@ -172,12 +172,12 @@ def test_two_feet_of_one_file_are_taken_apart(foot: Path) -> None:
 def test_a_catalogue_reads_its_lasts_once_and_again_after_a_change(
     catalogue: Path, foot: Path, monkeypatch
 ) -> None:
-    from footfit.pipeline.fit import candidates
+    from footfit.pipeline.shelf import candidates
 
     profiled = footfit.flare(foot)
     reads = []
-    library = candidates.library
-    monkeypatch.setattr(candidates, "library", lambda *a: reads.append(a) or library(*a))
+    choice = candidates.choice
+    monkeypatch.setattr(candidates, "choice", lambda *a: reads.append(a) or choice(*a))
     with footfit.open_catalogue(catalogue) as lasts:
         best = lasts.match(profiled).candidates[0].last
         assert lasts.match(profiled).candidates[0].last == best
