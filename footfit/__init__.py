@@ -11,7 +11,7 @@ if TYPE_CHECKING:
     from footfit.api.custom_lasts import customise, store_custom
     from footfit.api.drawings import draw_last, drawing, drawing_file
     from footfit.api.files import mesh_file, page, picture, sheet, to_trimesh
-    from footfit.api.last_making import check_run, compare_lasts
+    from footfit.api.last_making import check_run, compare_lasts, grade
     from footfit.api.populations import coverage
     from footfit.api.scans import (
         align,
@@ -53,6 +53,7 @@ __all__ = [
     "drawing_file",
     "errors",
     "flare",
+    "grade",
     "match",
     "measure",
     "mesh_file",

@@ -14,10 +14,10 @@ from footfit.errors import BadOption, BadProfile, FootfitError
 from footfit.geometry.fit.sizes import SYSTEMS
 from footfit.meshes.write import encoded_mesh
 from footfit.number_words import signed
-from footfit.pipeline.last_making import grading_rules
-from footfit.pipeline.last_making.grading_rules import grading_rule, rule_of, shipped_rules
-from footfit.pipeline.last_making.run_increments import CHECKED, run_check
-from footfit.pipeline.last_making.run_sizes import size_in_name, width_numbers
+from footfit.pipeline.graded_runs import grading_rules
+from footfit.pipeline.graded_runs.grading_rules import grading_rule, rule_of, shipped_rules
+from footfit.pipeline.graded_runs.run_increments import CHECKED, run_check
+from footfit.pipeline.graded_runs.run_sizes import size_in_name, width_numbers
 from footfit.pipeline.last_making.tolerances import TOLERANCE_MM, tolerances
 from footfit.report.terminal.last_making_tables import check_run_table
 from footfit.report.terminal.scan_tables import terminal_text

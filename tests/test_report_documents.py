@@ -26,6 +26,7 @@ from footfit.geometry.fit.surface_difference import (
 from footfit.geometry.pose.paper_frame import paper_frame_angle_deg
 from footfit.pipeline.fit.fit_profile import fit_profile
 from footfit.pipeline.fit.match import matched
+from footfit.pipeline.graded_runs.grading_rules import grading_rule
 from footfit.report.json import json_line
 from footfit.results import (
     BackupOutcome,
@@ -36,6 +37,7 @@ from footfit.results import (
     EditOutcome,
     ExportOutcome,
     Finding,
+    GradedRun,
     Library,
     Measured,
     Notice,
@@ -50,6 +52,7 @@ from footfit.results import (
 from footfit.results.evidence.fit_entries import FitList, ForgetOutcome, RecordOutcome
 from footfit.results.evidence.fit_evidence import Calibration
 from footfit.results.evidence.profiles import CheckedProfile, ProfileList, ShownProfile
+from footfit.results.last_making.custom_last import BaseMesh
 from footfit.results.last_making.last_difference import LastDifference
 from footfit.results.population.checked_lasts import LastFinding, LastsCheck
 from footfit.results.values import exact, json_number, part
@@ -99,6 +102,10 @@ def every_document():
         CheckedProfile("a.toml", "a", 1, "0" * 64, ("length",), ()),
         Calibration(fit_profile(), fit_profile(), (), 0, {}),
         Drawing(answers.alignment(), (), (), (), {}, {}),
+        GradedRun(
+            *("derby-42", "0" * 64, "42", "G", "right", "derby", BaseMesh("file", 0.0), "eu"),
+            *(grading_rule("eu"), ("heel",), ()),
+        ),
         RunCheck(None, "arithmetic", 1.0, None, {"girth": 2.0}, (), (), ()),
         last_difference(),
         custom_last(),

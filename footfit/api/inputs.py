@@ -135,6 +135,25 @@ class LabelKeywords(TypedDict, total=False):
     platform_mm: float | None
 
 
+class GradeKeywords(TypedDict, total=False):
+    """How a last is graded: see the options of ``footfit grade-last``.
+
+    ``base_size`` and ``base_width`` are of the last itself, if its labels do not say them. The
+    heights say how a last in a file stands.
+    """
+
+    widths: str | None
+    size_system: str | None
+    base_size: str | None
+    base_width: str | None
+    hold: str | None
+    rule: str | None
+    family: str | None
+    heel_height_mm: float | None
+    toe_spring_mm: float | None
+    platform_mm: float | None
+
+
 class IngestKeywords(ReadingKeywords, total=False):
     """How lasts are stored: over one of the same name, only as a trial, by how many processes.
 

@@ -1,18 +1,115 @@
-"""Lasts made from lasts: whether a graded run keeps its increments, how two lasts differ."""
+"""Lasts made from lasts: graded runs, whether a run keeps its increments, how two lasts differ."""
 
 from __future__ import annotations
 
 import os
 from pathlib import Path
-from typing import Any, Unpack
+from typing import TYPE_CHECKING, Any, Unpack
 
 from footfit import results
-from footfit.api.inputs import FilePath, ReadingKeywords, Shape
+from footfit.api.inputs import (
+    FilePath,
+    GradeKeywords,
+    ReadingKeywords,
+    Shape,
+    reading_options,
+    stance_keywords,
+)
 from footfit.api.scans import profiled_shape
-from footfit.errors import BadOption, SideUndecided
+from footfit.errors import BadOption, SideUndecided, UnreadableFile
+from footfit.geometry.fit.sizes import system_named
 from footfit.locations import LocationName, location_of
 from footfit.pipeline.batch.runs import HERE
-from footfit.pipeline.batch.sources import is_no_path, mesh_sources
+from footfit.pipeline.batch.sources import Source, is_no_path, mesh_sources
+
+if TYPE_CHECKING:
+    from footfit.pipeline.graded_runs.grade_run import Grader
+
+
+def grade(
+    last: FilePath,
+    sizes: str,
+    *,
+    catalogue: LocationName | None = None,
+    store: bool = False,
+    replace: bool = False,
+    **options: Unpack[GradeKeywords],
+) -> results.GradedRun:
+    """A last in other sizes and widths, each measured again from the content of its file.
+
+    Parameters
+    ----------
+    last : path
+        The base: its file, or its name in the catalogue.
+    sizes : str
+        Such as "38:46", "38:42:0.5" or "39,40.5,42 2/3".
+    catalogue : path, optional
+        Where the base is looked for, and where the run is stored.
+    store, replace : bool
+        Whether the catalogue keeps the run, and whether in place of lasts of the same names.
+    **options
+        See `GradeKeywords`.
+
+    Raises
+    ------
+    BadOption
+        A size or a width is not understood, or the base's is not known.
+    OutOfReach
+        A last cannot be reached from the base; the message names it.
+    NotInCatalogue, InputError, GeometryRefused
+        There is no such last; its file cannot be read.
+    """
+    from footfit.pipeline.graded_runs.grade_store import require_storable_run, store_run
+
+    grading = grader_of(last, sizes, catalogue=catalogue, **options)
+    if not store:
+        return grading.run(grading.lasts())
+    if catalogue is None:
+        raise BadOption("name the catalogue that the run is stored in")
+    place = location_of(catalogue)
+    require_storable_run(place, grading, replace_stored=replace)
+    return store_run(place, grading, grading.run(grading.lasts()), replace_stored=replace)
+
+
+def grader_of(
+    last: FilePath,
+    sizes: str,
+    *,
+    catalogue: LocationName | None = None,
+    **options: Unpack[GradeKeywords],
+) -> Grader:
+    """What makes the lasts of a run one after the other; raises as `grade`."""
+    from footfit.pipeline.graded_runs.grade_plan import grade_plan
+    from footfit.pipeline.graded_runs.grade_run import family_of, grader
+    from footfit.pipeline.graded_runs.grading_rules import grading_rule, known_system
+    from footfit.pipeline.last_making.base_last import scanned_base, stored_base
+
+    name = os.fspath(last)
+    stands = stance_keywords(options)
+    if not is_no_path(name):
+        base = scanned_base(Source(name), reading_options(stands))
+    elif catalogue is None:
+        raise UnreadableFile("there is no such file", name)
+    elif stands:
+        words = "is a last of the catalogue, which stands as it was stored: leave out the options"
+        raise BadOption(f"{words} that say how", name)
+    else:
+        base = stored_base(location_of(catalogue), name)
+    labels = base.record.labels
+    asked_system = options.get("size_system") or labels.size_system
+    if asked_system is None:
+        raise BadOption("the size system is not known: add --size-system, such as eu")
+    system = known_system(asked_system)
+    own = labels.size_system is None or system_named(labels.size_system) == system
+    size = options.get("base_size") or (labels.size if own else None)
+    if size is None and labels.size is not None:
+        words = f"its size {labels.size} is of {labels.size_system}: add --base-size in"
+        raise BadOption(f"{words} {system.name}", name)
+    width = options.get("base_width") or labels.width_label
+    rule = grading_rule(options.get("rule"), system)
+    asked = sizes, options.get("widths")
+    plan = grade_plan(rule, system, (size, width), asked, options.get("hold"))
+    return grader(base, plan, options.get("family") or family_of(labels, plan.start.size))
 
 
 def check_run(
@@ -46,9 +143,9 @@ def check_run(
     NotInCatalogue, InputError, GeometryRefused
         There is no such last; a file cannot be read or measured.
     """
-    from footfit.pipeline.last_making import run_lasts
-    from footfit.pipeline.last_making.grading_rules import grading_rule
-    from footfit.pipeline.last_making.run_increments import run_check
+    from footfit.pipeline.graded_runs import run_lasts
+    from footfit.pipeline.graded_runs.grading_rules import grading_rule
+    from footfit.pipeline.graded_runs.run_increments import run_check
     from footfit.pipeline.last_making.tolerances import tolerances
     from footfit.pipeline.library.manifest import read_manifest
 

@@ -127,6 +127,9 @@ FORMS: dict[type, Form] = {
     results.Library: Form(
         catalogue_tables.list_lasts_table, lambda library: (None, library.warnings)
     ),
+    results.GradedRun: Form(
+        last_making_tables.graded_run_table, lambda run: (run.base, run.warnings)
+    ),
     results.RunCheck: Form(
         last_making_tables.check_run_table, lambda checked: (None, checked.warnings)
     ),

@@ -18,7 +18,7 @@ HEADINGS = {
     "Start here": "demo",
     "The paper's commands": "ingest-last set-reference align flare curvature measure match",
     "Fit": "compare coverage",
-    "Lasts made from lasts": "customise draw-last check-run compare-lasts",
+    "Lasts made from lasts": "customise draw-last grade-last check-run compare-lasts",
     "Fit profiles": "list-profiles show-profile check-profile calibrate-profile",
     "What wearers say": "record-fit list-fits forget-fits",
     "The library of lasts": (

@@ -47,6 +47,9 @@ from footfit.results.last_making.custom_last import GirthPlane as GirthPlane
 from footfit.results.last_making.custom_last import JudgedZone as JudgedZone
 from footfit.results.last_making.custom_last import KeptPlace as KeptPlace
 from footfit.results.last_making.drawing import Drawing as Drawing
+from footfit.results.last_making.graded_run import GradedLast as GradedLast
+from footfit.results.last_making.graded_run import GradedMeasure as GradedMeasure
+from footfit.results.last_making.graded_run import GradedRun as GradedRun
 from footfit.results.last_making.grading_rule import GradingRule as GradingRule
 from footfit.results.last_making.last_difference import LastDifference as LastDifference
 from footfit.results.last_making.run_check import RunCheck as RunCheck

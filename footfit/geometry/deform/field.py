@@ -18,6 +18,8 @@ from footfit.geometry.numeric.arrays import Floats
 
 STEP_MM = 0.02
 """Of the differences that the determinant is taken by."""
+EVEN_ROUNDS = 4
+"""After so many, the place half-way is found to a thousandth of a change of one size."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -55,6 +57,10 @@ class Field:
         By how much the plan's heading turns to the medial side, in radians.
     bottom_kept : bool
         Whether the bottom keeps its outline: then widths change only above it.
+    even : bool
+        Whether points are moved by what the curves say half-way between their old and their new
+        place. The field with the opposite curves then leads back, in the same chart. It turns no
+        plan and has no bumps.
     bumps : tuple of Bump
     """
 
@@ -65,6 +71,7 @@ class Field:
     higher: Floats
     turned: Floats
     bottom_kept: bool = False
+    even: bool = False
     bumps: tuple[Bump, ...] = ()
 
     @classmethod
@@ -97,9 +104,26 @@ class Field:
 
     def moved_points(self, points_mm: Floats) -> Floats:
         """Where the field moves points (n, 3) of the resting frame, in that frame."""
-        places = self.chart.places(self.chart.standing(points_mm))
-        shift = self.moved(places) - places.points_mm
+        standing = self.chart.standing(points_mm)
+        if self.even:
+            shift = self._even_shift(standing)
+        else:
+            shift = self.moved(self.chart.places(standing)) - standing
         return np.asarray(points_mm + shift @ self.chart.arc.stands[:3, :3])
+
+    def _even_shift(self, standing: Floats) -> Floats:
+        """How far points (n, 3) of the standing frame are moved: the implicit midpoint rule."""
+        shift = np.zeros_like(standing)
+        for _ in range(EVEN_ROUNDS):
+            places = self.chart.places(standing + 0.5 * shift)
+            splines, width = places.splines, places.risen if self.bottom_kept else 1.0
+            rate = [
+                splines @ self.ahead,
+                places.across_mm * width * (splines @ self.wider),
+                splines @ self.raised + places.over_mm * places.risen * (splines @ self.higher),
+            ]
+            shift = places.free[:, None] * np.column_stack(rate)
+        return shift
 
     def _bent(self, points_mm: Floats) -> Floats:
         """Points (n, 3) with the plan bent along the line through the seat's middle.

@@ -9,7 +9,7 @@ from itertools import pairwise
 from footfit.errors import BadOption
 from footfit.geometry.fit.sizes import label_number
 from footfit.number_words import plain
-from footfit.pipeline.last_making.run_sizes import width_numbers
+from footfit.pipeline.graded_runs.run_sizes import width_numbers
 from footfit.results import LastRecord
 from footfit.results.population.checked_lasts import LastCode, LastFinding
 

@@ -8,10 +8,10 @@ from collections.abc import Iterator, Sequence
 from footfit.errors import BadOption
 from footfit.locations import Location
 from footfit.number_words import plain
+from footfit.pipeline.graded_runs.run_increments import LEAST_LASTS, run_check
+from footfit.pipeline.graded_runs.run_lasts import stored_last
 from footfit.pipeline.last_checks.label_checks import label_findings
 from footfit.pipeline.last_checks.twin_lasts import comparable, last_measures, twin_findings
-from footfit.pipeline.last_making.run_increments import LEAST_LASTS, run_check
-from footfit.pipeline.last_making.run_lasts import stored_last
 from footfit.pipeline.last_making.tolerances import tolerances
 from footfit.pipeline.library.lasts import list_lasts
 from footfit.results import LastRecord

@@ -14,6 +14,46 @@ OFF = "!"
 """Stands beside an increment that is out of tolerance."""
 
 
+def graded_run_table(run: results.GradedRun) -> RenderableType:
+    """What was planned of each measure and what each last has, and what was held."""
+    width = "" if run.base_width is None else f", width {visible(run.base_width)}"
+    base = f"{visible(run.base)} (size {visible(run.base_size)}{width})"
+    held = ", ".join(run.held) or "nothing"
+    sources = f"by the rule {visible(run.rule.name)}, {run.rule.law}; held: {held}"
+    parts: list[RenderableType] = [Text(f"{base} graded {sources}", "bold")]
+    parts += [_graded_table(last) for last in run.lasts]
+    worst = max(
+        (each for last in run.lasts if (each := last.worst) is not None),
+        key=lambda each: abs(each.difference or 0.0),
+        default=None,
+    )
+    if worst is not None and worst.difference is not None:
+        words = f"farthest from its plan: {worst.name.replace('_', ' ')}"
+        parts.append(Text(f"{words}, {signed(worst.difference, 3)} mm", "dim"))
+    if run.mesh.error_mm:
+        error = plain(run.mesh.error_mm, 2)
+        words = f"made from the {run.mesh.kind} of the base, at most {error} mm from its scan"
+        parts.append(Text(words, "yellow"))
+    return Group(*parts)
+
+
+def _graded_table(last: results.GradedLast) -> RenderableType:
+    """One last: a row for each measure."""
+    numbers = ("base", "planned", "reached", "off")
+    table = lined_table("mm", *numbers, "by", right=frozenset(numbers))
+    for each in last.measures:
+        table.add_row(
+            cell(each.name.replace("_", " ")),
+            plain(each.base, 2),
+            *("-" if value is None else plain(value, 2) for value in (each.planned, each.reached)),
+            "-" if each.difference is None else signed(each.difference, 2),
+            each.by,
+        )
+    width = "" if last.width is None else f" {visible(last.width)}"
+    stored = ", stored" if last.stored else ""
+    return Group(Text(f"{visible(last.last)}: size {visible(last.size)}{width}{stored}"), table)
+
+
 def check_run_table(checked: results.RunCheck) -> RenderableType:
     """What each measure grows by, each increment between neighbours, and what is out of tolerance.
 

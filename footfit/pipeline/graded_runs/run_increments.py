@@ -10,7 +10,7 @@ import numpy as np
 
 from footfit.errors import BadOption
 from footfit.geometry.grading.run_laws import Steps, likely_law, median_rate
-from footfit.pipeline.last_making.run_sizes import width_numbers
+from footfit.pipeline.graded_runs.run_sizes import width_numbers
 from footfit.pipeline.last_making.tolerances import kind_of
 from footfit.results import Notice
 from footfit.results.last_making.grading_rule import GradingRule, LawName

@@ -3,16 +3,18 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import replace
+from functools import partial
 from pathlib import Path
 
 from footfit.catalogue.store import open_catalogue
 from footfit.errors import BadOption
 from footfit.locations import Location
 from footfit.pipeline.batch.runs import HERE, outcomes
-from footfit.pipeline.batch.sources import Source
-from footfit.pipeline.last_making.run_increments import CHECKED
-from footfit.pipeline.last_making.run_sizes import SizeLabel, size_in_name, size_number
-from footfit.pipeline.library.manifest import ManifestRow
+from footfit.pipeline.batch.sources import ReadingOptions, Source
+from footfit.pipeline.graded_runs.run_increments import CHECKED
+from footfit.pipeline.graded_runs.run_sizes import SizeLabel, size_in_name, size_number
+from footfit.pipeline.library.manifest import LABEL_HEIGHTS, ManifestRow
 from footfit.pipeline.scan.measure import measured_scan
 from footfit.pipeline.scan.reading import AS_FOUND, aligned_source
 from footfit.results import LastRecord, Measure, MeasuredScan
@@ -71,8 +73,9 @@ def file_lasts(
     """
     rows = {str(Path(row.path).resolve()): row for row in manifest}
     labels = {source.path: _label(source, rows) for source in sources}
+    readings = {source.path: _reading(source, rows) for source in sources}
     lasts = []
-    for outcome in outcomes(_measured, sources, jobs):
+    for outcome in outcomes(partial(_measured, readings=readings), sources, jobs):
         if outcome.error is not None:
             raise outcome.error
         assert outcome.value is not None
@@ -84,8 +87,16 @@ def file_lasts(
     return tuple(lasts)
 
 
-def _measured(source: Source) -> MeasuredScan:
-    return measured_scan(aligned_source(source, AS_FOUND))
+def _measured(source: Source, readings: Mapping[str | None, ReadingOptions]) -> MeasuredScan:
+    return measured_scan(aligned_source(source, readings[source.path]))
+
+
+def _reading(source: Source, rows: Mapping[str, ManifestRow]) -> ReadingOptions:
+    """How a file is read, and how its last stands, if the manifest says so."""
+    row = rows.get(str(Path(source.path or "-").resolve()))
+    if row is None:
+        return AS_FOUND
+    return replace(row.reading, **{name: getattr(row.labels, name) for name in LABEL_HEIGHTS})
 
 
 def _label(source: Source, rows: Mapping[str, ManifestRow]) -> tuple[SizeLabel, str | None]:

@@ -1,0 +1,292 @@
+"""A graded run: from the base outwards, size by size, each last measured again from its file."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from footfit.errors import OutOfReach
+from footfit.geometry.measures.landmarks import Shape
+from footfit.geometry.measures.measure_table import measure_named
+from footfit.geometry.stance.cues import StanceLabels
+from footfit.meshes.write import encoded_mesh
+from footfit.pipeline.batch.sources import ReadingOptions, Source
+from footfit.pipeline.graded_runs.grade_plan import (
+    HEEL,
+    SPRING,
+    Fitting,
+    GradePlan,
+    Planned,
+    standing,
+    targets,
+)
+from footfit.pipeline.graded_runs.grade_shape import HELD, LENGTH, GradeStep, graded
+from footfit.pipeline.graded_runs.run_increments import CHECKED
+from footfit.pipeline.last_making.base_last import BaseLast
+from footfit.pipeline.scan.reading import prepared_source
+from footfit.results import LastLabels
+from footfit.results.last_making.graded_run import GradedLast, GradedMeasure, GradedRun
+
+REFINED_MM = 0.03
+"""A last is graded again if a measure of its file is farther from the plan."""
+REFINEMENTS = 2
+Place = tuple[float, float]
+"""How many sizes and widths a last is from the base."""
+
+
+@dataclass(frozen=True)
+class Node:
+    """A last on the way: its right shape in the base's frame, and where it is from the base."""
+
+    shape: Shape
+    sizes: float
+    widths: float
+
+
+@dataclass(frozen=True)
+class Grader:
+    """A base with its plan. ``base_mm`` are its measures, read from a file as its lasts are."""
+
+    base: BaseLast
+    plan: GradePlan
+    family: str
+    first: Node
+    base_mm: Mapping[str, float]
+    in_frame_mm: Mapping[str, float]
+
+    def lasts(self) -> Iterator[GradedLast]:
+        """Every last of the plan, from the base outwards in both directions.
+
+        Raises
+        ------
+        OutOfReach
+            A last cannot be reached; the message names it.
+        """
+        made: dict[Place, Node] = {(0.0, 0.0): self.first}
+        for fitting in sorted(self.plan.fittings, key=_away):
+            here = fitting.sizes, fitting.widths
+            try:
+                if here in made:
+                    yield self._written(made[here], fitting)
+                    continue
+                made[here], last = self._last(self._node(made, *_before(*here)), fitting)
+            except OutOfReach as error:
+                raise OutOfReach(f"{self.name_of(fitting)}: {error.message}") from error
+            yield last
+
+    def names(self) -> tuple[str, ...]:
+        """The names of all lasts of the plan."""
+        return tuple(map(self.name_of, self.plan.fittings))
+
+    def run(self, lasts: Iterable[GradedLast]) -> GradedRun:
+        """The whole run, the smallest size and the narrowest width first."""
+        record, plan = self.base.record, self.plan
+        return GradedRun(
+            base=self.base.name,
+            base_sha256=record.info.sha256,
+            base_size=plan.start.size,
+            base_width=plan.start.width,
+            side=record.side.side,
+            family=self.family,
+            mesh=self.base.mesh,
+            size_system=plan.system.name,
+            rule=plan.rule,
+            held=tuple(name for name in HELD if name in plan.held),
+            lasts=tuple(sorted(lasts, key=lambda last: (last.sizes, last.widths))),
+        )
+
+    def name_of(self, fitting: Fitting) -> str:
+        """The name of a last of the run."""
+        size = fitting.size.replace(" ", "-").replace("/", "-")
+        width = "" if fitting.width is None else f"-{fitting.width}"
+        return f"{self.family}-{self.plan.system.name}{size}{width}"
+
+    def _node(self, made: dict[Place, Node], sizes: float, widths: float) -> Node:
+        """The last in a place, which is made from the one before it."""
+        if (sizes, widths) not in made:
+            before = self._node(made, *_before(sizes, widths))
+            made[sizes, widths] = self._step(before, sizes, widths)
+        return made[sizes, widths]
+
+    def _step(
+        self, node: Node, sizes: float, widths: float, shift_mm: Mapping[str, float] | None = None
+    ) -> Node:
+        """The last so many sizes and widths from the base, made from a neighbour."""
+        planned = self._targets(sizes, widths)
+        before = self._targets(node.sizes, node.widths)
+        own = {
+            name: self.in_frame_mm[name] + goal.target - self.base_mm[name]
+            for name, goal in planned.items()
+            if name not in (HEEL, SPRING)
+        }
+        shift = shift_mm or {}
+        own = {name: target + shift.get(name, 0.0) for name, target in own.items()}
+        step = GradeStep(
+            ratio=planned[LENGTH].target / before[LENGTH].target,
+            targets_mm=own,
+            held=self.plan.held,
+            labels=self._stands(planned),
+            more_mm=(shift.get(HEEL, 0.0), shift.get(SPRING, 0.0)),
+        )
+        return Node(graded(node.shape, step), sizes, widths)
+
+    def _targets(self, sizes: float, widths: float) -> dict[str, Planned]:
+        return targets(self.plan, self.base_mm, sizes, widths)
+
+    def _stands(self, planned: Mapping[str, Planned]) -> StanceLabels:
+        return standing(planned, self.base.record.labels.platform_mm)
+
+    def _last(self, node: Node, fitting: Fitting) -> tuple[Node, GradedLast]:
+        """A last of the run, made from a neighbour; made again if its file reads otherwise."""
+        shift: dict[str, float] = {}
+        best: tuple[Node, GradedLast] | None = None
+        for _ in range(1 + REFINEMENTS):
+            new = self._step(node, fitting.sizes, fitting.widths, shift)
+            last = self._written(new, fitting)
+            if best is None or _miss_mm(last) < _miss_mm(best[1]):
+                best = new, last
+            if _miss_mm(last) <= REFINED_MM:
+                break
+            for each in last.measures:
+                if each.difference is not None:
+                    shift[each.name] = shift.get(each.name, 0.0) - each.difference
+        assert best is not None
+        return best
+
+    def _written(self, node: Node, fitting: Fitting) -> GradedLast:
+        """A last with the content of its file, and the measures that are read from that."""
+        planned = self._targets(fitting.sizes, fitting.widths)
+        stands = self._stands(planned)
+        data = file_of(node.shape, self.base)
+        said = self.base.record.labels
+        labels = LastLabels(
+            name=self.name_of(fitting),
+            style=said.style,
+            size=fitting.size,
+            size_system=self.plan.system.name,
+            width_label=fitting.width,
+            heel_height_mm=stands.heel_height_mm,
+            toe_spring_mm=stands.toe_spring_mm,
+            platform_mm=said.platform_mm,
+            family=self.family,
+        )
+        reached = measures_of(data, self.base, stands)
+        measures = tuple(
+            GradedMeasure(
+                name=name,
+                unit="mm",
+                base=value,
+                planned=planned[name].target if name in planned else None,
+                reached=reached.get(name),
+                by=planned[name].by if name in planned else "follows",
+            )
+            for name, value in self.base_mm.items()
+        )
+        return GradedLast(
+            last=labels.name,
+            size=fitting.size,
+            width=fitting.width,
+            sizes=fitting.sizes,
+            widths=fitting.widths,
+            measures=measures,
+            labels=labels,
+            data=data,
+        )
+
+
+def family_of(labels: LastLabels, size: str) -> str:
+    """The family of a base: its label, else its name without its size.
+
+    Examples
+    --------
+    >>> family_of(LastLabels("derby-42"), "42"), family_of(LastLabels("x", family="derby"), "42")
+    ('derby', 'derby')
+    """
+    name = labels.name.removesuffix(size).rstrip("-_ ")
+    return labels.family or name or labels.name
+
+
+def grader(base: BaseLast, plan: GradePlan, family: str) -> Grader:
+    """What grades a base by a plan.
+
+    Raises
+    ------
+    OutOfReach
+        The base lacks its length, so nothing can be planned.
+    """
+    stands = base.shape.labels
+    base_mm: dict[str, float] = {}
+    for _ in range(2):  # the second time on the ground that its own heel and spring give
+        base_mm = measures_of(file_of(base.shape, base), base, stands)
+        if LENGTH not in base_mm:
+            raise OutOfReach("its length along the bottom cannot be measured: take a whole last")
+        stands = standing(targets(plan, base_mm, 0.0, 0.0), base.record.labels.platform_mm)
+    own = Shape(base.shape.vertices_mm, base.shape.faces, "last", stands)
+    in_frame = {name: measure_named(name).value_of(own).value for name in base_mm}
+    kept = {name: value for name, value in in_frame.items() if value is not None}
+    return Grader(
+        base=base,
+        plan=plan,
+        family=family,
+        first=Node(own, 0.0, 0.0),
+        base_mm={name: value for name, value in base_mm.items() if name in kept},
+        in_frame_mm=kept,
+    )
+
+
+def file_of(shape: Shape, base: BaseLast) -> bytes:
+    """The file of a right shape: an STL in mm, in the base's frame, of the base's side."""
+    vertices, faces = shape.vertices_mm, shape.faces
+    if base.record.side.side == "left":
+        vertices, faces = vertices * np.array([1.0, -1.0, 1.0]), faces[:, ::-1]
+    return encoded_mesh(vertices, faces, "stl")
+
+
+def measures_of(data: bytes, base: BaseLast, stands: StanceLabels) -> dict[str, float]:
+    """The measures of a last that is read from the content of its file, in mm by name."""
+    reading = reading_of(base, stands)
+    shape = replace(prepared_source(Source(None, data, "stl"), reading).shape, kind="last")
+    values = {name: measure_named(name).value_of(shape).value for name in CHECKED}
+    return {name: value for name, value in values.items() if value is not None}
+
+
+def reading_of(base: BaseLast, stands: StanceLabels) -> ReadingOptions:
+    """How the file of a graded last is read."""
+    return ReadingOptions(
+        units="mm",
+        side=base.record.side.side or "auto",
+        heel_height_mm=stands.heel_height_mm,
+        toe_spring_mm=stands.toe_spring_mm,
+        platform_mm=stands.platform_mm or None,
+    )
+
+
+def _miss_mm(last: GradedLast) -> float:
+    """How far the worst measure is from its plan."""
+    worst = last.worst
+    return 0.0 if worst is None else abs(worst.difference or 0.0)
+
+
+def _away(fitting: Fitting) -> tuple[float, float]:
+    return abs(fitting.sizes), abs(fitting.widths)
+
+
+def _before(sizes: float, widths: float) -> Place:
+    """From which last another one is made: a width nearer to the base, else a size."""
+    if widths:
+        return sizes, _nearer(widths)
+    return _nearer(sizes), 0.0
+
+
+def _nearer(steps: float) -> float:
+    """The next whole step towards the base.
+
+    Examples
+    --------
+    >>> [_nearer(steps) for steps in (2.0, 2.5, -1.0, -0.5)]
+    [1.0, 2.0, 0.0, 0.0]
+    """
+    return math.copysign(math.ceil(abs(steps) - 1e-9) - 1.0, steps) + 0.0

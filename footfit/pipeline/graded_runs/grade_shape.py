@@ -1,0 +1,239 @@
+"""One step of grading: a last with a longer bottom, and then with other girths and widths."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from footfit.errors import OutOfReach
+from footfit.geometry.deform.chart import CHART, Chart, chart_of
+from footfit.geometry.deform.field import Field, least_determinant
+from footfit.geometry.deform.probes import Probe, span_probe
+from footfit.geometry.deform.solver import SOLVER, Goal, Knob, solution
+from footfit.geometry.grading.length_flow import (
+    ahead_mm,
+    ends_raised_mm,
+    flowed_mm,
+    raised_mm,
+)
+from footfit.geometry.measures.heights import HEIGHTS
+from footfit.geometry.measures.landmarks import AXES, Shape
+from footfit.geometry.measures.measure_table import measure_named
+from footfit.geometry.numeric.arrays import Floats
+from footfit.geometry.numeric.planes import Plane
+from footfit.geometry.stance.cues import StanceLabels
+from footfit.number_words import plain
+from footfit.pipeline.last_making.custom_reading import probe_of
+
+
+@dataclass(frozen=True, slots=True)
+class GradeSettings:
+    """How a last is graded; places over the arc's length.
+
+    Attributes
+    ----------
+    widths : tuple of float
+        At the heel and at the ball the scale of widths has knobs; beyond them it stays as there.
+    heights : tuple of float
+        At the ball and the toe the scale of heights has knobs.
+    instep, waist : float, float
+        There it has one too, if their girths are planned. Behind the instep, the cone rises as the
+        instep does.
+    low : float
+        Where the plane of the cone's top lies lower, over its height at the instep, that is taken.
+    edge, height : float
+        What lies lower over the bottom keeps its height over it; heights come to their full change
+        over a share of the other, as in `ChartSettings`.
+    settled_mm, rounds : float, int
+        The search ends when no measure is farther from its target.
+    free_bend, free_size : float, float
+        What curves cost, as in `SolverSettings`: next to nothing, because there is a knob for each
+        target, and grading back must find the same ones.
+    met_mm : float
+        A target that is missed by more cannot be reached.
+    determinant : float
+        The least that a change may come to: 0 would be a fold.
+    """
+
+    widths: tuple[float, float] = (0.17, 0.67)
+    heights: tuple[float, float] = (0.67, 0.92)
+    instep: float = 0.50
+    waist: float = 0.585
+    low: float = 0.4
+    edge: float = 0.03
+    height: float = 0.26
+    settled_mm: float = 0.003
+    rounds: int = 12
+    free_bend: float = 1.0
+    free_size: float = 10.0
+    met_mm: float = 0.05
+    determinant: float = 0.3
+
+
+GRADE = GradeSettings()
+GRADE_CHART = replace(CHART, knots=43)
+"""With so many knots that the curves meet what a length does in the shank of a high heel."""
+LENGTH, HEEL_GIRTH = "bottom_length", "heel_girth_instep"
+INSTEP, WAIST = "instep_girth_least", "waist_girth_least"
+HELD = ("heel", "spring", "bottom", "toe", "top")
+"""What can be held, each by itself."""
+HELD_BY_DEFAULT = ("heel", "spring", "toe")
+THICKNESS = "toe_height"
+
+
+@dataclass(frozen=True, slots=True)
+class GradeStep:
+    """What one step changes: the ratio of the lengths, and the targets of measures in mm.
+
+    ``held`` are some of `HELD`. ``labels`` say how the last stands afterwards. The heel and the tip
+    are raised by ``more_mm``, because the finished last reads otherwise.
+    """
+
+    ratio: float
+    targets_mm: Mapping[str, float]
+    held: frozenset[str]
+    labels: StanceLabels
+    more_mm: tuple[float, float] = (0.0, 0.0)
+
+
+def graded(shape: Shape, step: GradeStep) -> Shape:
+    """A canonical right last after one step, in the frame of the last before it.
+
+    Girths and widths are changed where the last is longer: after it was lengthened, or before it is
+    shortened. So a step back is the same step.
+
+    Raises
+    ------
+    OutOfReach
+        Its bottom is open, a target cannot be reached, or the surface would come near to a fold.
+    """
+    if shape.bottom_arc is None:
+        raise OutOfReach("its bottom is open at the heel or the ball: grade a whole last")
+    grows = step.ratio >= 1.0
+    first = _lengthened(shape, step) if grows else shape
+    chart, plane = _chart(first, step), chart_of(first).top
+    knobs, names = _knobs(chart, plane, step), list(step.targets_mm)
+    goals = [Goal(step.targets_mm[name], _probe(first, name)) for name in names]
+
+    def finished(vertices_mm: Floats) -> Shape:
+        moved = Shape(vertices_mm, shape.faces, "last", first.labels)
+        return moved if grows else _lengthened(moved, step)
+
+    def read(vertices_mm: Floats) -> Floats:
+        last = finished(vertices_mm)
+        return np.array([_value_mm(last, name) for name in names])
+
+    settings = replace(
+        SOLVER,
+        settled_mm=GRADE.settled_mm,
+        rounds=GRADE.rounds,
+        bend=GRADE.free_bend,
+        size=GRADE.free_size,
+    )
+    start = replace(Field.still(chart), even=True)
+    solved = solution(start, knobs, first.vertices_mm, goals, read, settings)
+    miss = np.array([goal.target_mm for goal in goals]) - solved.values_mm
+    worst = int(np.argmax(np.abs(miss)))
+    if abs(miss[worst]) > GRADE.met_mm:
+        name, target = names[worst], step.targets_mm[names[worst]]
+        words = f"comes to {plain(target - miss[worst])} mm and not to {plain(target)} mm"
+        raise OutOfReach(f"the {name.replace('_', ' ')} {words}: take fewer sizes or another rule")
+    least = least_determinant(solved.field, first.vertices_mm)
+    if least < GRADE.determinant:
+        words = f"only {plain(least, 2)} of its volume would be left somewhere"
+        raise OutOfReach(f"the surface would come too near to a fold ({words}): take fewer sizes")
+    return finished(solved.vertices_mm)
+
+
+def _lengthened(shape: Shape, step: GradeStep) -> Shape:
+    """A last with a longer bottom; what is held keeps its height over the ground."""
+    chart = _chart(shape, step)
+    arc_mm = chart.stations * chart.arc.length_mm
+    x, z = chart.arc.line.at(arc_mm)
+    bottom = "bottom" in step.held
+    held = bottom or "heel" in step.held, bottom or "spring" in step.held
+    raised = raised_mm(x, z, step.ratio, held) + ends_raised_mm(x, z, step.more_mm)
+    length_mm = step.ratio * chart.arc.length_mm
+    ahead = ahead_mm(x, z + raised, length_mm, shank_only=bottom)
+    least = 1.0 + float((np.diff(ahead) / np.diff(x)).min())
+    if least < GRADE.determinant:
+        words = "its shank is too steep to become so much shorter"
+        raise OutOfReach(f"{words}: take fewer sizes, or hold neither bottom nor heel")
+    field = Field.still(chart).with_curves(ahead=_curve(chart, ahead), raised=_curve(chart, raised))
+    return Shape(field.moved_points(shape.vertices_mm), shape.faces, "last", step.labels)
+
+
+def _chart(shape: Shape, step: GradeStep) -> Chart:
+    """The chart of a last, with one edge and one height: a step back must find them again."""
+    chart = chart_of(shape, hold_top="top" in step.held, settings=GRADE_CHART)
+    edge_mm, height_mm = (
+        np.full(len(chart.stations), share * chart.arc.length_mm)
+        for share in (GRADE.edge, GRADE.height)
+    )
+    return replace(chart, edge_mm=edge_mm, height_mm=height_mm)
+
+
+def _curve(chart: Chart, values: Floats) -> Floats:
+    """The coefficients (knots,) of the splines that come nearest to values at the stations."""
+    if not values.any():
+        return np.zeros(chart.settings.knots)
+    return np.asarray(np.linalg.lstsq(chart.splines(chart.stations), values, rcond=None)[0])
+
+
+def _knobs(chart: Chart, plane: Plane | None, step: GradeStep) -> list[Knob]:
+    """What the search may turn: the scales of widths and of heights, and the length a little."""
+    places = {GRADE.instep: INSTEP, GRADE.waist: WAIST}
+    planned = [at for at, name in places.items() if name in step.targets_mm]
+    wide, high = _tents(chart, GRADE.widths), _tents(chart, [*planned, *GRADE.heights])
+    high[0] = high[0] * _level_rise(chart, plane)
+    if HEEL_GIRTH in step.targets_mm:
+        high = [*high, np.maximum(1.0 - chart.stations / GRADE.instep, 0.0)]
+    arc_mm = chart.stations * chart.arc.length_mm
+    x = chart.arc.line.at(arc_mm)[0]
+    ahead = flowed_mm(x, 1.0, shank_only="bottom" in step.held) - x
+    return [
+        *(Knob("wider", _curve(chart, tent)) for tent in wide),
+        *(Knob("higher", _curve(chart, tent)) for tent in high),
+        Knob("ahead", _curve(chart, ahead), 100.0),
+    ]
+
+
+def _level_rise(chart: Chart, plane: Plane | None) -> Floats:
+    """What the scale of heights behind the instep is times that at the instep, at the stations.
+
+    The plane of the cone's top, drawn on over the whole last, rises by the same everywhere. So it
+    stays a plane.
+    """
+    if plane is None:
+        return np.ones(len(chart.stations))
+    x, z = chart.arc.line.at(chart.stations * chart.arc.length_mm)
+    bottom = np.column_stack([x, chart.middle_mm, z])
+    height_mm = -plane.heights(bottom) / plane.normal[2]
+    instep_mm = float(np.interp(GRADE.instep, chart.stations, height_mm))
+    behind = instep_mm / np.maximum(height_mm, GRADE.low * instep_mm)
+    return np.where(chart.stations < GRADE.instep, behind, 1.0)
+
+
+def _tents(chart: Chart, at: Sequence[float]) -> list[Floats]:
+    """For each of some shares of the arc what is 1 there, 0 at the others, and straight between."""
+    return [np.interp(chart.stations, at, row) for row in np.eye(len(at))]
+
+
+def _value_mm(shape: Shape, name: str) -> float:
+    value = measure_named(name).value_of(shape).value
+    return np.nan if value is None else value
+
+
+def _probe(shape: Shape, name: str) -> Probe:
+    """What answers for a measure when the last changes a little."""
+    if name == LENGTH:
+        rear, front = shape.ends
+        return span_probe(shape.vertices_mm, rear.place, front.place, AXES[0])
+    if name == THICKNESS:
+        x_mm, section = shape.x_mm(HEIGHTS.toe), shape.across(HEIGHTS.toe).points
+        low, high = (section[at] for at in (section[:, 1].argmin(), section[:, 1].argmax()))
+        bottom, top = (np.array([x_mm, *place]) for place in (low, high))
+        return span_probe(shape.vertices_mm, bottom, top, AXES[2])
+    return probe_of(shape, name)

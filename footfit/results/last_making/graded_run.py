@@ -1,0 +1,110 @@
+"""A graded run: one last in other sizes and widths, each measured again from its written file."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING, Literal
+
+from footfit.results.last_making.custom_last import BaseMesh
+from footfit.results.last_making.grading_rule import GradingRule
+from footfit.results.values import Document, Json, Notice, Part, SideName, fields, rows
+
+if TYPE_CHECKING:
+    from footfit.results.last_record import LastLabels
+
+By = Literal["rule", "held", "scaled", "follows"]
+"""What a measure of a graded last is by. What a rule does not plan and nothing holds follows."""
+
+
+@dataclass(frozen=True, slots=True)
+class GradedMeasure(Part):
+    """One measure of a graded last: of the base, as planned, and as the written file has it.
+
+    ``planned`` is None if the measure follows.
+    """
+
+    name: str
+    unit: str
+    base: float
+    planned: float | None
+    reached: float | None
+    by: By
+
+    @property
+    def difference(self) -> float | None:
+        """Reached minus planned; None if one of them is."""
+        if self.planned is None or self.reached is None:
+            return None
+        return self.reached - self.planned
+
+    def _keys(self) -> Json:
+        return fields(self) | {"difference": self.difference}
+
+
+@dataclass(frozen=True, slots=True)
+class GradedLast(Part):
+    """One last of a graded run, ``sizes`` and ``widths`` from the base.
+
+    ``output`` is its file, ``stored`` whether the catalogue has it now. ``data`` is the content of
+    the file, an STL in mm in the base's canonical frame.
+    """
+
+    last: str
+    size: str
+    width: str | None
+    sizes: float
+    widths: float
+    measures: tuple[GradedMeasure, ...]
+    labels: LastLabels
+    data: bytes = field(repr=False)
+    output: str | None = None
+    stored: bool = False
+    warnings: tuple[Notice, ...] = ()
+
+    not_written = ("labels", "data")
+
+    @property
+    def worst(self) -> GradedMeasure | None:
+        """The measure that is farthest from its plan."""
+        known = [each for each in self.measures if each.difference is not None]
+        return max(known, key=lambda each: abs(each.difference or 0.0), default=None)
+
+
+@dataclass(frozen=True, slots=True)
+class GradedRun(Document):
+    """One last in other sizes and widths.
+
+    ``mesh`` says which mesh of the base was graded. ``held`` is what keeps its measure.
+    """
+
+    base: str
+    base_sha256: str
+    base_size: str
+    base_width: str | None
+    side: SideName | None
+    family: str
+    mesh: BaseMesh
+    size_system: str
+    rule: GradingRule
+    held: tuple[str, ...]
+    lasts: tuple[GradedLast, ...]
+    folder: str | None = None
+    warnings: tuple[Notice, ...] = ()
+
+    schema = "grade/1"
+    columns = (
+        *("last", "size", "width", "output", "measure", "by"),
+        *("base", "planned", "reached", "difference"),
+    )
+
+    def rows(self) -> list[Json]:
+        """A table: a row for each measure of each last."""
+        values = [
+            (
+                *(last.last, last.size, last.width, last.output, each.name, each.by),
+                *(each.base, each.planned, each.reached, each.difference),
+            )
+            for last in self.lasts
+            for each in last.measures
+        ]
+        return rows(self.columns, values)
