@@ -25,7 +25,7 @@ from footfit.geometry.numeric.arrays import Floats
 from footfit.geometry.numeric.planes import Plane
 from footfit.geometry.stance.cues import StanceLabels
 from footfit.number_words import plain
-from footfit.pipeline.last_making.custom_reading import probe_of
+from footfit.pipeline.last_making.custom.custom_reading import probe_of
 
 
 @dataclass(frozen=True, slots=True)
@@ -133,7 +133,7 @@ def graded(shape: Shape, step: GradeStep) -> Shape:
         size=GRADE.free_size,
     )
     start = replace(Field.still(chart), even=True)
-    solved = solution(start, knobs, first.vertices_mm, goals, read, settings)
+    solved = solution(start, knobs, first.vertices_mm, goals, read, settings=settings)
     miss = np.array([goal.target_mm for goal in goals]) - solved.values_mm
     worst = int(np.argmax(np.abs(miss)))
     if abs(miss[worst]) > GRADE.met_mm:
