@@ -150,6 +150,17 @@ def test_what_the_ingest_saw_is_a_finding(stored_code: str, code: str, tmp_path:
     assert found(tmp_path / "a.footfit", lasts.values()) == {("derby-40-F", code)}
 
 
+def test_a_side_that_the_shape_does_not_show_is_found(tmp_path: Path) -> None:
+    lasts = run()
+    base = lasts.pop("derby-41-G")
+    right = replace(base.side, side="right", score=3.0, confidence="sure")
+    lasts["a"] = named(replace(base, side=right), "derby-41-left")
+    given = replace(right, side="left", source="given", confidence="low")
+    lasts["b"] = named(replace(lasts.pop("derby-40-G"), side=given), "derby-40-L")
+    expected = {("derby-41-left", "side_contradicted"), ("derby-40-L", "side_doubtful")}
+    assert expected == found(tmp_path / "a.footfit", lasts.values())
+
+
 def test_the_command_lists_them_and_exits_with_7(tmp_path: Path, footfit: Footfit) -> None:
     lasts = run()
     lasts["derby-41-G"] = graded(41, "G", ball_girth_least=6.0)

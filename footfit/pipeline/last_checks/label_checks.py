@@ -2,19 +2,23 @@
 
 from __future__ import annotations
 
+import re
 from collections import defaultdict
 from collections.abc import Iterator, Sequence
 from itertools import pairwise
 
 from footfit.errors import BadOption
 from footfit.geometry.fit.sizes import label_number
-from footfit.number_words import plain
+from footfit.number_words import plain, signed
+from footfit.pipeline.batch.side_words import side_in_name
 from footfit.pipeline.graded_runs.run_sizes import width_numbers
 from footfit.results import LastRecord
 from footfit.results.population.checked_lasts import LastCode, LastFinding
 
 WIDER_MM = 1.0
 """A wider last of one size has at least so much more ball girth; a width step is 4 to 7 mm."""
+_LETTER = re.compile(r"(?<![^\W_])[lr](?![^\W_])", re.IGNORECASE)
+"""A single letter of a last's name may be a size or a width, and says no side."""
 STORED: dict[str, LastCode] = {
     "side_contradicted": "side_contradicted",
     "side_name_differs": "side_contradicted",
@@ -31,10 +35,27 @@ def label_findings(records: Sequence[LastRecord]) -> Iterator[LastFinding]:
         name = record.labels.name
         for notice in record.label_notices:
             yield LastFinding("size_contradicted", name, notice.message)
+        codes = set()
         for notice in record.warnings:
             if notice.code in STORED:
+                codes.add(STORED[notice.code])
                 yield LastFinding(STORED[notice.code], name, notice.message)
+        if not codes & {"side_contradicted", "side_doubtful"}:
+            yield from _side_findings(record)
     yield from _width_findings(records)
+
+
+def _side_findings(record: LastRecord) -> Iterator[LastFinding]:
+    """A side that was given, or that the name says, and that the shape does not show."""
+    name, side = record.labels.name, record.side
+    shape = f"its shape looks {side.shown} (score {signed(side.score)})"
+    said = side_in_name(_LETTER.sub("", name)).side
+    if side.source == "given" and side.shown != side.side:
+        sure = side.confidence == "sure"
+        code: LastCode = "side_contradicted" if sure else "side_doubtful"
+        yield LastFinding(code, name, f"it was given as {side.side}, and {shape}")
+    elif said is not None and said != side.side:
+        yield LastFinding("side_contradicted", name, f"its name says {said}, and {shape}")
 
 
 def _width_findings(records: Sequence[LastRecord]) -> Iterator[LastFinding]:
