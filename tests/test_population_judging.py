@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -12,6 +13,7 @@ from hypothesis import strategies as st
 import footfit
 from footfit.pipeline.fit.fit_profile import fit_profile
 from footfit.pipeline.fit.heel_model import heel_question
+from footfit.pipeline.fit.judging.bottom_gains import LENGTHS
 from footfit.pipeline.fit.match import Question, matched
 from footfit.pipeline.fit.scoring import NOT_JUDGED, REJECT, VERDICTS
 from footfit.pipeline.fit.worn_shifts import worn_with
@@ -19,7 +21,7 @@ from footfit.pipeline.population.foot_measures import foot_measures, foot_table
 from footfit.pipeline.population.judging import Asking, judged_feet
 from footfit.pipeline.population.tables import last_table, zone_measures
 from footfit.pipeline.shelf.candidates import choice
-from footfit.results import Library, Profiled, Worn
+from footfit.results import Library, Measure, Measured, Profiled, Worn
 from footfit.results.worn import BAREFOOT
 from tests.conftest import SAMPLES
 from tests.test_pipeline_ranking import catalogues, feet
@@ -69,10 +71,29 @@ def required_unknown(candidate, profile) -> bool:
     return bool(required & set(candidate.not_judged))
 
 
+def with_bottoms(library: Library) -> Library:
+    """The lasts with all that a length along the bottom is read from, so that heels are judged."""
+    lasts = []
+    for last in library.lasts:
+        heel_mm, length_mm = last.labels.heel_height_mm, last.length_mm or 0.0
+        if heel_mm is not None:
+            values = (1.01 * length_mm, 0.97 * length_mm, heel_mm, 0.2 * heel_mm,
+                      0.55 * length_mm, 0.75 * length_mm, 6.0)  # fmt: skip
+            bottom = tuple(
+                Measure(name, Measured(mm, 0.5), definition)
+                for (name, definition), mm in zip(LENGTHS.items(), values, strict=True)
+            )
+            last = replace(last, measures=(*last.measures, *bottom))
+        lasts.append(last)
+    return replace(library, lasts=tuple(lasts))
+
+
 @given(st.lists(feet(), min_size=1, max_size=3), catalogues(), PROFILES, WORN)
 @settings(deadline=None, max_examples=60)
 def test_a_coverage_and_a_match_have_one_verdict(customers, library, name, worn) -> None:
-    same_answers([foot for customer in customers for foot in customer], library, name, worn)
+    many = [foot for customer in customers for foot in customer]
+    same_answers(many, library, name, worn)
+    same_answers(many, with_bottoms(library), name, worn)
 
 
 def test_scans_have_it_too_with_their_toe_boxes(stocked: Path) -> None:
