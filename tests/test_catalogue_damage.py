@@ -9,9 +9,9 @@ from pathlib import Path
 
 import pytest
 
+from footfit.catalogue.file.dialect import driver_of
 from footfit.catalogue.rows.columns import REFERENCE
 from footfit.catalogue.rows.verified_rows import row_digest, rows
-from footfit.catalogue.rows.writing import driver_of
 from footfit.catalogue.store import open_catalogue
 from footfit.errors import CatalogueUnusable
 from tests import records

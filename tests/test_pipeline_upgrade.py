@@ -9,10 +9,11 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from footfit.catalogue.file.dialect import driver_of
 from footfit.catalogue.rows.array_blobs import definition_text
 from footfit.catalogue.rows.columns import FLARE
 from footfit.catalogue.rows.last_names import last_id
-from footfit.catalogue.rows.writing import driver_of, seal, update_row
+from footfit.catalogue.rows.writing import seal, update_row
 from footfit.catalogue.store import open_catalogue
 from footfit.errors import NoCatalogue
 from footfit.geometry.flare.definition import FlareDefinition

@@ -13,6 +13,7 @@ from footfit.report.terminal.catalogue_tables import (
     backup_catalogue_line,
     catalogue_info_table,
     check_catalogue_table,
+    copy_catalogue_line,
     demo_table,
     export_last_line,
     list_lasts_table,
@@ -34,6 +35,7 @@ from footfit.report.terminal.scan_tables import (
 from footfit.results import (
     BackupOutcome,
     CheckOutcome,
+    CopyOutcome,
     DemoOutcome,
     ExportOutcome,
     Finding,
@@ -164,6 +166,10 @@ LINES: list[tuple[RenderableType, tuple[str, ...]]] = [
     (
         export_last_line(ExportOutcome("a-1", "a.stl", 12_345, 0.184)),
         ("a-1", "a.stl", "12,345", "0.18"),
+    ),
+    (
+        copy_catalogue_line(CopyOutcome("c.footfit", "d.footfit", 14, 3)),
+        ("c.footfit", "d.footfit", "14", "3"),
     ),
     (
         backup_catalogue_line(BackupOutcome("c.footfit", "b.footfit", 1_849_000, 14)),

@@ -22,7 +22,7 @@ from footfit.catalogue.blocks.block_reading import columns_of_rows, is_sound
 from footfit.catalogue.blocks.same_lasts import same_lasts
 from footfit.catalogue.file.dialect import Driver
 from footfit.catalogue.rows.verified_rows import LastRows, stored_lasts
-from footfit.results.columns.last_columns import LastColumns, joined
+from footfit.results.columns.last_columns import SPOILT, LastColumns, joined
 from footfit.results.columns.vocabulary import Vocabulary
 
 BLOCKS_ANEW = "type: footfit upgrade-catalogue, which makes it anew"
@@ -62,7 +62,7 @@ def wrong_blocks(connection: Driver) -> list[int]:
 def agrees(connection: Driver, block: int) -> bool:
     """Whether a block is what its rows say; of toes within rounding, which differs by machine.
 
-    A last whose rows are damaged may be in it or not.
+    A last whose rows are damaged may be in it or not. Damaged sections are a finding of their own.
     """
     words, keys = Vocabulary(), _keys(connection, block)
     stored = _whole(_sound_parts(connection, block), words)
@@ -72,6 +72,8 @@ def agrees(connection: Driver, block: int) -> bool:
         return not len(rows_say) and there.fetchone() is None
     if not set(stored.keys.tolist()) <= set(keys):
         return False
+    if rows_say.toes is not None:
+        rows_say = rows_say.taken(np.flatnonzero(rows_say.toes.state != SPOILT))
     intact = np.flatnonzero(np.isin(stored.keys, rows_say.keys))
     return same_lasts(stored.taken(intact), rows_say)
 
