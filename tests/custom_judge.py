@@ -94,3 +94,9 @@ def _dihedrals(normals, faces):
     same = np.flatnonzero((ordered[1:] == ordered[:-1]).all(axis=1))
     one, other = normals[face[same]], normals[face[same + 1]]
     return np.degrees(np.arccos(np.clip((one * other).sum(axis=1), -1.0, 1.0)))
+
+
+def open_edges(faces) -> int:
+    """How many edges do not have exactly two faces."""
+    edges = np.sort(faces[:, [0, 1, 1, 2, 2, 0]].reshape(-1, 2), axis=1)
+    return int((np.unique(edges, axis=0, return_counts=True)[1] != 2).sum())

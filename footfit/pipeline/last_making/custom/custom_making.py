@@ -230,6 +230,7 @@ def _zones(base: BaseLast, attempt: Attempt) -> tuple[results.CustomZone, ...]:
             continue
         value = value_mm(made.shape, aim.measure, base)
         reached = made.shape.length_mm if aim.measure == LENGTH else value
+        wanted = wanted if aim.firm else value
         zones.append(
             results.CustomZone(
                 name=aim.measure,
@@ -240,7 +241,7 @@ def _zones(base: BaseLast, attempt: Attempt) -> tuple[results.CustomZone, ...]:
                 base=aim.base,
                 target=reached - (value - wanted),
                 reached=reached,
-                room=room,
+                room=room if aim.firm else 0.0,
                 follows=not aim.firm,
                 plane=_plane(made, aim.measure),
             )
