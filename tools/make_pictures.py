@@ -23,6 +23,7 @@ from footfit.results import Scan
 from tests.distortions import moved, random_pose, white_noise
 from tests.reading import read_scan
 from tests.scans import aligned
+from tools.custom_picture import custom_picture
 from tools.drawing_pictures import drawing_pictures
 from tools.page_pictures import page_pictures
 from tools.stance_picture import stance_picture
@@ -49,6 +50,7 @@ def pictures() -> dict[str, bytes]:
         **tape_pictures(),
         **drawing_pictures(),
         "standing_last.png": stance_picture(),
+        "custom_last.png": custom_picture(),
     }
 
 

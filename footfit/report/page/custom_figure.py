@@ -15,39 +15,44 @@ if TYPE_CHECKING:
 
     from footfit.results import CustomLast
 
+STEPS_MM = (0.25, 0.5, 1.0, 2.0)
+"""So many mm is a colour wide: the least with which the largest move is within the scale."""
+
 
 def custom_figure(custom: CustomLast, *, titled: bool = True) -> Figure:
     """Four views; red moved inward, blue outward, and pale moved little."""
     sides = ("from_right", "from_left")
     medial, lateral = sides if custom.side == "left" else sides[::-1]
     named = {"medial": medial, "lateral": lateral}
+    most_mm = float(abs(custom.moved_mm).max())
+    step_mm = next((step for step in STEPS_MM if 4.0 * step >= most_mm), STEPS_MM[-1])
     with new_figure(10.5, 4.9 if titled else 4.5) as figure:
         grid = figure.add_gridspec(2, 3, width_ratios=(1.0, 1.0, 0.16))
         for index, (title, view) in enumerate(PANELS.items()):
             axes = figure.add_subplot(grid[index // 2, index % 2])
-            _draw_panel(axes, custom, named.get(view, view))
+            _draw_panel(axes, custom, named.get(view, view), step_mm)
             axes.set_title(title)
-        _draw_legend(figure.add_subplot(grid[:, 2]))
+        _draw_legend(figure.add_subplot(grid[:, 2]), step_mm)
         if titled:
             name = custom.record.labels.name
             write_title(figure, f"{name}: how far the surface moved from {custom.base}")
     return figure
 
 
-def _draw_panel(axes: Axes, custom: CustomLast, view_name: str) -> None:
+def _draw_panel(axes: Axes, custom: CustomLast, view_name: str, step_mm: float) -> None:
     view = shading.VIEWS[view_name]
     projected = custom.vertices_mm @ view.T
     frame = shading.frame_around(projected[:, :2])
-    image = heat_image(projected, custom.faces, custom.moved_mm, frame, COLUMNS)
+    image = heat_image(projected, custom.faces, custom.moved_mm, frame, COLUMNS, step_mm)
     show_image(axes, image, frame)
     draw_scale_bar(axes, place=(0.02, 0.0))
 
 
-def _draw_legend(axes: Axes) -> None:
+def _draw_legend(axes: Axes, step_mm: float) -> None:
     """The colours as boxes, with the mm at their edges."""
     for step, colour in enumerate(COLOURS):
         axes.bar(0.5, 1.0, width=1.0, bottom=step, color=colour, edgecolor="white", linewidth=0.6)
-    for edge, value in enumerate(breaks_mm(), start=1):
+    for edge, value in enumerate(breaks_mm(step_mm), start=1):
         axes.text(1.15, edge, break_words(value), va="center", fontsize=8)
     top = len(COLOURS)
     axes.text(0.0, top + 0.25, "moved, mm", fontsize=8.5, fontweight="bold", color=INK)
