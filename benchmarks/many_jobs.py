@@ -50,8 +50,8 @@ class Cost:
 def ingest_cost(folder: Path, *how: str) -> Cost:
     """What the ingest of a folder takes (Linux: the parent is read from /proc until it ends)."""
     with tempfile.TemporaryDirectory() as place:
-        command = [sys.executable, "-m", "footfit", "ingest-last", str(folder), "--quiet"]
-        command += ["--catalogue", f"{place}/lasts.footfit", *how]
+        command = [sys.executable, "-m", "footfit", "ingest-last", str(folder), "--side", "right"]
+        command += ["--quiet", "--catalogue", f"{place}/lasts.footfit", *how]
         begun_s, before_s = time.perf_counter(), _children_s()
         process = subprocess.Popen(command, stdout=subprocess.DEVNULL, env=os.environ | ONE_CORE)
         parent_s = parent_mb = 0.0

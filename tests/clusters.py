@@ -54,11 +54,15 @@ class LocalCluster:
         self.processes.append(process)
         return process
 
-    def pids(self) -> list[int]:
-        """The process of each worker, as the workers say it."""
+    def client(self) -> Any:
+        """A client of the test's own."""
         import distributed
 
-        with distributed.Client(self.address, set_as_default=False) as client:
+        return distributed.Client(self.address, timeout="60s", set_as_default=False)
+
+    def pids(self) -> list[int]:
+        """The process of each worker, as the workers say it."""
+        with self.client() as client:
             pids: dict[str, Any] = client.run(os.getpid)
             return list(pids.values())
 
@@ -74,6 +78,8 @@ def local_cluster(folder: Path, workers: int = 2) -> Iterator[LocalCluster]:
             local = ("--host", "127.0.0.1", "--nthreads", "1", "--local-directory", str(folder))
             cluster.start("worker", "--scheduler-file", str(where), *local)
         cluster.address = _address(where, cluster.processes[0])
+        with cluster.client() as client:
+            client.wait_for_workers(workers, timeout=60)
         yield cluster
     finally:
         for process in reversed(cluster.processes):

@@ -84,7 +84,7 @@ def test_ctrl_c_leaves_what_was_acknowledged(cluster: LocalCluster, tmp_path: Pa
     assert running.stdout is not None
     first = running.stdout.readline()
     running.send_signal(signal.SIGINT)
-    rest, errors = running.communicate(timeout=10)
+    rest, errors = running.communicate(timeout=30)
     assert running.returncode == 130
     assert b"Traceback" not in errors, errors.decode()
     lines = [json.loads(line) for line in (first + rest).splitlines()]
@@ -164,9 +164,7 @@ def test_a_worker_of_another_version_is_refused(cluster: LocalCluster) -> None:
         with pytest.raises(ClusterUnusable, match=words) as refusal:
             require_same_version({"tcp://a:1": __version__, "tcp://b:2": version})
         assert refusal.value.path == "tcp://b:2"
-    import distributed
-
-    with distributed.Client(cluster.address, set_as_default=False) as client:
+    with cluster.client() as client:
         value, error = client.submit(answer_on_worker, "0.0.1", b"").result()
     assert value is None
     assert isinstance(error, ClusterUnusable)
