@@ -47,13 +47,13 @@ def trials(scale: float, seed: int) -> Iterator[Trial]:
 
 
 def _killing(count: Callable[[int], int], seed: int) -> Iterator[Trial]:
-    for script, number in zip(ALL, (400, 370, 200, 1_000), strict=True):
+    for script, number in zip(ALL, (400, 370, 200, 1_000, 400), strict=True):
         yield "kill", lambda f, s=script, n=number: kills.kill_trials(f, s, count(n), seed)
     yield "kill", lambda folder: kills.command_trials(folder, count(30), seed)
 
 
 def _tracing(count: Callable[[int], int], seed: int, scale: float) -> Iterator[Trial]:
-    for script, number in zip(ALL, (200, 200, 100, 200), strict=True):
+    for script, number in zip(ALL, (200, 200, 100, 200, 200), strict=True):
         yield "power", lambda f, s=script, n=number: power.cut_trials(f, s, count(n), seed)
     yield "power", lambda f: unsafe(f, "OFF", count(250), seed)
     yield "power", lambda f: unsafe(f, "FULL", count(250), seed)

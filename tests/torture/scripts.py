@@ -16,6 +16,7 @@ from functools import lru_cache
 from pathlib import Path
 
 from footfit.catalogue.file.migrate import Schema
+from footfit.catalogue.group_commit import NewLast
 from footfit.catalogue.store import open_catalogue
 from footfit.errors import NoCatalogue
 from footfit.meshes.copies.compact_copy import compact_copy
@@ -139,6 +140,19 @@ def filling(folder: Path, done: int, count: int = 6) -> Iterator[None]:
             yield
 
 
+GROUP_LASTS = 5
+
+
+def grouping(folder: Path, done: int, groups: int = 5) -> Iterator[None]:
+    """Add lasts in groups, each in one commit, all in one opening: a batch."""
+    with open_catalogue(folder / MAIN, write=True) as catalogue:
+        for group in range(done, groups):
+            seeds = range(100 + GROUP_LASTS * group, 100 + GROUP_LASTS * (group + 1))
+            lasts = [NewLast(records.last(f"last-{s}", s), mesh_copy(s % 2)) for s in seeds]
+            assert len(list(catalogue.add_many(lasts))) == GROUP_LASTS
+            yield
+
+
 def editing(folder: Path, done: int) -> Iterator[None]:
     """Every writing verb once, each in an opening of its own: the commands."""
     for step in EDITS[done:]:
@@ -231,5 +245,6 @@ INGEST = Script("ingest", filling)
 EDIT = Script("edit, backup, restore", editing, _filled)
 MIGRATE = Script("migrate", migrating, _old_file)
 RECORD = Script("record fits", recording, _filled)
-ALL = (INGEST, EDIT, MIGRATE, RECORD)
+GROUP = Script("group commit", grouping, _filled)
+ALL = (INGEST, EDIT, MIGRATE, RECORD, GROUP)
 SCRIPTS = {script.name.split(",")[0]: script for script in ALL}
