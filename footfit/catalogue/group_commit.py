@@ -10,30 +10,25 @@ from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from typing import NamedTuple
 
+from footfit.catalogue.blocks.record_columns import LABELS, columns_of
 from footfit.catalogue.file.dialect import Driver, change_mark
 from footfit.catalogue.rows.columns import (
     FLARE,
     FRAME,
     LAST,
     MEASURE,
-    MESH_COPY,
     NOTICE,
-    PARENTAGE,
-    SECTION,
+    SEALED,
     Table,
 )
 from footfit.catalogue.rows.digests import Row
 from footfit.catalogue.rows.last_names import caseless
 from footfit.catalogue.rows.reference_last import expressed, stored_reference
 from footfit.catalogue.rows.requirements import require_storable
-from footfit.catalogue.rows.verified_rows import (
-    LastRows,
-    row_digest,
-    rows,
-    shown_name,
-    stored_range,
-)
+from footfit.catalogue.rows.verified_rows import LastRows, row_digest, shown_name
 from footfit.results import LastRecord, MeshCopy, Parentage, ShapeSections
+from footfit.results.columns.last_columns import NOT_KEPT, LastColumns
+from footfit.results.columns.vocabulary import Vocabulary
 from footfit.version import __version__
 
 
@@ -100,6 +95,7 @@ class KnownLasts:
             and not names & self.names
             and not contents & self.contents
             and all(last.record.labels.parent is None for last in group)
+            and all(_is_plain(last.record) for last in group)
         )
 
     def add(self, group: Sequence[NewLast]) -> None:
@@ -108,8 +104,21 @@ class KnownLasts:
         self.contents |= {last.record.info.sha256 for last in group}
 
 
-def write_group(connection: Driver, group: Sequence[NewLast]) -> list[LastRows]:
-    """Write new lasts, sealed; return their rows. The catalogue has a reference already.
+def _is_plain(record: LastRecord) -> bool:
+    """Whether the texts of a record are stored as they are."""
+    labels = (getattr(record.labels, name) or "" for name in ("name", *LABELS))
+    try:
+        "".join(labels).encode()
+    except UnicodeEncodeError:
+        return False
+    return True
+
+
+def write_group(connection: Driver, group: Sequence[NewLast]) -> LastColumns:
+    """Write new lasts, sealed; return them by column. The catalogue has a reference already.
+
+    The hashes are of what the database gives back, which is known of every value that a record
+    can have: nothing is read again. If it were otherwise, the last would be found damaged at once.
 
     Raises
     ------
@@ -120,39 +129,52 @@ def write_group(connection: Driver, group: Sequence[NewLast]) -> list[LastRows]:
     assert reference is not None
     (top,) = connection.execute("SELECT coalesce(max(id), 0) FROM last").fetchone()
     keys = list(range(top + 1, top + 1 + len(group)))
-    tables: dict[str, list[Row]] = {}
+    tables: dict[str, list[Row]] = {table.name: [] for table in WRITTEN}
     for key, last in zip(keys, group, strict=True):
         require_storable(last.record.labels.name)
         record = replace(last.record, paper_transform=expressed(last.record, reference[1]))
-        added = {"footfit_version": __version__, "record_sha256": ""}
-        for table, row in _rows_of(last._replace(record=record), key, added):
-            tables.setdefault(table.name, []).append(row)
-    for table in (LAST, FRAME, FLARE, MEASURE, NOTICE, MESH_COPY, SECTION, PARENTAGE):
-        _insert(connection, table, tables.get(table.name, []))
-    stored = stored_range(connection, keys[0], keys[-1])
-    seals = [(last.content_digest, last.id) for last in stored]
-    connection.executemany("UPDATE last SET record_sha256 = ? WHERE id = ?", seals)
-    for table in (MESH_COPY, SECTION, PARENTAGE):
-        for owner in {row["last_id"] for row in tables.get(table.name, [])}:
-            (row,) = rows(connection, table, owner)
-            update = f"UPDATE {table.name} SET sha256 = ? WHERE last_id = ?"
-            connection.execute(update, (row_digest(table, row), owner))
-    return stored
+        for name, rows_of_table in _sealed_rows(last._replace(record=record), key).items():
+            tables[name] += rows_of_table
+    for table in WRITTEN:
+        _insert(connection, table, tables[table.name])
+    records, kept = [last.record for last in group], [last.sections or NOT_KEPT for last in group]
+    return columns_of(records, kept, Vocabulary(), keys=keys)
 
 
-def _rows_of(last: NewLast, key: int, added: Row) -> Iterator[tuple[Table, Row]]:
-    """Every row of a last, not yet sealed."""
+WRITTEN = (LAST, FRAME, FLARE, MEASURE, NOTICE, *SEALED)
+"""The tables of lasts, in the order in which their rows are written."""
+
+
+def _sealed_rows(last: NewLast, key: int) -> dict[str, list[Row]]:
+    """Every row of a last, by table."""
     record, owner = last.record, {"last_id": key}
-    yield LAST, LAST.row(record, id=key, parent_id=None, **added)
-    for table in (FRAME, FLARE):
-        yield table, owner | table.row(record)
-    for table, items in ((MEASURE, record.measures), (NOTICE, record.warnings)):
-        for position, item in enumerate(items):
-            yield table, owner | table.row(item, position=position)
-    kept = ((MESH_COPY, last.copy), (SECTION, last.sections), (PARENTAGE, last.parentage))
-    for table, value in kept:
+    added = {"parent_id": None, "footfit_version": __version__, "record_sha256": ""}
+    of_last = LAST.row(record, id=key, **added)
+    frame, flare = owner | FRAME.row(record), owner | FLARE.row(record)
+    measures = [owner | MEASURE.row(m, position=i) for i, m in enumerate(record.measures)]
+    notices = [owner | NOTICE.row(n, position=i) for i, n in enumerate(record.warnings)]
+    stored = LastRows(
+        key, _as_read(of_last), _as_read(frame), flare, tuple(measures), tuple(notices)
+    )
+    of_last["record_sha256"] = stored.content_digest
+    rows = {
+        LAST.name: [of_last],
+        FRAME.name: [frame],
+        FLARE.name: [flare],
+        MEASURE.name: measures,
+        NOTICE.name: notices,
+    }
+    for table, value in zip(SEALED, (last.copy, last.sections, last.parentage), strict=True):
         if value is not None:
-            yield table, owner | table.row(value, sha256="")
+            row: Row = {**owner, **table.row(value, sha256="")}
+            row["sha256"] = row_digest(table, row)
+            rows[table.name] = [row]
+    return rows
+
+
+def _as_read(row: Row) -> Row:
+    """A row as the database gives it back: a flag is 0 or 1."""
+    return {name: int(v) if isinstance(v, bool) else v for name, v in row.items()}
 
 
 def _insert(connection: Driver, table: Table, values: list[Row]) -> None:

@@ -179,8 +179,8 @@ class Catalogue(CatalogueReader):
             known.refresh(driver)
             if not known.names or not known.are_new(group):
                 return False
-            stored = write_group(driver, group)
-            refresh_blocks(driver, [last.id for last in stored], stored)
+            fresh = write_group(driver, group)
+            refresh_blocks(driver, fresh.keys.tolist(), fresh)
         known.add(group)
         return True
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import struct
-from collections.abc import Collection, Iterable, Mapping, Sequence
+from collections.abc import Collection, Iterable
 
 import numpy as np
 
@@ -21,7 +21,7 @@ from footfit.catalogue.blocks.block_bytes import (
 from footfit.catalogue.blocks.block_reading import columns_of_rows, is_sound
 from footfit.catalogue.blocks.same_lasts import same_lasts
 from footfit.catalogue.file.dialect import Driver
-from footfit.catalogue.rows.verified_rows import LastRows, stored_lasts
+from footfit.catalogue.rows.verified_rows import stored_lasts
 from footfit.results.columns.last_columns import SPOILT, LastColumns, joined
 from footfit.results.columns.vocabulary import Vocabulary
 
@@ -29,18 +29,17 @@ BLOCKS_ANEW = "type: footfit upgrade-catalogue, which makes it anew"
 
 
 def refresh_blocks(
-    connection: Driver, keys: Iterable[int], sealed: Sequence[LastRows] = ()
+    connection: Driver, keys: Iterable[int], fresh: LastColumns | None = None
 ) -> None:
     """Write the blocks of lasts that were added, changed or removed, from their rows.
 
     The other lasts of a block stay as they are in it; if the block is not what was stored, all of
-    it is made from rows. A damaged last is in no block. ``sealed`` are rows that were sealed in
-    this transaction: they are not verified again.
+    it is made from rows. A damaged last is in no block. ``fresh`` are lasts whose rows were written
+    in this transaction: they are not read again.
     """
     changed = sorted(set(keys))
-    known = {last.id: last for last in sealed}
     for block in sorted({block_of(key) for key in changed}):
-        _write(connection, block, _renewed(connection, block, changed, known))
+        _write(connection, block, _renewed(connection, block, changed, fresh))
 
 
 def fill_blocks(connection: Driver) -> int:
@@ -96,24 +95,15 @@ def _keys(connection: Driver, block: int) -> list[int]:
 
 
 def _renewed(
-    connection: Driver,
-    block: int,
-    changed: Collection[int],
-    sealed: Mapping[int, LastRows],
+    connection: Driver, block: int, changed: Collection[int], fresh: LastColumns | None
 ) -> LastColumns:
     """The lasts of a block, with those that changed from their rows."""
-    words, keys = Vocabulary(), _keys(connection, block)
-    parts = (
-        []
-        if all(key in sealed for key in keys)
-        else [_kept(connection, block, keys, changed, words)]
-    )
+    words, keys = Vocabulary() if fresh is None else fresh.words, _keys(connection, block)
+    parts = [_kept(connection, block, keys, changed, words)]
+    if fresh is not None:
+        parts.append(fresh.taken(np.flatnonzero(np.isin(fresh.keys, keys))))
     there = {key for part in parts for key in part.keys.tolist()}
-    fresh = [key for key in keys if key not in there]
-    parts.append(_of_rows(connection, [key for key in fresh if key not in sealed], words))
-    parts.append(
-        columns_of_rows(connection, [sealed[key] for key in fresh if key in sealed], words)
-    )
+    parts.append(_of_rows(connection, [key for key in keys if key not in there], words))
     together = joined(parts)
     return together.taken(np.argsort(together.keys))
 

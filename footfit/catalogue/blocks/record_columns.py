@@ -85,7 +85,7 @@ def measure_columns(tables: Sequence[Sequence[Measure]], words: Vocabulary) -> M
             if measured.value is not None:
                 value[at, last] = measured.value
                 sd[at, last] = measured.sd or 0.0
-    return MeasureColumns(names, value, sd, word)
+    return MeasureColumns(names, value + 0.0, sd, word)
 
 
 def _numbers(values: object) -> np.ndarray:

@@ -15,7 +15,7 @@ import math
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from functools import cached_property
-from operator import itemgetter
+from operator import attrgetter, itemgetter
 from pathlib import PurePath
 from typing import Any, Literal, TypeVar, cast
 
@@ -53,12 +53,13 @@ class Kind:
 
 def _text(value: str) -> str:
     """Text that UTF-8 can hold: a file name may be made of any bytes."""
-    return value.encode("utf-8", "backslashreplace").decode("utf-8")
+    plain = value.isascii()
+    return value if plain else value.encode("utf-8", "backslashreplace").decode("utf-8")
 
 
 def _number(value: float) -> float | None:
-    """SQLite has no NaN; it keeps one as null."""
-    return None if math.isnan(value) else float(value)
+    """SQLite has no NaN, and no -0.0: it keeps the one as null and the other as 0.0."""
+    return None if value != value else float(value) + 0.0
 
 
 def _array(*shape: int) -> Kind:
@@ -102,13 +103,24 @@ class Column:
 
     def value_in(self, record: object) -> Any:
         """What is stored of a record."""
+        try:
+            value: Any = self._getter(record)
+        except AttributeError:  # a part that is None, or a mapping
+            value = self._found_in(record)
+        return None if value is None else self.kind.to_sql(value)
+
+    def _found_in(self, record: object) -> Any:
         value: Any = record
         for step in self._steps:
             if value is None:
                 return None
             plain = type(value) is dict or isinstance(value, Mapping)
             value = value.get(step) if plain else getattr(value, step)
-        return None if value is None else self.kind.to_sql(value)
+        return value
+
+    @cached_property
+    def _getter(self) -> Callable[[object], Any]:
+        return attrgetter(self.path)
 
     @cached_property
     def _steps(self) -> list[str]:

@@ -144,18 +144,6 @@ def _of_rows(
     ]
 
 
-def stored_range(connection: Driver, first: int, last: int) -> list[LastRows]:
-    """The raw rows of the lasts whose keys lie in a range, as `stored_lasts` gives them."""
-    return _of_rows(*(_rows_between(connection, table, first, last) for table in PARTS_OF_LAST))
-
-
-def _rows_between(connection: Driver, table: Table, first: int, last: int) -> list[Row]:
-    select = f"SELECT * FROM {table.name} WHERE {table.last_key} BETWEEN ? AND ? ORDER BY rowid"
-    cursor = connection.execute(select, (first, last))
-    columns = [column[0] for column in cursor.description]
-    return [dict(zip(columns, row, strict=True)) for row in cursor]
-
-
 def _by_last(rows_of_all: list[Row]) -> dict[int, list[Row]]:
     """Rows by their last, in the order of their position (a damaged one may have any type)."""
     groups: dict[int, list[Row]] = defaultdict(list)
