@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from contextlib import contextmanager, nullcontext
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Self, Unpack
@@ -36,6 +36,7 @@ from footfit.pipeline.customers.customer import Customer, alone, one_pair
 from footfit.pipeline.library import lasts
 
 if TYPE_CHECKING:
+    from footfit.catalogue.group_commit import NewLast
     from footfit.pipeline.fit.match import Question
     from footfit.pipeline.library.ingest import Entry, HoldSignals, KeepMesh
     from footfit.pipeline.shelf.shelf import Shelf
@@ -258,6 +259,24 @@ class Catalogue(CatalogueFile):
             keep_mesh=keep_mesh,
             hold_signals=hold_signals,
         )
+
+    def add_many(
+        self, lasts: Iterable[results.LastRecord | NewLast], *, replace: bool = False
+    ) -> Iterator[str]:
+        """Store lasts that are measured already; yield each name after the commit that holds it.
+
+        A `NewLast` has what belongs to a record beside it: its mesh copy, its sections, its
+        parentage. Lasts that come within 0.2 s, at most 256, share a commit. A missing catalogue
+        is made.
+
+        Raises
+        ------
+        NameTaken, UnknownLast, BadOption
+            For the first last that cannot be stored; those before it are stored.
+        """
+        self._chosen.clear()
+        with store.open_catalogue(self.path, write=True) as catalogue:
+            yield from catalogue.add_many(lasts, replace=replace)
 
     def lasts(
         self,
