@@ -12,7 +12,7 @@ from footfit.catalogue.blocks.block_reading import ShownLast
 from footfit.catalogue.blocks.record_columns import Kept, columns_of
 from footfit.catalogue.store import Catalogue, open_catalogue
 from footfit.errors import CatalogueDamaged, UnknownLast
-from footfit.geometry.numeric.arrays import Bools, Ints
+from footfit.geometry.numeric.arrays import Bools, Floats, Ints
 from footfit.locations import Location
 from footfit.pipeline.library.lasts import damaged_last
 from footfit.results import LastRecord, Library, Notice, ShapeSections
@@ -188,11 +188,26 @@ def of_own_side(lasts: LastColumns, among: Bools, side: int) -> Bools:
     twinned[lasts.label[own]] = True
     twinned &= np.array(named, dtype=bool)
     others = others[twinned[lasts.label[others]]]
-    for label in np.unique(lasts.label[others]).tolist():
-        extents_mm = np.sort(lasts.extent_mm[own & (lasts.label == label)])
-        rows = others[lasts.label[others] == label]
-        at = np.searchsorted(extents_mm, lasts.extent_mm[rows])
-        beside = np.clip([at - 1, at], 0, len(extents_mm) - 1)
-        apart_mm = np.abs(extents_mm[beside] - lasts.extent_mm[rows])
-        chosen[rows[apart_mm.min(axis=0) < TWIN_LENGTH_MM]] = False
+    if not len(others):
+        return chosen
+    chosen[others[_nearest_mm(lasts, np.flatnonzero(own), others) < TWIN_LENGTH_MM]] = False
     return chosen
+
+
+def _nearest_mm(lasts: LastColumns, own: Ints, others: Ints) -> Floats:
+    """How much longer or shorter each of the others is than the nearest own one with its labels;
+    each has one.
+    """
+    sorted_mm = np.unique(lasts.extent_mm[own])
+
+    def keys(rows: Ints) -> Ints:
+        """Whole numbers in the order of labels, then of lengths."""
+        ranks = np.searchsorted(sorted_mm, lasts.extent_mm[rows])
+        return np.asarray(lasts.label[rows] * (len(sorted_mm) + 1) + ranks)
+
+    own = own[np.argsort(keys(own))]
+    at = np.searchsorted(keys(own), keys(others))
+    beside = own[np.clip([at - 1, at], 0, max(len(own) - 1, 0))]
+    apart_mm = np.abs(lasts.extent_mm[beside] - lasts.extent_mm[others])
+    same = lasts.label[beside] == lasts.label[others]
+    return np.asarray(np.where(same, apart_mm, np.inf).min(axis=0))
