@@ -14,7 +14,7 @@ import json
 import math
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cached_property, reduce
 from operator import attrgetter, itemgetter
 from pathlib import PurePath
 from typing import Any, Literal, TypeVar, cast
@@ -53,12 +53,11 @@ class Kind:
 
 def _text(value: str) -> str:
     """Text that UTF-8 can hold: a file name may be made of any bytes."""
-    plain = value.isascii()
-    return value if plain else value.encode("utf-8", "backslashreplace").decode("utf-8")
+    return value if value.isascii() else value.encode("utf-8", "backslashreplace").decode("utf-8")
 
 
 def _number(value: float) -> float | None:
-    """SQLite has no NaN, and no -0.0: it keeps the one as null and the other as 0.0."""
+    """SQLite keeps NaN as null and -0.0 as 0.0."""
     return None if value != value else float(value) + 0.0
 
 
@@ -110,21 +109,11 @@ class Column:
         return None if value is None else self.kind.to_sql(value)
 
     def _found_in(self, record: object) -> Any:
-        value: Any = record
-        for step in self._steps:
-            if value is None:
-                return None
-            plain = type(value) is dict or isinstance(value, Mapping)
-            value = value.get(step) if plain else getattr(value, step)
-        return value
+        return reduce(_member, self.path.split("."), record)
 
     @cached_property
     def _getter(self) -> Callable[[object], Any]:
         return attrgetter(self.path)
-
-    @cached_property
-    def _steps(self) -> list[str]:
-        return self.path.split(".")
 
     def reader(self) -> Reader[Any]:
         """A function from a row to what the value is in a record."""
@@ -137,6 +126,12 @@ class Column:
         """What the value must be, in words; None if it is plausible."""
         rule = self.rule or self.kind.rule
         return None if (value is None and self.nullable) or rule.holds(value) else rule.words
+
+
+def _member(whole: Any, name: str) -> Any:
+    if whole is None:
+        return None
+    return whole.get(name) if isinstance(whole, Mapping) else getattr(whole, name)
 
 
 @dataclass(frozen=True)
@@ -160,11 +155,7 @@ class Table:
 
     def row(self, record: object, **added: object) -> Row:
         """The row of a record, with the values that the writer adds."""
-        return {column.name: column.value_in(record) for column in self._of_records} | added
-
-    @cached_property
-    def _of_records(self) -> tuple[Column, ...]:
-        return tuple(column for column in self.columns if column.path)
+        return {c.name: c.value_in(record) for c in self.columns if c.path} | added
 
     def readers(self, part: str) -> dict[str, Reader[Any]]:
         """A reader for each field of one part of a record: of the paths that begin with it."""
