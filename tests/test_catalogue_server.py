@@ -143,6 +143,23 @@ def test_only_upgrade_catalogue_changes_the_schema(url: str, footfit: Footfit) -
         assert catalogue.findings() == []
 
 
+def test_an_upgrade_fills_what_the_migrations_cannot(
+    url: str, server: Server, footfit: Footfit
+) -> None:
+    """The search blocks of a catalogue whose schema has none are made from its rows."""
+    fill(url, 3)
+    with server.session(url.rpartition("/")[2]) as session:
+        blocks = "SELECT count(*) FROM search_block"
+        before = session.execute(blocks).fetchone()
+        session.execute("DROP TABLE search_block")
+        session.execute("UPDATE alembic_version SET version_num = '0004'")
+        run = footfit("upgrade-catalogue", "--catalogue", url, "--json")
+        assert (run.code, run.document["revision_after"]) == (0, Schema().head)
+        assert session.execute(blocks).fetchone() == before
+    with open_catalogue(url) as catalogue:
+        assert catalogue.findings() == []
+
+
 def test_a_newer_schema_and_a_foreign_database_are_left_alone(url: str, server: Server) -> None:
     with server.session(url.rpartition("/")[2]) as session:
         session.execute("CREATE TABLE customers (name text)")
