@@ -16,6 +16,7 @@ from footfit.geometry.numeric.arrays import Floats, Ints, row_dots
 from footfit.geometry.search.pose_search import RoughPose
 from footfit.meshes.write import encoded_mesh
 from footfit.pipeline.batch.sources import ReadingOptions, Source
+from footfit.pipeline.fit.zones import TOE_BOX
 from footfit.pipeline.last_making.base_last import BaseLast
 from footfit.pipeline.last_making.custom.custom_aims import (
     FOLLOWING,
@@ -99,10 +100,32 @@ def customised(
     BadOption
         A place for room is not known, or its room is too large.
     """
-    own: SideName = foot.aligned.alignment.side.side or "right"
     aims = custom_aims(foot, base, making.question)
     if not aims:
         raise OutOfReach("no measure of the foot can be compared with the base: scan it again")
+    made = _made_to(foot, base, making, aims, side)
+    zones = {zone.name: (zone.base_verdict, zone.custom_verdict) for zone in made.judged}
+    worse = [name for name in sorted(TOE_BOX) if name in zones and zones[name][0] == "good"]
+    worse = [name for name in worse if zones[name][1] != "good"]
+    if not worse or zones[LENGTH][0] != "good":
+        return made
+    # The toe box moves with the length. The base's toe room is good too, so it is kept.
+    aims = tuple(replace(a, target=a.base) if a.measure == LENGTH else a for a in aims)
+    kept = _made_to(foot, base, making, aims, side)
+    words = "the toe room stays as it is in the base: at the profile's target the toe box would fit"
+    notice = results.Notice("toe_room_kept", f"{words} worse")
+    return replace(kept, warnings=(*kept.warnings, notice))
+
+
+def _made_to(
+    foot: Profiled,
+    base: BaseLast,
+    making: Making,
+    aims: Sequence[CustomAim],
+    side: SideName | None,
+) -> CustomLast:
+    """The base, changed to these aims."""
+    own: SideName = foot.aligned.alignment.side.side or "right"
     turn_deg = _flare_turn_deg(foot, base, making)
     start = first_field(base, turn_deg, making.rooms_mm, bottom_kept=making.question.bottom_kept)
     shifts = room = np.zeros(len(aims))
