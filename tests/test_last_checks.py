@@ -101,7 +101,7 @@ def test_twins_and_near_twins_are_found_and_pairs_are_not(tmp_path: Path) -> Non
     assert len(twins) == 2
     assert [each.code for each in check.faults] == ["twin"]
     (reason,) = (each.message for each in check.faults)
-    assert "but its style is not labelled" in reason
+    assert "its style is not labelled, that of 'derby-41-G' is derby" in reason
 
 
 @pytest.mark.parametrize(

@@ -132,11 +132,11 @@ def _finding(
     if first.info.sha256 == second.info.sha256:
         words = f"has the same file as {other!r}: remove one of them"
     else:
-        most = f"{measure.replace('_', ' ')} by {plain(off_mm)} mm"
+        most = f"they differ most in {measure.replace('_', ' ')}, by {plain(off_mm)} mm"
         words = (
-            f"is as {other!r} within what a second scan differs (most in {most})"
+            f"a second scan would not tell it from {other!r}: {most}"
             if same
-            else f"is nearly as {other!r}: they differ most in {most}"
+            else f"it is nearly {other!r}: {most}"
         )
         words += _label_words(first, second)
     return LastFinding(
@@ -149,8 +149,8 @@ def _label_words(first: LastRecord, second: LastRecord) -> str:
     """How the labels of two lasts of one shape differ."""
     ours, theirs = first.labels, second.labels
     for name in ("style", "size", "width_label"):
-        one, other = getattr(theirs, name), getattr(ours, name)
-        if one != other:
+        said = [getattr(labels, name) or "not labelled" for labels in (theirs, ours)]
+        if said[0] != said[1]:
             word = name.removesuffix("_label")
-            return f"; but its {word} is {one or 'not labelled'}, the other's {other or 'not'}"
+            return f"; its {word} is {said[0]}, that of {ours.name!r} is {said[1]}"
     return ""
