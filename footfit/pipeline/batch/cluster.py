@@ -38,8 +38,8 @@ class Patience:
     dead workers.
     """
 
-    to_connect_s: float = 10.0
-    for_a_worker_s: float = 10.0
+    to_connect_s: float = 15.0
+    for_a_worker_s: float = 15.0
     look_every_s: float = 1.0
     without_workers_s: float = 60.0
     resubmissions: int = 3
