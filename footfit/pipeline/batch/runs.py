@@ -4,15 +4,17 @@ from __future__ import annotations
 
 from collections import deque
 from collections.abc import Callable, Iterable, Iterator, Sequence
-from concurrent.futures import Executor, Future
 from dataclasses import dataclass
 from functools import partial
-from typing import Generic, Protocol, TypeVar
+from typing import TYPE_CHECKING, Generic, Protocol, TypeAlias, TypeVar
 
 from footfit.errors import ClusterUnusable, ExitCode, FootfitError
 from footfit.pipeline.batch.work_limits import WORK_LIMITS, WorkLimits, hold_to_limits
 
-Jobs = int | Executor
+if TYPE_CHECKING:
+    from concurrent.futures import Executor, Future
+
+Jobs: TypeAlias = "int | Executor"
 """How many processes work, or who works: an executor of ``concurrent.futures``."""
 HERE = 0
 """As ``jobs``: in this process, where a crash ends the whole batch."""
@@ -65,7 +67,7 @@ def outcomes(
     ClusterUnusable
         The executor's cluster cannot be used any more.
     """
-    if isinstance(jobs, Executor):
+    if not isinstance(jobs, int):
         yield from _ordered(work, items, jobs, known)
     elif jobs == HERE or len(items) < 2:
         for item in items:
@@ -110,6 +112,8 @@ def _future(
     value = _quiet(known, item)
     if value is None:
         return executor.submit(work, item)
+    from concurrent.futures import Future
+
     future: Future[T] = Future()
     future.set_result(value)
     return future
