@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from decimal import ROUND_HALF_UP, Decimal
 
 KEPT = 3
@@ -9,6 +10,8 @@ KEPT = 3
 RATIO_KEPT = 6
 AREA_KEPT = 1
 MOST_DIGITS = KEPT
+UNITS = {"mm": " mm", "deg": " deg", "percent": " %", "ratio": ""}
+"""What a number in each unit ends in."""
 
 
 def rounded(value: float, digits: int = 1, kept: int = KEPT) -> Decimal:
@@ -60,3 +63,15 @@ def some_digits(value: float, digits: int = 1) -> str:
     """
     enough = (more for more in range(digits, MOST_DIGITS) if rounded(value, more))
     return plain(value, next(enough, MOST_DIGITS))
+
+
+def first_names(names: Sequence[str], named: int) -> str:
+    """The first few names, and how many more there are.
+
+    Examples
+    --------
+    >>> first_names(("a", "b"), 3), first_names(("a", "b", "c", "d", "e"), 3)
+    ('a, b', 'a, b, c and 2 more')
+    """
+    more = f" and {len(names) - named} more" if len(names) > named else ""
+    return f"{', '.join(names[:named])}{more}"

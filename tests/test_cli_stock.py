@@ -76,12 +76,27 @@ def test_only_what_is_in_stock_is_ranked(
     assert answer["rejected"]["by_reason"]["not_in_stock"] == total - len(others)
     assert answer["not_in_stock"]["last"] == best
     assert answer["not_in_stock"]["verdict"] == everything["candidates"][0]["verdict"]
+    assert answer["not_in_stock"]["better"] is True
     codes = [warning["code"] for warning in answer["warnings"]]
     assert {"not_in_stock", "unknown_stock"} <= set(codes)
     unknown = answer["warnings"][codes.index("unknown_stock")]["message"]
     assert unknown.startswith("1 row names no last")
     run = footfit("match", foot, "--stock", file, "--catalogue", catalogue)
     assert f"best last that is not in stock is {best}" in " ".join((run.out + run.err).split())
+
+
+def test_a_last_that_is_not_in_stock_and_fits_no_better_is_not_praised(
+    footfit: Footfit, foot: Path, catalogue: Path, tmp_path: Path
+) -> None:
+    everything = json.loads(footfit("match", foot, "--json", "--catalogue", catalogue).out)
+    best, second, *_ = [c["last"] for c in everything["candidates"]]
+    file = tmp_path / "stock.csv"
+    file.write_text(f"last\n{best}\n", encoding="utf-8")
+    run = footfit("match", foot, "--json", "--stock", file, "--catalogue", catalogue)
+    missing = json.loads(run.out)["not_in_stock"]
+    assert (missing["last"], missing["better"]) == (second, False)
+    run = footfit("match", foot, "--stock", file, "--catalogue", catalogue)
+    assert "no better than what is in stock" in " ".join((run.out + run.err).split())
 
 
 def test_an_empty_shop_is_said(

@@ -34,7 +34,7 @@ from tests.conftest import SAMPLES
 
 WALKING = fit_profile("walking")
 FOOT = {"ball_girth": 240.0, "ball_width": 98.0, "heel_width": 62.0, "ball_length": 188.0}
-LAST = {"ball_girth": 240.0, "ball_width": 96.0, "heel_width": 64.0, "ball_length": 188.0}
+LAST = {"ball_girth": 240.0, "ball_width": 99.0, "heel_width": 60.0, "ball_length": 188.0}
 SD_MM = 0.5
 
 
@@ -53,7 +53,7 @@ def foot(
 
 
 def last(
-    name: str, length_mm: float = 273.0, turn_deg: float = 8.0, left: bool = False, **more: Any
+    name: str, length_mm: float = 274.0, turn_deg: float = 8.0, left: bool = False, **more: Any
 ) -> LastRecord:
     mm = {key: more.pop(key) for key in tuple(more) if key in LAST}
     record = answers.record(name, turn_deg, length_mm, left, **more)
@@ -80,7 +80,7 @@ def zone(candidate: Candidate, name: str, of: int = 0) -> Any:
 
 
 def test_the_length_gate_holds_whatever_else_fits() -> None:
-    short, long, good = last("a", 267.9), last("b", 280.1), last("c", 273, 30, ball_girth=250)
+    short, long, good = last("a", 267.9), last("b", 286.1), last("c", 274, 30, ball_girth=250)
     found = answer(short, long, good)
     assert [c.last for c in found.candidates] == ["c"]
     assert dict(found.rejected) == {"too_long": 1, "too_short": 1}
@@ -94,7 +94,7 @@ def test_no_confidence_switches_the_gate_off(room_mm: float, word: str) -> None:
     alignment = replace(shape.aligned.alignment, side=side)
     unsure = replace(shape, aligned=replace(shape.aligned, alignment=alignment))
     found = answer(last("a", 260.0 + room_mm), feet=(unsure,))
-    assert bool(found.candidates) == (8.0 <= 260.0 + room_mm - 260.0 <= 20.0)
+    assert bool(found.candidates) == (8.0 <= 260.0 + room_mm - 260.0 <= 26.0)
 
 
 def test_a_ball_that_was_not_found_is_taken_where_balls_lie() -> None:
@@ -147,7 +147,7 @@ def test_the_verdict_is_the_worst_zone(girth_mm: float, verdict: str) -> None:
 
 
 def test_the_verdict_comes_first_whatever_the_toe_room_says() -> None:
-    found = answer(last("long", 278.0), last("tight", 275.0, ball_girth=231.0))
+    found = answer(last("long", 281.0), last("tight", 275.0, ball_girth=231.0))
     assert [c.last for c in found.candidates] == ["long", "tight"]
     assert [c.verdict for c in found.candidates] == ["acceptable", "poor"]
     why = found.candidates[1].why
@@ -157,31 +157,31 @@ def test_the_verdict_comes_first_whatever_the_toe_room_says() -> None:
 
 
 def test_among_equal_verdicts_a_good_toe_room_comes_first() -> None:
-    wide = last("wide", 276.5, ball_girth=247.5, ball_width=104.0, heel_width=71.0)
-    found = answer(last("long", 277.5), wide)
+    wide = last("wide", 276.5, ball_girth=247.5, ball_width=104.0, heel_width=69.0)
+    found = answer(last("long", 280.5), wide)
     assert [c.verdict for c in found.candidates] == ["acceptable", "acceptable"]
     assert [c.last for c in found.candidates] == ["wide", "long"]
     assert found.candidates[0].distance > found.candidates[1].distance
-    assert found.candidates[1].why == "17.5 mm toe room (wanted: 13 mm): further off than wide"
+    assert found.candidates[1].why == "20.5 mm toe room (wanted: 14 mm): further off than wide"
 
 
 def test_a_last_that_was_not_judged_in_full_stands_behind_its_verdict() -> None:
-    found = answer(last("lacking", ball_girth=None), last("long", 278.0, ball_girth=246.0))
+    found = answer(last("lacking", ball_girth=None), last("long", 281.0, ball_girth=246.0))
     assert [c.last for c in found.candidates] == ["long", "lacking"]
     assert [c.verdict for c in found.candidates] == ["acceptable", "acceptable"]
-    assert found.candidates[1].why == "13.0 mm toe room (wanted: 13 mm); not judged: ball girth"
+    assert found.candidates[1].why == "14.0 mm toe room (wanted: 14 mm); not judged: ball girth"
     assert meets(found, "acceptable")
 
 
 @given(st.floats(-10, 10), st.floats(-15, 15))
 @settings(deadline=None, max_examples=50)
 def test_the_ball_line_is_what_the_length_does_not_explain(excess: float, ball: float) -> None:
-    found = ball_line_mm(np.array([ball]), np.array([13.0 + excess]), 13.0)
+    found = ball_line_mm(np.array([ball]), np.array([14.0 + excess]), 14.0)
     carried = BALL_SHARE * excess
     inside = min(carried, 0.0) <= ball <= max(carried, 0.0)
     off = 0.0 if inside else min(abs(ball), abs(ball - carried))
     assert np.abs(found) == pytest.approx([off], abs=ROUNDING)
-    shape = last("a", 273.0 + excess, ball_length=188.0 + ball)
+    shape = last("a", 274.0 + excess, ball_length=188.0 + ball)
     (near,) = answer(shape, by="flare").candidates
     percent = 100.0 * found[0] / (260.0 + answers.NOISE_MM)
     assert zone(near, "ball_line").clearance.value == pytest.approx(percent, abs=ROUNDING)
@@ -189,7 +189,7 @@ def test_the_ball_line_is_what_the_length_does_not_explain(excess: float, ball: 
 
 def test_a_better_verdict_ranks_before_a_nearer_distance() -> None:
     one_bad = last("one-bad", ball_girth=231)
-    all_fair = last("fair", 270.5, ball_girth=234, ball_width=103, heel_width=71)
+    all_fair = last("fair", 270.5, ball_girth=234, ball_width=103, heel_width=69)
     found = answer(one_bad, all_fair)
     assert [c.verdict for c in found.candidates] == ["acceptable", "poor"]
     assert found.candidates[0].distance > found.candidates[1].distance
@@ -235,7 +235,7 @@ def test_a_clearance_is_the_last_minus_the_foot_with_both_spreads() -> None:
     clearance = dict(found.clearance_mm)
     assert clearance["ball_girth"].value == pytest.approx(3.5)
     assert clearance["ball_girth"].sd == pytest.approx(SD_MM * 2**0.5)
-    assert clearance["length"].value == pytest.approx(13.0)
+    assert clearance["length"].value == pytest.approx(14.0)
 
 
 def test_a_measure_without_a_spread_adds_none_to_its_clearance() -> None:
@@ -252,18 +252,18 @@ def test_a_measure_without_a_spread_adds_none_to_its_clearance() -> None:
 
 
 def test_the_nearer_girth_and_the_nearer_flare_rank_first() -> None:
-    assert names(*(last(f"g{g}", ball_girth=g) for g in (244, 240, 236.5, 242))) == [
+    assert names(*(last(f"g{g}", ball_girth=g) for g in (245, 240, 236.5, 242))) == [
         "g240",
         "g242",
         "g236.5",
-        "g244",
+        "g245",
     ]
     assert names(*(last(f"t{t}", turn_deg=t) for t in (2, 8, 5))) == ["t8", "t5", "t2"]
 
 
 def test_a_difference_inside_the_uncertainty_is_a_tie_and_outside_none() -> None:
     found = answer(
-        last("b", ball_girth=243.0), last("a", ball_girth=243.2), last("c", ball_girth=244)
+        last("b", ball_girth=243.0), last("a", ball_girth=243.2), last("c", ball_girth=245)
     )
     first, second, third = found.candidates
     assert [first.last, second.last, third.last] == ["b", "a", "c"], "the best estimate first"
@@ -415,13 +415,13 @@ def test_a_number_has_a_digit_more_where_it_decides() -> None:
     text = terminal_text(match_table(found), 200)
     assert "+9.96" in text
     miss = answer(last("out", 267.97)).nearest[0]
-    assert miss.why == "7.97 mm toe room (wanted: 13 mm), 0.03 mm past the limit"
+    assert miss.why == "7.97 mm toe room (wanted: 14 mm), 0.03 mm past the limit"
 
 
 def test_the_first_is_said_by_its_worst_zone() -> None:
     (found,) = answer(last("a", ball_girth=237.0)).candidates
     room, worst = found.why.split("; ")
-    assert room == "13.0 mm toe room (wanted: 13 mm)"
+    assert room == "14.0 mm toe room (wanted: 14 mm)"
     assert worst == "ball girth: 3.0 mm smaller than the foot (wanted: the same)"
     (found,) = answer(last("a")).candidates
     assert found.why.endswith("near the target in every zone judged")
@@ -431,23 +431,23 @@ def test_the_next_is_said_by_what_puts_it_behind_the_first() -> None:
     found = answer(last("best"), last("wide", ball_width=101.0), last("long", 279.0))
     why = {c.last: c.why for c in found.candidates}
     assert why["wide"].endswith(
-        "ball width: 3.0 mm wider than the foot (wanted: 2 mm narrower), behind best by that"
+        "ball width: 3.0 mm wider than the foot (wanted: 1 mm wider), behind best by that"
     )
-    assert why["long"] == "19.0 mm toe room (wanted: 13 mm): further off than best"
+    assert why["long"] == "19.0 mm toe room (wanted: 14 mm): further off than best"
 
 
 def test_where_nothing_fits_the_nearest_three_say_what_they_miss_by() -> None:
-    lasts = (last("a", 250), last("b", 262), last("c", 300), last("d", 290))
+    lasts = (last("a", 250), last("b", 262), last("c", 300), last("d", 294))
     found = answer(*lasts)
     assert found.candidates == ()
     assert [c.last for c in found.nearest] == ["b", "d", "c"]
     assert {c.verdict for c in found.nearest} == {"reject"}
-    assert found.nearest[0].why == "2.0 mm toe room (wanted: 13 mm), 6.0 mm past the limit"
+    assert found.nearest[0].why == "2.0 mm toe room (wanted: 14 mm), 6.0 mm past the limit"
     assert "nothing_fits" in [n.code for n in found.warnings]
 
 
 def test_a_check_asks_for_the_first_last() -> None:
-    good, fair, none = answer(last("a")), answer(last("a", 279)), answer(last("a", 300))
+    good, fair, none = answer(last("a")), answer(last("a", 282)), answer(last("a", 300))
     assert [meets(m, "good") for m in (good, fair, none)] == [True, False, False]
     assert [meets(m, "acceptable") for m in (good, fair, none)] == [True, True, False]
     by_flare = answer(last("far", 330, 8), last("near", 273, 9), by="flare", top=0)

@@ -14,10 +14,10 @@ from footfit.report.pictures import curvature_figure as curvature_module
 from footfit.report.pictures import frames_figure as frames_module
 from footfit.report.pictures.curvature_figure import UNDEFINED, colour_reach, curvature_figure
 from footfit.report.pictures.drawn_outlines import SHADOW, on_side, side_outline, sole_outline
-from footfit.report.pictures.figures import picture_bytes, svg_text
+from footfit.report.pictures.figures import VERDICT_COLOURS, picture_bytes, svg_text
 from footfit.report.pictures.flare_figure import centre_line_mm, flare_figure, mean_heading_deg
 from footfit.report.pictures.frames_figure import frames_figure
-from footfit.report.pictures.judged_figure import COLOURS, WIDTHS, judged_figure, zone_style
+from footfit.report.pictures.judged_figure import WIDTHS, judged_figure, zone_style
 from footfit.report.pictures.overlay_figure import drawn_lasts, overlay_figure
 from footfit.report.pictures.shading import VIEWS, Frame, axonometric_view, fragments, shaded_image
 from footfit.report.wording.zone_words import MARKS, zone_text
@@ -338,7 +338,7 @@ def drawn_words(figure) -> list[str]:
 
 
 def test_a_verdict_is_told_apart_without_its_colour():
-    assert len(set(MARKS.values())) == len(set(WIDTHS.values())) == len(COLOURS) == 4
+    assert len(set(MARKS.values())) == len(set(WIDTHS.values())) == len(VERDICT_COLOURS) == 4
     order = [WIDTHS[verdict] for verdict in ("good", "acceptable", "poor", "reject")]
     assert order == sorted(order)
     assert min(np.diff(order)) >= 1.0  # points: seen on paper
@@ -351,13 +351,13 @@ def test_each_zone_stands_at_its_place_with_its_verdict(name):
         figure = judged_figure(answers.foot(), judged_fit(zone, toes=False))
         assert drawn_words(figure) == [f"{MARKS[verdict]} {zone.label} -3.3 mm"]
         (line,) = (line for line in figure.axes[0].lines if line.get_linewidth() == WIDTHS[verdict])
-        assert line.get_color() == COLOURS[verdict]
+        assert line.get_color() == VERDICT_COLOURS[verdict]
 
 
 def test_what_does_not_count_is_grey_and_in_brackets():
     zone = judged_zone("ball_girth", "poor", counts=False)
     assert zone_text(zone) == "(ball girth -3.3 mm)"
-    assert zone_style(zone)["color"] not in COLOURS.values()
+    assert zone_style(zone)["color"] not in VERDICT_COLOURS.values()
     assert zone_style(zone)["linewidth"] < min(WIDTHS.values())
     assert zone_text(judged_zone("ball_girth", None)) == "– ball girth not judged"
 

@@ -21,6 +21,7 @@ from footfit.report.page import sheet_page
 from footfit.report.pictures.feet_figure import DrawnFoot, feet_figure
 from footfit.report.wording import sheet_words
 from footfit.results import FootFit, Measured, ZoneFit
+from footfit.results.values import VERDICTS
 from tests import answers, browsing
 from tests.conftest import SAMPLES, Footfit
 from tests.readers import tree
@@ -116,7 +117,7 @@ def test_what_was_not_judged_is_said_where_no_fault_is_known() -> None:
 
 
 def test_the_degrees_rise_with_the_verdict() -> None:
-    assert list(sheet_words.DEGREES) == list(sheet_words.ORDER)
+    assert list(sheet_words.DEGREES) == list(VERDICTS)
 
 
 @pytest.mark.usefixtures("undrawn")

@@ -170,7 +170,7 @@ def test_a_foot_lies_in_every_last_that_is_good_for_it(name, feet, stocked):
     for last in good:
         for question in (heel_question(), heel_question(as_scanned=True)):
             clearance_mm = compared(foot, stored_last(stocked, last), question).clearance_mm
-            assert np.nanmin(clearance_mm) > -3.0, last  # measured: -2.93
+            assert np.nanmin(clearance_mm) > -3.0, last  # measured: -2.87
 
 
 @pytest.mark.parametrize("name", maker.FEET)

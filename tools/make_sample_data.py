@@ -65,11 +65,12 @@ def size_length_mm(size: int) -> float:
     return size * PARIS_POINT_MM
 
 
-# The models' joints, heels and girths are those of mean feet of their size and width in a survey of
-# 6,068 people (ansur2 in docs/references.md). Size 40 is for a foot of 253 mm, whose ball girth is
-# 235 mm (G; E is 12 mm less, H 6 mm more). Their shape follows what real lasts show: the inner
-# joint lies at .67 to .69 of the length, the instep is a round ridge to the medial side, the waist
-# is lifted there, the seat slopes half as much as the way from seat to tread, which lies level.
+# The shapes follow what real lasts show: the inner joint lies at .67 to .69 of the length, the
+# instep is a round ridge to the medial side, the waist is lifted there, the seat slopes half as
+# much as the way from seat to tread, which lies level. The numbers of derby and loafer are those of
+# a search, so that each sample customer has a last that is good by the profile `walking`
+# (docs/decisions/0283-the-nine-profiles.md). Walls that are more upright would hang over the widest
+# row.
 MODEL = LastSpec(
     length_mm=size_length_mm(40),
     mt1_station=0.61,
@@ -96,15 +97,27 @@ STYLES = (
         replace(
             MODEL,
             heel_height_mm=25.0,
-            toe_spring_mm=10.0,
-            flare_deg=8.0,
-            ball_width_mm=93.5,
-            heel_width_mm=59.2,
-            waist_width_mm=74.0,
-            cone_height_mm=87.2,
-            cone_length=0.339,
-            cone_width=0.343,
-            fullness=1.028,
+            toe_spring_mm=12.3,
+            flare_deg=8.5,
+            toe_turn_deg=5.8,
+            ball_width_mm=96.2,
+            heel_width_mm=58.1,
+            waist_width_mm=72.3,
+            waist_cut_mm=-1.2,
+            joint_bulge_mm=3.2,
+            mt1_station=0.608,
+            mt5_station=0.491,
+            ridge_mm=18.1,
+            medial_wall=0.81,
+            feather_inset=0.067,
+            sole_crown=0.63,
+            break_length=0.1,
+            cone_height_mm=96.6,
+            cone_length=0.293,
+            cone_width=0.336,
+            fullness=1.151,
+            arch_mm=4.4,
+            arch_cut_mm=11.3,
         ),
         "G",
         (
@@ -120,16 +133,27 @@ STYLES = (
         replace(
             MODEL,
             heel_height_mm=18.0,
-            toe_spring_mm=8.0,
-            flare_deg=10.0,
-            toe_turn_deg=9.0,
-            ball_width_mm=87.6,
-            heel_width_mm=59.0,
-            waist_width_mm=75.0,
-            waist_cut_mm=-4.6,
-            cone_width=0.37,
-            fullness=0.855,
-            arch_cut_mm=16.0,
+            toe_spring_mm=10.4,
+            flare_deg=8.6,
+            toe_turn_deg=10.0,
+            ball_width_mm=91.9,
+            heel_width_mm=56.8,
+            waist_width_mm=71.9,
+            waist_cut_mm=-2.4,
+            joint_bulge_mm=5.9,
+            mt1_station=0.601,
+            mt5_station=0.519,
+            ridge_mm=17.4,
+            medial_wall=0.8,
+            feather_inset=0.054,
+            sole_crown=0.0,
+            break_length=0.19,
+            cone_height_mm=95.7,
+            cone_length=0.296,
+            cone_width=0.444,
+            fullness=0.943,
+            arch_mm=4.9,
+            arch_cut_mm=17.9,
         ),
         "E",
         ((39, "right", "mm"), (40, "left", "mm"), (42, "right", "mm"), (43, "right", "mm")),

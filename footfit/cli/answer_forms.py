@@ -59,13 +59,6 @@ def _of_ingest(outcome: IngestOutcome) -> Notices:
     return None, (*new, *notices_about(outcome.path or STDIN, outcome.warnings))
 
 
-def _zone_labels() -> dict[str, str]:
-    """How people call each zone."""
-    from footfit.pipeline.fit.zones import ZONES
-
-    return {name: zone.label for name, zone in ZONES.items()}
-
-
 class Form(NamedTuple):
     """The table and the notices of one type of result.
 
@@ -150,18 +143,14 @@ FORMS: dict[type, Form] = {
     results.RecordOutcome: Form(evidence_tables.record_fit_line),
     results.FitList: Form(evidence_tables.list_fits_table),
     results.ForgetOutcome: Form(evidence_tables.forget_fits_line),
-    results.Calibration: Form(
-        lambda learned: profile_tables.calibration_table(learned, _zone_labels())
-    ),
+    results.Calibration: Form(profile_tables.calibration_table),
     results.Drawing: Form(
         scan_tables.draw_last_table,
         lambda drawing: _of_scan(drawing.alignment),
         lambda drawing: (drawing.alignment.info,),
     ),
     results.ProfileList: Form(profile_tables.list_profiles_table),
-    results.ShownProfile: Form(
-        lambda shown: profile_tables.show_profile_table(shown, _zone_labels())
-    ),
+    results.ShownProfile: Form(profile_tables.show_profile_table),
     results.CheckedProfile: Form(profile_tables.check_profile_line),
     LastsCheck: Form(coverage_tables.lasts_check_table, lambda check: (None, check.notices)),
     Coverage: Form(coverage_tables.coverage_table, lambda answer: (None, answer.warnings)),

@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING, Any
 
 from footfit.cli.console import say, say_notices
 from footfit.meshes.units import UNIT_NAMES
+from footfit.number_words import first_names
 from footfit.results.values import notices_about
 
 if TYPE_CHECKING:
@@ -56,15 +57,12 @@ class UnitCount:
         parts[0] = parts[0].replace(" as ", f" of {total} taken as ", 1)
         if len(units) > 1:
             parts = [
-                part if unit == PLAIN_UNIT else f"{part}: {_some_of(self.paths[unit])}"
+                part
+                if unit == PLAIN_UNIT
+                else f"{part}: {first_names(self.paths[unit], NAMED_FILES)}"
                 for unit, part in zip(units, parts, strict=True)
             ]
         return f"{'; '.join(parts)} (--units changes this)"
-
-
-def _some_of(paths: list[str]) -> str:
-    more = f" and {len(paths) - NAMED_FILES} more" if len(paths) > NAMED_FILES else ""
-    return f"{', '.join(paths[:NAMED_FILES])}{more}"
 
 
 @dataclass(slots=True)

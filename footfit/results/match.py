@@ -16,6 +16,7 @@ from footfit.results.values import (
     FIT_NAMES,
     LABELS,
     NOT_YET,
+    VERDICTS,
     Document,
     Json,
     Part,
@@ -119,7 +120,6 @@ class Candidate(Part):
         }
 
 
-VERDICT_ORDER = (None, "good", "acceptable", "poor", "reject")
 FOUNDED = {
     "A": "its range was measured with wearers who judged comfort",
     "M": "its range was measured on feet or lasts",
@@ -131,10 +131,20 @@ FOUNDED = {
 
 @dataclass(frozen=True, slots=True)
 class NotInStock(Part):
-    """The best last that the shop does not have, and its verdict."""
+    """The best last that the shop does not have, its verdict, and whether it would stand before
+    the first one that the shop has.
+    """
 
     last: str
     verdict: Verdict
+    better: bool
+
+    @property
+    def words(self) -> str:
+        """The same in a sentence."""
+        than = "better than" if self.better else "no better than"
+        last = f"{self.last} ({self.verdict})"
+        return f"the best last that is not in stock is {last}: {than} what is in stock"
 
 
 @dataclass(frozen=True, slots=True)
@@ -180,7 +190,9 @@ class Match(Document):
         ]
         if not judged:
             return None
-        decided = max(judged, key=lambda z: (VERDICT_ORDER.index(z.verdict), abs(z.score or 0.0)))
+        decided = max(
+            judged, key=lambda z: (VERDICTS.index(z.verdict or "good"), abs(z.score or 0.0))
+        )
         words = f"The verdict rests most on the {decided.label}: {FOUNDED[decided.grade]}"
         if not self.rated:
             return words

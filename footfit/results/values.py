@@ -20,6 +20,8 @@ Confidence = Literal["sure", "low", "undecided"]
 Method = Literal["footfit", "paper", "paper-literal"]
 SearchBy = Literal["fit", "flare", "shape"]
 Verdict = Literal["good", "acceptable", "poor", "reject"]
+VERDICTS: tuple[Verdict, ...] = ("good", "acceptable", "poor", "reject")
+"""The verdicts, the best first."""
 
 MILLIMETRE_DIGITS = 3
 RATIO_DIGITS = 6

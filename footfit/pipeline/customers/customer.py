@@ -10,6 +10,7 @@ from itertools import pairwise
 from pathlib import Path
 
 from footfit.errors import BadManifest, BadOption
+from footfit.number_words import first_names
 from footfit.pipeline.batch.csv_rows import CsvRow, csv_rows
 from footfit.pipeline.batch.side_words import SideInName, names_somebody, side_in_name
 from footfit.pipeline.batch.sources import Source, stored_path
@@ -218,7 +219,6 @@ def alone_notices(customers: Sequence[Customer]) -> tuple[Notice, ...]:
     single = [customer.path or "-" for customer in customers if len(customer.feet) == 1]
     if not single:
         return ()
-    more = f" and {len(single) - NAMED_ALONE} more" if len(single) > NAMED_ALONE else ""
     feet = "1 foot has" if len(single) == 1 else f"{len(single)} feet have"
     words = f"{feet} no other foot by name, and {'is' if len(single) == 1 else 'are'} matched alone"
-    return (Notice("matched_alone", f"{words}: {', '.join(single[:NAMED_ALONE])}{more}"),)
+    return (Notice("matched_alone", f"{words}: {first_names(single, NAMED_ALONE)}"),)

@@ -52,11 +52,14 @@ CURVE_PLACES = 81
 
 
 def prior_of(rule: ZoneRule) -> Prior:
-    """What a profile's rule holds of its zone: its sd is a quarter of the acceptable range."""
-    low, high = rule.acceptable
+    """What a profile's rule holds of its zone: its sd is a quarter of the acceptable range, and at
+    most half of the good one, because acceptable is wider where feet differ more.
+    """
+    (low, high), (least, most) = rule.acceptable, rule.good
     kind = "girth" if rule.zone.endswith("girth") else "other"
     kind = "length" if rule.zone == "length" else kind
-    return Prior(rule.target, 0.25 * (high - low), SPREAD_MM[kind])
+    sd = min(0.25 * (high - low), 0.5 * (most - least))
+    return Prior(rule.target, sd, SPREAD_MM[kind])
 
 
 def zone_evidence(

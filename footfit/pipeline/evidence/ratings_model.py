@@ -62,15 +62,15 @@ class Prior:
 class Ratings:
     """Ratings (n,) of one zone: the clearance and its variance, what was said, and by whom.
 
-    ``wearer`` holds a number for each wearer; it counts for nothing but equality. ``slips`` is the
-    probability that an answer says nothing.
+    ``wearer`` holds a number for each wearer; it counts for nothing but equality. ``random`` is the
+    probability that the wearer answers at random, as far as other zones say.
     """
 
     clearance_mm: Floats
     variance_mm2: Floats
     rating: Ints
     wearer: Ints
-    slips: Floats
+    random: Floats
 
     def of(self, chosen: Bools | Ints) -> Ratings:
         """Some of the ratings, by place or by a mask."""
@@ -181,23 +181,36 @@ def _log_likelihood(
 ) -> Floats:
     """The logarithm of the ratings' probability for each target and spread: (t, s).
 
+    Either all answers of a wearer say something, or none does.
+    """
+    _, first, count = np.unique(ratings.wearer, return_index=True, return_counts=True)
+    random = ratings.random[first]
+    blind = random * float(len(RATINGS)) ** -count
+    said = _sincere(ratings, target_mm, spread_mm, model)
+    total: Floats = np.log((1.0 - random)[:, None, None] * said + blind[:, None, None]).sum(axis=0)
+    return total
+
+
+def _sincere(ratings: Ratings, target_mm: Floats, spread_mm: Floats, model: RatingsModel) -> Floats:
+    """The probability of all answers of each wearer, in the order of their numbers: (w, t, s).
+
     A wearer who rated once needs no wish of his own: it only widens the answer. The wishes of the
     others are integrated out by Gauss-Hermite nodes.
     """
     _, number, count = np.unique(ratings.wearer, return_inverse=True, return_counts=True)
     single = count[number] == 1
     once, often = ratings.of(single), ratings.of(~single)
-    wish = np.zeros(1)
-    said = _answers(once, target_mm, spread_mm, wish, model.wearer_sd_mm**2, model)
-    total: Floats = np.log(said[..., 0]).sum(axis=0)
+    result = np.empty((len(count), len(target_mm), len(spread_mm)))
+    said = _answers(once, target_mm, spread_mm, np.zeros(1), model.wearer_sd_mm**2, model)
+    result[number[single]] = said[..., 0]
     if len(often.rating):
         nodes, shares = np.polynomial.hermite_e.hermegauss(model.nodes)
         said = np.log(_answers(often, target_mm, spread_mm, model.wearer_sd_mm * nodes, 0.0, model))
-        group = np.unique(often.wearer, return_inverse=True)[1]
-        joint = np.zeros((group.max() + 1, *said.shape[1:]))
+        _, first, group = np.unique(often.wearer, return_index=True, return_inverse=True)
+        joint = np.zeros((len(first), *said.shape[1:]))
         np.add.at(joint, group, said)
-        total += np.log(np.exp(joint) @ (shares / shares.sum())).sum(axis=0)
-    return total
+        result[number[~single][first]] = np.exp(joint) @ (shares / shares.sum())
+    return result
 
 
 def _answers(
@@ -220,10 +233,10 @@ def _answers(
         ndtr((spread * cuts[ratings.rating + step][:, None, None, None] - off) / sd)
         for step in (3, 2)
     )
-    return _with_slips(upper - lower, ratings.slips[:, None, None, None])
+    return _with_slips(upper - lower, model.slips)
 
 
-def _with_slips(probability: Floats, slips: float | Floats) -> Floats:
+def _with_slips(probability: Floats, slips: float) -> Floats:
     mixed: Floats = (1.0 - slips) * probability + slips / len(RATINGS)
     return mixed
 
@@ -256,28 +269,29 @@ def zone_posteriors(
 ) -> dict[str, Posterior]:
     """What is held of each zone, with less weight for wearers who seem to answer at random.
 
-    Whoever answers at random does so in every zone. So each answer is judged by the same wearer's
-    *other* answers: the more of them nobody would foresee, the more likely this one is a slip too.
+    Whoever answers at random does so in every zone. So a wearer's answers in one zone are judged by
+    those in all *other* zones: the worse these were foreseen, the less the answers here say.
     """
     from scipy.special import expit, logit
 
     result = {name: posterior(ratings, priors[name], model) for name, ratings in zones.items()}
     for _ in range(model.rounds):
-        foreseen = {name: _foreseen(zones[name], result[name], model) for name in zones}
+        gains = {name: _gains(zones[name], result[name], model) for name in zones}
         whole: dict[int, float] = {}
+        for gain in gains.values():
+            for wearer, more in gain.items():
+                whole[wearer] = whole.get(wearer, 0.0) + more
         for name, ratings in zones.items():
-            for wearer, gain in zip(ratings.wearer.tolist(), foreseen[name], strict=True):
-                whole[wearer] = whole.get(wearer, 0.0) + gain
-        for name, ratings in zones.items():
-            others = np.array([whole[w] for w in ratings.wearer.tolist()]) - foreseen[name]
-            random = expit(logit(model.random_wearers) - others)
-            slips = model.slips + (1.0 - model.slips) * random
-            result[name] = posterior(replace(ratings, slips=slips), priors[name], model)
+            others = np.array([whole[w] - gains[name][w] for w in ratings.wearer.tolist()])
+            random: Floats = expit(logit(model.random_wearers) - others)
+            result[name] = posterior(replace(ratings, random=random), priors[name], model)
     return result
 
 
-def _foreseen(ratings: Ratings, held: Posterior, model: RatingsModel) -> Floats:
-    """By how much (n,) each answer was foreseen better than by chance, as a log ratio."""
-    losses = log_losses(ratings, held.target()[0], held.spread(), model)
-    gain: Floats = np.log(len(RATINGS)) - losses
-    return gain
+def _gains(ratings: Ratings, held: Posterior, model: RatingsModel) -> dict[int, float]:
+    """By how much each wearer's answers were foreseen better than by chance, as a log ratio."""
+    wearers, count = np.unique(ratings.wearer, return_counts=True)
+    place = np.array([held.target()[0]]), np.array([held.spread()])
+    said = _sincere(ratings, *place, model)[:, 0, 0]
+    gain = np.log(said) + count * np.log(len(RATINGS))
+    return dict(zip(wearers.tolist(), gain.tolist(), strict=True))

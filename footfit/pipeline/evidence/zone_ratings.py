@@ -9,7 +9,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from footfit.errors import BadOption
-from footfit.pipeline.evidence.ratings_model import MODEL, RATINGS, Ratings
+from footfit.pipeline.evidence.ratings_model import RATINGS, Ratings
 from footfit.results import FitEntry
 from footfit.results.evidence.fit_entries import PLACES
 
@@ -82,5 +82,5 @@ def _ratings(rows: list[tuple[float, float, int, str]]) -> Ratings:
         variance_mm2=np.array(variance),
         rating=np.array(rating),
         wearer=wearer,
-        slips=np.full(len(rows), MODEL.slips),
+        random=np.zeros(len(rows)),
     )

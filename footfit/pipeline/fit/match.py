@@ -19,14 +19,14 @@ from footfit.pipeline.fit.fit_profile import fit_profile
 from footfit.pipeline.fit.heel_model import heel_question
 from footfit.pipeline.fit.judging.judged_lasts import Asked, Gated, JudgedLasts, asked_of
 from footfit.pipeline.fit.judging.toe_box import NOT_STORED
-from footfit.pipeline.fit.scoring import UNKNOWN_SCORE, VERDICTS
+from footfit.pipeline.fit.scoring import UNKNOWN_SCORE
 from footfit.pipeline.fit.worn_shifts import worn_with
 from footfit.pipeline.fit.zones import TOE_BOX
 from footfit.pipeline.scan.measure import unusual_measures, usual_alignment
 from footfit.pipeline.shelf.shelf import Shelf, shelf_of
 from footfit.pipeline.width.foot_width import foot_widths
 from footfit.results.heel import FLARE, heel_words
-from footfit.results.values import notices_about
+from footfit.results.values import VERDICTS, notices_about
 from footfit.results.worn import BAREFOOT
 
 NEAREST_NAMED = 3
@@ -93,8 +93,8 @@ def matched(
     worn = worn_with(profile, question.worn)
     asked = asked_of(feet, profile, question.by, question.heel, worn)
     shelf, shown = _shown(asked, shelf, question.top)
-    missing = _best_out_of_stock(asked, shelf)
     ranked = shown.ranked
+    missing = _best_out_of_stock(asked, shelf, ranked)
     candidates = [_with_size(_candidate(shown, place), question) for place in shown.places]
     nearest = tuple(candidates) if ranked.nearest else ()
     rejected = ranked.gated.refusals if question.by == "fit" else {}
@@ -312,7 +312,9 @@ def _costs(judged: JudgedLasts, row: int) -> list[float]:
 # ---------------------------------------------------------------- notices
 
 
-def _best_out_of_stock(asked: Asked, shelf: Shelf) -> results.NotInStock | None:
+def _best_out_of_stock(
+    asked: Asked, shelf: Shelf, ranked: ranking.Ranking
+) -> results.NotInStock | None:
     """The best of the lasts that are not in stock, if one fits."""
     if not shelf.out_of_stock.any() or asked.by == "shape":
         return None
@@ -323,15 +325,13 @@ def _best_out_of_stock(asked: Asked, shelf: Shelf) -> results.NotInStock | None:
     judged = shown.ranked.judged
     if shown.ranked.nearest or not shown.records:
         return None
-    return results.NotInStock(shown.records[0].labels.name, VERDICTS[judged.level[0]])
+    better = ranked.nearest or ranking.standing(judged) < ranking.standing(ranked.judged)
+    return results.NotInStock(shown.records[0].labels.name, VERDICTS[judged.level[0]], better)
 
 
 def _stock_notice(missing: results.NotInStock | None) -> tuple[results.Notice, ...]:
     """The best last that the shop does not have."""
-    if missing is None:
-        return ()
-    words = f"the best last that is not in stock is {missing.last} ({missing.verdict})"
-    return (results.Notice("not_in_stock", words),)
+    return () if missing is None else (results.Notice("not_in_stock", missing.words),)
 
 
 def _worn_notice(worn: results.Worn) -> tuple[results.Notice, ...]:

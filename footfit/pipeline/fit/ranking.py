@@ -29,7 +29,6 @@ from footfit.pipeline.fit.judging.toe_box import toe_box, toes_can_reject
 from footfit.pipeline.fit.scoring import (
     NOT_JUDGED,
     REJECT,
-    VERDICTS,
     Column,
     rescan_spread,
     shown_digits,
@@ -45,6 +44,7 @@ from footfit.results import FlareDifference, FootFit, LastRecord, Profiled, ToeB
 from footfit.results.columns.last_columns import SIDES, LastColumns, joined
 from footfit.results.columns.vocabulary import NO_WORD, Words
 from footfit.results.heel import FLARE
+from footfit.results.values import VERDICTS
 
 DISTANCE_DIGITS = 6
 """Lasts whose distances are equal to so many decimals are ordered by name."""
@@ -132,6 +132,12 @@ def _keys(judged: JudgedLasts) -> tuple[Floats, Ints]:
     group = 2 * judged.level + ~judged.sound
     group = len(VERDICTS) * group + judged.toe_room_level
     return np.round(judged.distance, DISTANCE_DIGITS), group
+
+
+def standing(judged: JudgedLasts) -> tuple[int, float]:
+    """How the first of some lasts stands: of two the smaller standing comes first."""
+    digits, group = _keys(judged)
+    return (int(group[0]) if judged.asked.by == "fit" else 0), float(digits[0])
 
 
 def _by_distance(distance: Floats, group: Ints, names: Sequence[str]) -> Ints:

@@ -5,17 +5,16 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from footfit.geometry.fit.sizes import EQUALLY_LONG_MM, SYSTEMS, foot_size, system_named
-from footfit.number_words import plain, rounded, some_digits
-from footfit.pipeline.fit.scoring import VERDICTS
+from footfit.number_words import UNITS, plain, rounded, some_digits
 from footfit.pipeline.fit.zones import ZONES, Zone
 from footfit.results import Notice, Profiled, ZoneFit, ZoneRule
+from footfit.results.values import VERDICTS
 
 WORTH_SAYING = 0.5
 """The score from which on a zone is named: half-way to the edge of good."""
 DEFAULT_SYSTEM = "eu"
 GIRTH_WORDS = {"tighter": "smaller", "looser": "larger"}
 """What a sentence says of a girth; the codes of rejects keep the other words."""
-UNIT_WORDS = {"mm": " mm", "deg": " deg", "percent": " %", "ratio": ""}
 
 
 def flare_words(delta_deg: float, sd_deg: float, digits: int = 1) -> str:
@@ -118,7 +117,7 @@ def missed_sentence(zones: Sequence[ZoneFit], rules: Sequence[ZoneRule]) -> str:
         if not zone.counts or zone.verdict != "reject" or value is None or rule.poor is None:
             continue
         miss = max(rule.poor[0] - value, value - rule.poor[1])
-        unit = UNIT_WORDS[zone.unit]
+        unit = UNITS[zone.unit]
         words.append(f"{judged_words(zone)}, {some_digits(miss)}{unit} past the limit")
     return "; ".join(words) or toe_room_words(zones)
 

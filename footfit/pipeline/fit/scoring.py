@@ -13,9 +13,8 @@ import numpy as np
 
 from footfit.geometry.numeric.arrays import Bools, Floats, Ints
 from footfit.number_words import KEPT, rounded
-from footfit.results import Verdict, ZoneRule
+from footfit.results import ZoneRule
 
-VERDICTS: tuple[Verdict, ...] = ("good", "acceptable", "poor", "reject")
 GOOD, ACCEPTABLE, POOR, REJECT = range(4)
 NOT_JUDGED = -1
 SURE_SDS = 2.0

@@ -15,6 +15,7 @@ from footfit.catalogue.rows.requirements import same_scan
 from footfit.catalogue.store import Catalogue, open_catalogue
 from footfit.errors import BadOption, ExitCode, FootfitError, NameTaken, NoCatalogue
 from footfit.locations import Location
+from footfit.number_words import first_names
 from footfit.pipeline.batch.runs import HERE, Jobs, Outcome, outcomes
 from footfit.pipeline.batch.sources import ReadingOptions, Source
 from footfit.pipeline.library.manifest import LABEL_HEIGHTS, ManifestRow
@@ -101,8 +102,7 @@ def unused_rows(batch: Sequence[Entry], manifest: Sequence[ManifestRow]) -> tupl
     unused = [row.path for row in manifest if _resolved(row.path) not in given]
     if not unused:
         return ()
-    more = f" and {len(unused) - 1} more" if len(unused) > 1 else ""
-    words = f"the manifest also names {unused[0]}{more}, not among the files given"
+    words = f"the manifest also names {first_names(unused, 1)}, not among the files given"
     if not given & named:
         words += "; it names none of those, so they get no labels: its paths start at its folder"
     return (Notice("manifest_rows_unused", words),)

@@ -21,7 +21,6 @@ from footfit.pipeline.fit.scoring import (
     GOOD,
     NOT_JUDGED,
     REJECT,
-    VERDICTS,
     Asked,
     Column,
     asked,
@@ -35,6 +34,7 @@ from footfit.pipeline.fit.zones import TOE_BOX, TOE_HEIGHT, TOES
 from footfit.pipeline.population.shape_columns import ROOM, PairClearances, clearances_of
 from footfit.pipeline.population.tables import FootTable, LastTable
 from footfit.results import FitProfile, HeelQuestion, Worn
+from footfit.results.values import VERDICTS
 
 CELLS = 400_000
 """Feet times lasts times zones that are judged at once: some 30 arrays of 3 MB."""

@@ -18,7 +18,7 @@ from footfit.report.wording.comparison_words import (
     tightest_words,
 )
 from footfit.report.wording.fit_words import OTHER_FOOT
-from footfit.report.wording.text import SHOWN_SYSTEMS, file_name, is_scanned_last, size_text
+from footfit.report.wording.text import SHOWN_SYSTEMS, file_name, is_scanned_last, shown_size_text
 from footfit.report.wording.zone_words import uncounted_lines, unjudged_lines
 from footfit.results import Candidate, Comparison, Match, SideName, tightest_place
 
@@ -123,8 +123,7 @@ def _pressed(best: Sequence[Candidate], comparisons: Sequence[Comparison]) -> li
 
 def labels(candidate: Candidate, *, brief: bool = False) -> str:
     """What the maker says of a last, in one line; its side, if it is of the other foot."""
-    size = size_text(candidate)
-    size += f" ({candidate.size_asked})" if candidate.size_asked else ""
+    size = shown_size_text(candidate)
     side = (
         f"{candidate.side} last{'' if brief else f', {OTHER_FOOT}'}" if candidate.mirrored else ""
     )

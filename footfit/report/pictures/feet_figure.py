@@ -16,6 +16,7 @@ from footfit.report.pictures.figures import (
     INK,
     QUIET,
     SKIN,
+    VERDICT_COLOURS,
     arrow_style,
     new_figure,
     show_image,
@@ -30,13 +31,8 @@ if TYPE_CHECKING:
 
 FROM_ABOVE = np.array([[0.0, -1.0, 0.0], [1.0, 0.0, 0.0], [0.0, 0.0, 1.0]])
 """The wearer's own view: toes up, the left foot's inner side on its right."""
-MARKERS: dict[str, tuple[str, str]] = {
-    "good": ("o", "#1b7a4b"),
-    "acceptable": ("^", "#a86200"),
-    "poor": ("s", "#b3261e"),
-    "reject": ("X", "#5f1512"),
-}
-"""The shape and the colour of a verdict, as on the page."""
+MARKERS = {"good": "o", "acceptable": "^", "poor": "s", "reject": "X"}
+"""The shape of a verdict, as on the page."""
 STATIONS = {"toes": 0.95, "ball": 0.70, "instep": 0.50, "heel": 0.12}
 """Where the marks stand, over the length from the heel."""
 EDGE_VERTICES = 60
@@ -127,5 +123,5 @@ def _image(seen: Floats, faces: Ints, frame: shading.Frame) -> Floats:
 
 
 def _draw_mark(axes: Axes, place: tuple[float, float], verdict: Verdict) -> None:
-    shape, colour = MARKERS[verdict]
+    shape, colour = MARKERS[verdict], VERDICT_COLOURS[verdict]
     axes.scatter(*place, marker=shape, s=52, color=colour, edgecolors="white", linewidths=1.2)

@@ -28,6 +28,13 @@ DASHES: tuple[Any, ...] = ("-", (0, (6, 2)), (0, (2, 1.5)), (0, (8, 2, 2, 2)), (
 REAR_WINDOW, FORE_WINDOW = "#cfe3f2", "#fbe3c8"
 DIVERGING = "RdBu_r"
 """Red for convex and for inward, blue for hollow and for outward; safe for the colour-blind."""
+VERDICT_COLOURS = {
+    "good": "#1b7a4b",
+    "acceptable": "#a86200",
+    "poor": "#b3261e",
+    "reject": "#5f1512",
+}
+"""The verdicts' colours, as on the page."""
 SKIN = (0.86, 0.80, 0.74)
 
 _STYLE = {

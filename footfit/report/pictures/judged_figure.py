@@ -17,6 +17,7 @@ from footfit.report.pictures.figures import (
     FILL,
     INK,
     QUIET,
+    VERDICT_COLOURS,
     Point,
     draw_scale_bar,
     hide_axes,
@@ -30,8 +31,6 @@ if TYPE_CHECKING:
 
     from footfit.results import FootFit, Profiled, ToeBox, ZoneFit
 
-COLOURS = {"good": "#1b7a4b", "acceptable": "#a86200", "poor": "#b3261e", "reject": "#5f1512"}
-"""The verdicts' colours, as on the page."""
 WIDTHS = {"good": 1.8, "acceptable": 3.0, "poor": 4.4, "reject": 5.6}
 SHOWN_HEIGHT = 0.40
 """How much of a leg is drawn, over the length."""
@@ -96,7 +95,7 @@ def zone_style(zone: ZoneFit) -> dict[str, Any]:
     nothing.
     """
     verdict = (zone.verdict or "") if zone.counts else ""
-    return {"color": COLOURS.get(verdict, QUIET), "linewidth": WIDTHS.get(verdict, 1.0)}
+    return {"color": VERDICT_COLOURS.get(verdict, QUIET), "linewidth": WIDTHS.get(verdict, 1.0)}
 
 
 def _draw_side(axes: Axes, foot: Profiled, zones: Mapping[str, ZoneFit]) -> None:

@@ -9,6 +9,7 @@ import numpy as np
 
 from footfit.errors import BadOption
 from footfit.report.pictures.figures import FILL, INK, QUIET, SERIES, new_figure, write_title
+from footfit.results.fit import ZONE_LABELS
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -78,7 +79,7 @@ def _draw_zone(axes: Axes, zone: ZoneEvidence) -> None:
     axes.set_ylim(-3.05, 2.5)
     axes.set_xlabel("last minus foot, mm")
     kept = "" if zone.status == "applied" else " (the profile keeps its range)"
-    axes.set_title(f"{zone.zone.replace('_', ' ')}{kept}")
+    axes.set_title(f"{ZONE_LABELS[zone.zone]}{kept}")
     axes.legend(loc="upper left")
 
 

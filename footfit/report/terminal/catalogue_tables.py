@@ -10,7 +10,7 @@ from rich.text import Text
 
 from footfit import results
 from footfit.geometry.fit.sizes import LabelCheck, label_words
-from footfit.number_words import plain, signed
+from footfit.number_words import first_names, plain, signed
 from footfit.report.terminal.scan_tables import (
     cell,
     eigenvalue_words,
@@ -121,9 +121,7 @@ def _legend(marked: Mapping[Mark, Sequence[str]]) -> list[Text]:
 
 
 def _named(names: Sequence[str]) -> str:
-    """The first few names, and how many more there are."""
-    more = f" and {len(names) - NAMED} more" if len(names) > NAMED else ""
-    return f"{', '.join(map(visible, names[:NAMED]))}{more}"
+    return first_names([visible(name) for name in names], NAMED)
 
 
 def _made(records: Sequence[results.LastRecord]) -> list[Text]:

@@ -14,12 +14,11 @@ from rich.table import Table
 from rich.text import Text
 
 from footfit.geometry.fit.sizes import foot_size, foot_sizes, system_named
-from footfit.number_words import RATIO_KEPT, plain, signed
+from footfit.number_words import RATIO_KEPT, UNITS, plain, signed
 from footfit.report.terminal.scan_tables import cell, flare_words, lined_table
 from footfit.report.wording.comparison_words import surfaces_words, tightest_words
 from footfit.report.wording.fit_words import (
     OTHER_FOOT,
-    UNITS,
     left_out_words,
     toe_room_text,
     zone_label,
@@ -29,13 +28,14 @@ from footfit.report.wording.text import (
     SHOWN_SYSTEMS,
     file_name,
     is_scanned_last,
+    shown_size_text,
     side_doubts,
-    size_text,
     tie_words,
     visible,
 )
 from footfit.report.wording.width_words import fittings_words, shares_words
 from footfit.results import Candidate, FootWidth, Match, Profiled, ZoneFit
+from footfit.results.values import VERDICTS
 
 LIKENESS = {
     "fit": "order: the verdict, then the toe room, then the distance: how far the zones are "
@@ -133,9 +133,8 @@ def _row(widths: Sequence[int], cells: Sequence[Text]) -> Table:
 
 
 def _labels(candidate: Candidate) -> str:
-    size = size_text(candidate)
-    size += f" ({candidate.size_asked})" if candidate.size_asked else ""
-    return ", ".join(visible(part) for part in (candidate.style, size) if part)
+    parts = (candidate.style, shown_size_text(candidate))
+    return ", ".join(visible(part) for part in parts if part)
 
 
 def _cells(candidate: Candidate) -> list[Text]:
@@ -194,13 +193,12 @@ def _clearance(zone: ZoneFit) -> Text:
 
 def _zone_verdict(zones: Sequence[ZoneFit], feet: Sequence[str]) -> Text:
     """The worst verdict of the feet that the zone counts for, and why the others do not count."""
-    order = list(VERDICT_STYLES)
     known = [zone.verdict for zone in zones if zone.counts and zone.verdict is not None]
     if not known:
         reasons = [zone.clearance.reason or zone.not_counted for zone in zones]
         reason = next((text for text in reasons if text), "counts nothing")
         return Text("not judged: ", "dim").append(visible(reason))
-    worst = max(known, key=order.index)
+    worst = max(known, key=VERDICTS.index)
     words = Text(worst, VERDICT_STYLES[worst])
     places = {zone.place for zone in zones if zone.counts and zone.verdict == worst and zone.place}
     words.append(f": {'; '.join(sorted(places))}" if places else "", "default")

@@ -2,18 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-
 from rich.console import Group, RenderableType
 from rich.text import Text
 
 from footfit import results
-from footfit.number_words import signed
+from footfit.number_words import UNITS, signed
 from footfit.report.terminal.scan_tables import cell, lined_table
 from footfit.report.wording.text import visible
-from footfit.results.fit import GRADES
-
-UNIT_WORDS = {"percent": "%", "ratio": ""}
+from footfit.results.fit import GRADES, ZONE_LABELS
 
 
 def list_profiles_table(listed: results.ProfileList) -> RenderableType:
@@ -24,19 +20,15 @@ def list_profiles_table(listed: results.ProfileList) -> RenderableType:
     return Group(table, Text("footfit show-profile NAME shows one with its sources", "dim"))
 
 
-def show_profile_table(shown: results.ShownProfile, labels: Mapping[str, str]) -> RenderableType:
-    """What a profile asks of each zone, last minus foot, and how well that is founded.
-
-    ``labels`` say how a match calls each zone.
-    """
+def show_profile_table(shown: results.ShownProfile) -> RenderableType:
+    """What a profile asks of each zone, last minus foot, and how well that is founded."""
     profile = shown.profile
     heads = ("zone", "target", "good", "acceptable", "weight", "grade", "source")
     table = lined_table(*heads, right=frozenset({"target", "weight"}))
     for rule in profile.zones:
-        unit = shown.units[rule.zone]
         table.add_row(
-            cell(labels[rule.zone], "bold"),
-            f"{rule.target:g} {UNIT_WORDS.get(unit, unit)}".strip(),
+            cell(ZONE_LABELS[rule.zone], "bold"),
+            f"{rule.target:g}{UNITS[shown.units[rule.zone]]}",
             range_words(rule.good),
             range_words(rule.acceptable),
             f"{rule.weight:g}",
@@ -47,7 +39,7 @@ def show_profile_table(shown: results.ShownProfile, labels: Mapping[str, str]) -
     used = sorted({rule.grade for rule in profile.zones})
     grades = "; ".join(f"{grade} {GRADES[grade]}" for grade in used)
     notes = [f"last minus foot; grades: {grades}"]
-    zones = {rule.zone: labels[rule.zone] for rule in profile.zones}
+    zones = {rule.zone: ZONE_LABELS[rule.zone] for rule in profile.zones}
     keys = [
         f"{label} is {zone}" for zone, label in zones.items() if zone != label.replace(" ", "_")
     ]
@@ -56,11 +48,8 @@ def show_profile_table(shown: results.ShownProfile, labels: Mapping[str, str]) -
     return Group(Text(title, "bold"), table, *(Text(note, "dim") for note in notes))
 
 
-def calibration_table(learned: results.Calibration, labels: Mapping[str, str]) -> RenderableType:
-    """What the ratings say of each zone, and what became of its rule.
-
-    ``labels`` say how a match calls each zone.
-    """
+def calibration_table(learned: results.Calibration) -> RenderableType:
+    """What the ratings say of each zone, and what became of its rule."""
     heads = ("zone", "wearers", "ratings", "target", "learned, 95 %", "good", "outcome")
     table = lined_table(*heads, right=frozenset({"wearers", "ratings", "target"}))
     for zone in learned.zones:
@@ -71,7 +60,7 @@ def calibration_table(learned: results.Calibration, labels: Mapping[str, str]) -
         good = range_words(zone.before.good)
         changed = zone.status == "applied"
         table.add_row(
-            cell(labels[zone.zone], "bold"),
+            cell(ZONE_LABELS[zone.zone], "bold"),
             str(zone.wearers),
             str(zone.ratings),
             signed(zone.before.target),
@@ -99,5 +88,5 @@ def check_profile_line(checked: results.CheckedProfile) -> RenderableType:
     """The profile is sound, and which zones name no source."""
     count = len(checked.zones)
     words = f"{visible(checked.path)}: a sound fit profile {visible(checked.name)!r}, {count} zones"
-    lacking = ", ".join(zone.replace("_", " ") for zone in checked.without_source)
+    lacking = ", ".join(ZONE_LABELS[zone] for zone in checked.without_source)
     return Text(f"{words}; no source is given for {lacking}" if lacking else words)

@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 
 from footfit.geometry.fit.clearance import CLEARANCE, ZoneClearance
-from footfit.number_words import plain, signed
-from footfit.report.wording.fit_words import UNITS, zone_number
+from footfit.number_words import UNITS, plain, signed
+from footfit.report.wording.fit_words import zone_number
 from footfit.report.wording.text import difference_text, file_name, length_text, visible
 from footfit.report.wording.zone_words import zone_name
 from footfit.results import Comparison, FootFit, SurfaceClearance, TightPlace, ZoneFit

@@ -12,7 +12,6 @@ if TYPE_CHECKING:
 
 OTHER_FOOT = "shown on the last of the other foot"
 """What is said of a last whose mirror image was compared."""
-UNITS = {"mm": " mm", "deg": " deg", "percent": " %", "ratio": ""}
 SAME_IS_ZERO = "0 = the same"
 _PLACES = {
     "ball_girth": "at the ball",

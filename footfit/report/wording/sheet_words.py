@@ -7,12 +7,12 @@ from dataclasses import dataclass
 from datetime import date
 
 from footfit.number_words import plain, rounded
-from footfit.report.wording.text import size_text
+from footfit.report.wording.text import shown_size_text
 from footfit.results import Candidate, FootFit, Measured, SideName, Verdict, ZoneFit
+from footfit.results.values import VERDICTS
 
 EQUALLY_WIDE_MM = 2.0
 """Feet whose ball girths differ by less are equally wide: scans repeat to about 0.8 mm."""
-ORDER: tuple[Verdict, ...] = ("good", "acceptable", "poor", "reject")
 DEGREES: dict[Verdict, str] = {
     "good": "",
     "acceptable": "a little ",
@@ -56,7 +56,7 @@ PLACES = {
 
 def rank(verdict: Verdict | None) -> int:
     """How bad a verdict is: 0 is good; -1 is none."""
-    return -1 if verdict is None else ORDER.index(verdict)
+    return -1 if verdict is None else VERDICTS.index(verdict)
 
 
 def place_verdicts(fit: FootFit) -> dict[str, Verdict]:
@@ -97,9 +97,7 @@ def fit_words(candidate: Candidate) -> str:
 
 def shoe_labels(candidate: Candidate) -> str:
     """The style and the size of a shoe, as the maker labels it, and in the shop's size system."""
-    size = size_text(candidate)
-    size += f" ({candidate.size_asked})" if candidate.size_asked else ""
-    return ", ".join(part for part in (candidate.style, size) if part)
+    return ", ".join(part for part in (candidate.style, shown_size_text(candidate)) if part)
 
 
 def _faults(fits: Sequence[FootFit]) -> list[str]:
@@ -117,7 +115,7 @@ def _faults(fits: Sequence[FootFit]) -> list[str]:
         alone = len(fits) > 1 and len(sides) == 1 and worst.zone.zone != "length"
         words = f"{worst.words} ({worst.side} foot)" if alone and worst.side else worst.words
         degrees.setdefault(worst.level, []).append(words)
-    return [DEGREES[ORDER[level]] + ", ".join(words) for level, words in degrees.items()]
+    return [DEGREES[VERDICTS[level]] + ", ".join(words) for level, words in degrees.items()]
 
 
 @dataclass(frozen=True, slots=True)

@@ -6,7 +6,7 @@ import re
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
-from footfit.number_words import plain, signed
+from footfit.number_words import first_names, plain, signed
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -44,8 +44,7 @@ def tie_words(names: Sequence[str], named: int = 3) -> str:
     >>> tie_words(("a", "b")), tie_words(("a", "b", "c", "d", "e"))
     ('tied with a, b', 'tied with a, b, c and 2 more')
     """
-    more = f" and {len(names) - named} more" if len(names) > named else ""
-    return f"tied with {', '.join(visible(name) for name in names[:named])}{more}"
+    return f"tied with {first_names([visible(name) for name in names], named)}"
 
 
 def file_name(path: str | None) -> str:
@@ -147,6 +146,12 @@ def size_text(labels: LastLabels | Candidate) -> str:
     """
     parts = ((labels.size_system or "").upper(), labels.size, labels.width_label)
     return visible(" ".join(part for part in parts if part))
+
+
+def shown_size_text(candidate: Candidate) -> str:
+    """A last's size label as given, and in the size system that was asked for."""
+    size = size_text(candidate)
+    return f"{size} ({candidate.size_asked})" if candidate.size_asked else size
 
 
 def is_scanned_last(shape: Profiled, match: Match) -> bool:

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from footfit.report.wording.fit_words import UNITS, zone_number
+from footfit.number_words import UNITS
+from footfit.report.wording.fit_words import zone_number
 from footfit.report.wording.text import visible
 from footfit.results import Candidate, FootFit, ZoneFit
 
