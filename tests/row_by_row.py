@@ -31,10 +31,11 @@ from footfit.pipeline.fit.judging.toe_box import (
     TOES_SD_MM,
     plan_of_foot,
 )
-from footfit.pipeline.fit.scoring import SURE_SDS, VERDICTS, scales
+from footfit.pipeline.fit.scoring import SURE_SDS, scales
 from footfit.pipeline.fit.zones import HEEL_RULES, NOT_READ, TOE_HEIGHT, TOES, ZONES
 from footfit.pipeline.shelf.nearness import LENGTH_SD_MM
 from footfit.results import LastRecord, Profiled, ShapeSections, ZoneRule
+from footfit.results.values import VERDICTS
 
 OPEN_TOES = "the last: the scan is open at the toes"
 NOT_JUDGED = None

@@ -15,13 +15,14 @@ from footfit.pipeline.fit.fit_profile import fit_profile
 from footfit.pipeline.fit.heel_model import heel_question
 from footfit.pipeline.fit.judging.bottom_gains import LENGTHS
 from footfit.pipeline.fit.match import Question, matched
-from footfit.pipeline.fit.scoring import NOT_JUDGED, REJECT, VERDICTS
+from footfit.pipeline.fit.scoring import NOT_JUDGED, REJECT
 from footfit.pipeline.fit.worn_shifts import worn_with
 from footfit.pipeline.population.foot_measures import foot_measures, foot_table
 from footfit.pipeline.population.judging import Asking, judged_feet
 from footfit.pipeline.population.tables import last_table, zone_measures
 from footfit.pipeline.shelf.candidates import choice
 from footfit.results import Library, Measure, Measured, Profiled, Worn
+from footfit.results.values import VERDICTS
 from footfit.results.worn import BAREFOOT
 from tests.conftest import SAMPLES
 from tests.test_pipeline_ranking import catalogues, feet
