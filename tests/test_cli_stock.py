@@ -7,6 +7,7 @@ from pathlib import Path
 
 import pytest
 
+from footfit.catalogue.blocks.record_columns import LABELS
 from footfit.errors import BadManifest
 from footfit.pipeline.library.stock import stock
 from tests import records
@@ -17,13 +18,16 @@ LASTS = [
     records.last("derby-42", 1, style="Derby", size="42", size_system="eu", width_label="G"),
     records.last("boot-42", 2, style="boot", size="42 1/2", size_system="eu", width_label="H"),
 ]
+NAMED = [
+    (last.labels.name, tuple(getattr(last.labels, label) for label in LABELS)) for last in LASTS
+]
 
 
 def names(folder: Path, text: str) -> tuple[set[str], int]:
     """The names in stock by a file with this text, and how many rows name no last."""
     file = folder / "stock.csv"
     file.write_text(text, encoding="utf-8")
-    there = stock(file, LASTS)
+    there = stock(file, NAMED)
     return set(there.names), len(there.unknown)
 
 
