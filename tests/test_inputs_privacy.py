@@ -80,7 +80,7 @@ def test_a_match_leaves_the_catalogue_as_it_was(footfit: Footfit, foot: Path, ca
     kept = footfit("catalogue-info", "--catalogue", catalogue, "--json").document
     assert kept["feet_kept"] == 0
     of_lasts = {"last", "frame", "flare", "measure", "notice", "mesh_copy", "section", "reference"}
-    assert set(kept["kept"]) == of_lasts | {"fit", "parentage"}
+    assert set(kept["kept"]) == of_lasts | {"fit", "parentage", "search_block"}
     assert kept["kept"]["fit"] == 0, "the fit log, which only record-fit writes, with consent"
     with sqlite3.connect(catalogue) as connection:
         names = {name for (name,) in connection.execute("SELECT name FROM sqlite_schema")}
