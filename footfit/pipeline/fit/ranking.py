@@ -161,12 +161,15 @@ def _ranked_by_distance(asked: Asked, lasts: Lasts, chosen: Bools, top: int) -> 
     parts = (MEASURES, PLAN, BOTTOM) if by_shape else (PLAN, BOTTOM)
     distance = np.full(len(chosen), np.nan)
     for start, chunk in lasts.chunks(parts):
-        some = np.flatnonzero(chosen[start : start + len(chunk)])
-        part = chunk if len(some) == len(chunk) else chunk.taken(some)
+        there = slice(start, start + len(chunk))
+        some = np.arange(len(chunk))
+        if (chunk.stations != len(asked.feet[0].flare.stations)).any():  # of outdated profiles
+            some = np.flatnonzero(chosen[there])
+            chunk = chunk.taken(some)
         distance[start + some] = (
-            shape_distance(asked.feet, asked.longer, part)
+            shape_distance(asked.feet, asked.longer, chunk)
             if by_shape
-            else feet_distance(asked.feet, part)
+            else feet_distance(asked.feet, chunk)
         )
     rows = np.flatnonzero(chosen)
     best, tier, wanted = rows, [0], FIRST_LOOK

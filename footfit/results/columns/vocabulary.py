@@ -36,14 +36,10 @@ class Words:
         """The numbers of the values of a JSON list; a list in it is a tuple."""
         numbers = self._of_texts.get(text)
         if numbers is None:
-            values = [_tuple_of(value) for value in json.loads(text)]
+            values = (tuple(v) if isinstance(v, list) else v for v in json.loads(text))
             numbers = np.array([self.number(value) for value in values], dtype=np.int64)
             self._of_texts[text] = numbers
         return numbers
-
-
-def _tuple_of(value: Any) -> Any:
-    return tuple(map(_tuple_of, value)) if isinstance(value, list) else value
 
 
 @dataclass(frozen=True, slots=True)
