@@ -77,8 +77,10 @@ def test_check_says_that_a_sound_catalogue_is_sound(footfit: Footfit, stocked: P
 def test_check_lists_what_is_damaged_and_match_leaves_it_out(
     footfit: Footfit, catalogue: Path, foot: Path
 ) -> None:
+    whole = footfit("match", foot, "--catalogue", catalogue, "--json").document
+    name = whole["candidates"][0]["last"]
     with sqlite3.connect(catalogue) as connection:
-        name, key = connection.execute("SELECT name, id FROM last ORDER BY id").fetchone()
+        (key,) = connection.execute("SELECT id FROM last WHERE name = ?", (name,)).fetchone()
         connection.execute("UPDATE frame SET length_mm = 262.5 WHERE last_id = ?", (key,))
         connection.execute("UPDATE mesh_copy SET data = x'00' WHERE last_id = ?", (key + 1,))
     connection.close()
