@@ -46,6 +46,8 @@ class GradeSettings:
     edge, height : float
         What lies lower over the bottom keeps its height over it; heights come to their full change
         over a share of the other, as in `ChartSettings`.
+    small_rise_mm : float
+        If the cone rises by less, its height half-way makes no difference.
     settled_mm, rounds : float, int
         The search ends when no measure is farther from its target.
     free_bend, free_size : float, float
@@ -64,6 +66,7 @@ class GradeSettings:
     low: float = 0.4
     edge: float = 0.03
     height: float = 0.26
+    small_rise_mm: float = 1.0
     settled_mm: float = 0.003
     rounds: int = 12
     free_bend: float = 1.0
@@ -73,6 +76,13 @@ class GradeSettings:
 
 
 GRADE = GradeSettings()
+GRADE_SOLVER = replace(
+    SOLVER,
+    settled_mm=GRADE.settled_mm,
+    rounds=GRADE.rounds,
+    bend=GRADE.free_bend,
+    size=GRADE.free_size,
+)
 GRADE_CHART = replace(CHART, knots=43)
 """With so many knots that the curves meet what a length does in the shank of a high heel."""
 LENGTH, HEEL_GIRTH = "bottom_length", "heel_girth_instep"
@@ -113,8 +123,8 @@ def graded(shape: Shape, step: GradeStep) -> Shape:
         raise OutOfReach("its bottom is open at the heel or the ball: grade a whole last")
     grows = step.ratio >= 1.0
     first = _lengthened(shape, step) if grows else shape
-    chart, plane = _chart(first, step), chart_of(first).top
-    knobs, names = _knobs(chart, plane, step), list(step.targets_mm)
+    chart, top = _chart(first, step), _cone_mm(_chart(first, step), chart_of(first).top)
+    names = list(step.targets_mm)
     goals = [Goal(step.targets_mm[name], _probe(first, name)) for name in names]
 
     def finished(vertices_mm: Floats) -> Shape:
@@ -125,26 +135,29 @@ def graded(shape: Shape, step: GradeStep) -> Shape:
         last = finished(vertices_mm)
         return np.array([_value_mm(last, name) for name in names])
 
-    settings = replace(
-        SOLVER,
-        settled_mm=GRADE.settled_mm,
-        rounds=GRADE.rounds,
-        bend=GRADE.free_bend,
-        size=GRADE.free_size,
-    )
-    start = replace(Field.still(chart), even=True)
-    solved = solution(start, knobs, first.vertices_mm, goals, read, settings=settings)
-    miss = np.array([goal.target_mm for goal in goals]) - solved.values_mm
-    worst = int(np.argmax(np.abs(miss)))
-    if abs(miss[worst]) > GRADE.met_mm:
-        name, target = names[worst], step.targets_mm[names[worst]]
-        words = f"comes to {plain(target - miss[worst])} mm and not to {plain(target)} mm"
-        raise OutOfReach(f"the {name.replace('_', ' ')} {words}: take fewer sizes or another rule")
+    start, rise_mm = replace(Field.still(chart), even=True), 0.0
+    for _ in range(2):  # the second time at the height that the cone has half-way
+        knobs = _knobs(chart, top + 0.5 * rise_mm, step)
+        solved = solution(start, knobs, first.vertices_mm, goals, read, settings=GRADE_SOLVER)
+        rise_mm = _rise_mm(solved.field, top + 0.5 * rise_mm)
+        if abs(rise_mm) < GRADE.small_rise_mm:
+            break
+    _refuse_missed(step.targets_mm, solved.values_mm)
     least = least_determinant(solved.field, first.vertices_mm)
     if least < GRADE.determinant:
         words = f"only {plain(least, 2)} of its volume would be left somewhere"
         raise OutOfReach(f"the surface would come too near to a fold ({words}): take fewer sizes")
     return finished(solved.vertices_mm)
+
+
+def _refuse_missed(targets_mm: Mapping[str, float], values_mm: Floats) -> None:
+    """Raise OutOfReach for the target that is missed most, if one is."""
+    miss = np.array(list(targets_mm.values())) - values_mm
+    worst = int(np.argmax(np.abs(miss)))
+    if abs(miss[worst]) > GRADE.met_mm:
+        name, target = list(targets_mm.items())[worst]
+        words = f"comes to {plain(target - miss[worst])} mm and not to {plain(target)} mm"
+        raise OutOfReach(f"the {name.replace('_', ' ')} {words}: take fewer sizes or another rule")
 
 
 def _lengthened(shape: Shape, step: GradeStep) -> Shape:
@@ -182,12 +195,12 @@ def _curve(chart: Chart, values: Floats) -> Floats:
     return np.asarray(np.linalg.lstsq(chart.splines(chart.stations), values, rcond=None)[0])
 
 
-def _knobs(chart: Chart, plane: Plane | None, step: GradeStep) -> list[Knob]:
+def _knobs(chart: Chart, cone_mm: Floats, step: GradeStep) -> list[Knob]:
     """What the search may turn: the scales of widths and of heights, and the length a little."""
     places = {GRADE.instep: INSTEP, GRADE.waist: WAIST}
     planned = [at for at, name in places.items() if name in step.targets_mm]
     wide, high = _tents(chart, GRADE.widths), _tents(chart, [*planned, *GRADE.heights])
-    high[0] = high[0] * _level_rise(chart, plane)
+    high[0] = high[0] * _level_rise(chart, cone_mm)
     if HEEL_GIRTH in step.targets_mm:
         high = [*high, np.maximum(1.0 - chart.stations / GRADE.instep, 0.0)]
     arc_mm = chart.stations * chart.arc.length_mm
@@ -200,20 +213,33 @@ def _knobs(chart: Chart, plane: Plane | None, step: GradeStep) -> list[Knob]:
     ]
 
 
-def _level_rise(chart: Chart, plane: Plane | None) -> Floats:
-    """What the scale of heights behind the instep is times that at the instep, at the stations.
+def _cone_mm(chart: Chart, plane: Plane | None) -> Floats:
+    """How high the plane of the cone's top lies over the bottom, at the stations.
 
-    The plane of the cone's top, drawn on over the whole last, rises by the same everywhere. So it
-    stays a plane.
+    It is drawn on over the whole last. Of a last without such a plane it is one height.
     """
     if plane is None:
-        return np.ones(len(chart.stations))
+        return np.full(len(chart.stations), GRADE.height * chart.arc.length_mm)
     x, z = chart.arc.line.at(chart.stations * chart.arc.length_mm)
-    bottom = np.column_stack([x, chart.middle_mm, z])
-    height_mm = -plane.heights(bottom) / plane.normal[2]
+    height_mm = -plane.heights(np.column_stack([x, chart.middle_mm, z])) / plane.normal[2]
     instep_mm = float(np.interp(GRADE.instep, chart.stations, height_mm))
-    behind = instep_mm / np.maximum(height_mm, GRADE.low * instep_mm)
+    return np.asarray(np.maximum(height_mm, GRADE.low * instep_mm))
+
+
+def _level_rise(chart: Chart, cone_mm: Floats) -> Floats:
+    """What the scale of heights behind the instep is times that at the instep, at the stations.
+
+    The plane of the cone's top rises by the same everywhere, so that it stays a plane.
+    """
+    behind = np.interp(GRADE.instep, chart.stations, cone_mm) / cone_mm
     return np.where(chart.stations < GRADE.instep, behind, 1.0)
+
+
+def _rise_mm(field: Field, cone_mm: Floats) -> float:
+    """By how much a field raises the plane of the cone's top."""
+    chart = field.chart
+    scale = chart.splines(np.array([GRADE.widths[0]])) @ field.higher
+    return float(scale[0] * np.interp(GRADE.widths[0], chart.stations, cone_mm))
 
 
 def _tents(chart: Chart, at: Sequence[float]) -> list[Floats]:
