@@ -30,7 +30,7 @@ def graded_run_table(run: results.GradedRun) -> RenderableType:
     if worst is not None and worst.difference is not None:
         words = f"farthest from its plan: {worst.name.replace('_', ' ')}"
         parts.append(Text(f"{words}, {signed(worst.difference, 3)} mm", "dim"))
-    if run.mesh.error_mm:
+    if run.mesh.error_mm >= 0.005:  # what the line can show
         error = plain(run.mesh.error_mm, 2)
         words = f"made from the {run.mesh.kind} of the base, at most {error} mm from its scan"
         parts.append(Text(words, "yellow"))
