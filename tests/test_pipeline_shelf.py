@@ -24,6 +24,7 @@ from footfit.pipeline.fit.heel_model import heel_question
 from footfit.pipeline.fit.judging.judged_lasts import asked_of
 from footfit.pipeline.fit.match import Question, matched
 from footfit.pipeline.fit.worn_shifts import worn_with
+from footfit.pipeline.library.upgrade import upgrade
 from footfit.pipeline.shelf.candidates import choice, in_stock
 from footfit.results import Library, Measured, Profiled, Worn
 from tests import row_by_row
@@ -321,3 +322,17 @@ def blocks_of(path: Path) -> list[tuple[object, ...]]:
         blocks = "SELECT * FROM search_block ORDER BY block, part"
         seals = "SELECT id, record_sha256 FROM last ORDER BY id"
         return connection.execute(blocks).fetchall() + connection.execute(seals).fetchall()
+
+
+def test_an_upgrade_makes_wrong_blocks_anew_and_says_so(stocked: Path, tmp_path: Path) -> None:
+    path = tmp_path / "lasts.footfit"
+    path.write_bytes(stocked.read_bytes())
+    with open_catalogue(path, write=True) as catalogue:
+        catalogue.renew_blocks()  # of 8 lasts each
+    harmed(path, "UPDATE search_block SET hash = 'x' WHERE part = 'plan' AND block = 0")
+    shelf = choice(path, None, None)
+    assert shelf.lasts.bad == frozenset()  # type: ignore[attr-defined]
+    assert [notice.code for notice in upgrade(path).warnings] == ["blocks_renewed"]
+    assert upgrade(path).warnings == ()
+    with open_catalogue(path) as catalogue:
+        assert catalogue.findings() == []

@@ -12,6 +12,7 @@ from footfit.pipeline.batch.runs import HERE, outcomes
 from footfit.pipeline.library.lasts import has_other_measures
 from footfit.pipeline.library.measured_copy import MeasuredCopy, measured_copy, with_measured
 from footfit.results import LastRecord, MeshCopy, Notice, UpgradeOutcome
+from footfit.results.values import count_notice
 
 AT_A_TIME = 256
 """Mesh copies that are held in memory; each is 60 kB, or a few MB if the whole mesh is kept."""
@@ -51,7 +52,8 @@ def upgrade(path: Location, jobs: int = HERE) -> UpgradeOutcome:
         }
         for start in range(0, len(work), AT_A_TIME):
             failures |= dict(_renew(catalogue, work[start : start + AT_A_TIME], jobs))
-        revisions = catalogue.revisions
+        blocks, revisions = catalogue.renew_blocks(), catalogue.revisions
+    noun = "block was" if blocks == 1 else "blocks were"
     return UpgradeOutcome(
         path=str(path),
         revision_before=revisions.before,
@@ -60,7 +62,12 @@ def upgrade(path: Location, jobs: int = HERE) -> UpgradeOutcome:
         recomputed=tuple(name for name in names if name not in failures),
         backup=None if revisions.backup is None else str(revisions.backup),
         left=tuple(name for name in names if name in failures),
-        warnings=tuple(Notice("not_upgraded", words) for words in failures.values()),
+        warnings=(
+            *(Notice("not_upgraded", words) for words in failures.values()),
+            *count_notice(
+                "blocks_renewed", blocks, f"search {noun} made anew from the lasts' rows"
+            ),
+        ),
     )
 
 
