@@ -64,8 +64,14 @@ def mesh_changes(before, after, faces) -> dict[str, float]:
         "flipped": float((np.einsum("ij,ij->i", *normals) < 0.0).sum()),
         "aspect": float(worst[1] / worst[0]),
         "dihedral_deg": float(np.percentile(np.abs(angles[1] - angles[0]), 99.0)),
-        "intersections": float(self_intersections(after, faces)),
+        "intersections": float(_new_intersections(before, after, faces)),
     }
+
+
+def _new_intersections(before, after, faces) -> int:
+    """How often a surface cuts itself; 0 if it did before: nothing is known of its change then."""
+    count = self_intersections(after, faces)
+    return 0 if count and self_intersections(before, faces) else count
 
 
 def _normals(points, faces):
