@@ -177,6 +177,6 @@ def test_an_upgrade_names_the_lasts_that_it_leaves(older: Path) -> None:
     connection.close()
     outcome = upgrade(older)
     assert (outcome.recomputed, outcome.left) == (("last-1",), ("last-0",))
-    (notice,) = outcome.warnings
-    assert notice.code == "not_upgraded"
+    notice, blocks = outcome.warnings
+    assert (notice.code, blocks.code) == ("not_upgraded", "blocks_renewed")
     assert "'last-0' was stored without its mesh" in notice.message

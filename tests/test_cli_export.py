@@ -59,9 +59,9 @@ def test_the_deviation_is_said_and_nothing_is_cut_by_zero(export):
 
 def test_in_a_folder_the_labels_name_the_file(export, tmp_path):
     outcome = export("run/", "--json").document
-    assert outcome["output"].endswith("run/derby_EU40_G_right_h25_ts11_mm.stl")
+    assert outcome["output"].endswith("run/derby_EU40_G_right_h25_ts14_mm.stl")
     assert [path.name for path in (tmp_path / "run").iterdir()] == [
-        "derby_EU40_G_right_h25_ts11_mm.stl"
+        "derby_EU40_G_right_h25_ts14_mm.stl"
     ]
     assert export("run/").code == 2
     assert export("run/", "--force").code == 0

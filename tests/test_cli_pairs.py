@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import re
 import shutil
 from pathlib import Path
 
@@ -51,7 +52,7 @@ def test_each_customer_has_a_line_and_a_page(footfit: Footfit, shop: Path) -> No
     for name, page in pages.items():
         customer, other = ("Zoé", "bob") if name.startswith("Zoé") else ("bob", "Zoé")
         assert f">{customer}<" in page
-        assert other not in page
+        assert other not in re.sub(r"[A-Za-z0-9+/=]{200,}", "", page)  # not in coded meshes
     assert "2 feet have no other foot by name" in run.err
     assert [line for line in run.err.splitlines() if line.startswith("wrote")] == [
         *("wrote pages/Zoé.html", "wrote pages/Zoé-sheet.html"),
