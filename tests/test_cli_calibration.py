@@ -11,10 +11,12 @@ import pytest
 
 import footfit as library
 from footfit.catalogue.store import open_catalogue
-from footfit.pipeline.evidence.learned_profile import entries_of_csv, profile_text
+from footfit.pipeline.evidence.learned_profile import calibration, entries_of_csv, profile_text
 from footfit.pipeline.evidence.recording import definitions
 from footfit.pipeline.fit.fit_profile import fit_profile, profile_of, shipped
 from footfit.pipeline.fit.zones import ZONES
+from footfit.report.terminal.profile_tables import calibration_table
+from footfit.report.terminal.scan_tables import terminal_text
 from footfit.results import FitEntry, RatedZone, Worn
 from tests import fits
 from tests.conftest import Footfit
@@ -60,6 +62,20 @@ def test_a_profile_learns_and_is_read_again(footfit: Footfit, log: Path, tmp_pat
     assert rules["ball_girth"].grade == "A"
     assert "60 ratings of 60 wearers" in rules["ball_girth"].source
     assert rules["length"] == fit_profile("walking").zones[0]
+
+
+def test_the_table_says_the_log_loss_and_that_a_move_is_held_back() -> None:
+    """Wearers wish 25 mm more at the ball; the target follows by two prior standard deviations."""
+    made = []
+    for entry in entries(60):
+        (zone,) = entry.zones
+        made.append(replace(entry, zones=(replace(zone, clearance=zone.clearance + 20.0),)))
+    words = terminal_text(calibration_table(calibration(fit_profile("walking"), made)), 300)
+    assert "target is now +9.0, as far as it may move at once" in words
+    assert "log loss of held-out ratings" in words
+    near = terminal_text(calibration_table(calibration(fit_profile("walking"), entries(60))), 300)
+    assert "target is now" in near
+    assert "as far as it may move" not in near
 
 
 def test_the_picture_shows_the_ratings_before_and_after(

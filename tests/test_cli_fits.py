@@ -5,11 +5,13 @@ from __future__ import annotations
 import csv
 import io
 import json
+import math
 from pathlib import Path
 
 import pytest
 
 from footfit.catalogue.store import open_catalogue
+from footfit.pipeline.evidence.learned_profile import entries_of_csv
 from footfit.pipeline.evidence.recording import definitions
 from footfit.pipeline.evidence.zone_ratings import log_ratings
 from tests.conftest import Footfit
@@ -45,6 +47,27 @@ def test_a_recorded_entry_teaches_its_zones(footfit: Footfit, catalogue: Path, f
         log = log_ratings(entries, "walking", definitions())
     assert set(log.zones) >= {"length", "ball_girth", "ball_width"}
     assert log.left_out == {}
+
+
+def test_a_sock_is_taken_off_what_a_rating_teaches(
+    footfit: Footfit, catalogue: Path, foot: Path, tmp_path: Path
+) -> None:
+    """Else a profile would learn the sock, and a match would add it again."""
+    table, place = tmp_path / "fits.csv", ("--catalogue", catalogue)
+    assert footfit("record-fit", "derby-41", foot, *GIVEN, *place).code == 0
+    worn = ("--sock", 2, "--insole", 1, "--load", "air", "--time", "morning")
+    assert footfit("record-fit", "derby-41", foot, *GIVEN, *worn, *place).code == 0
+    assert footfit("list-fits", "--csv", table, *place).code == 0
+    with open_catalogue(catalogue) as opened:
+        entries = opened.fit_log.entries()
+    bare, socked = ({zone.zone: zone for zone in entry.zones} for entry in entries)
+    girth = socked["ball_girth"].asked_more
+    assert girth > 2.0 * math.pi * 2.0 + 1.75  # and 3 % of the foot's girth
+    assert bare["ball_girth"].asked_more == 0.0
+    assert socked["ball_girth"].clearance == bare["ball_girth"].clearance
+    for known in (entries, entries_of_csv(table)):
+        rooms = log_ratings(known, "walking", definitions()).zones["ball_girth"].clearance_mm
+        assert rooms[0] - rooms[1] == pytest.approx(girth, abs=1e-6)
 
 
 def test_nothing_of_the_file_is_kept(footfit: Footfit, catalogue: Path, foot: Path) -> None:

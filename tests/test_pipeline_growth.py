@@ -36,6 +36,7 @@ def test_girls_stop_a_year_before_boys() -> None:
 @given(room=st.floats(0.0, 30.0), rate=st.floats(0.4, 2.2))
 def test_months_are_the_room_beyond_nine_millimetres(room: float, rate: float) -> None:
     low, high = month_range(room - RULE.kept_mm, rate, rate)
+    assert high is not None
     assert 0.0 <= low <= high
     middle = (room - RULE.kept_mm) / rate
     if middle > 0.0:
@@ -52,19 +53,33 @@ def test_a_known_age_gives_a_narrower_range(room: float, length: float) -> None:
     wide = month_range(room, growth_rate(high, None), growth_rate(low, None))
     narrow = month_range(room, growth_rate(middle, None), growth_rate(middle, None))
     assert wide[0] <= narrow[0] + 1e-9
+    assert narrow[1] is not None
+    assert wide[1] is not None
     assert wide[1] >= narrow[1] - 1e-9
 
 
 @pytest.mark.parametrize(
     ("months", "words"),
-    [((2.2, 7.3), "2 to 7 months"), (None, "hardly grow"), ((0.0, 0.0), "leaves none to grow")],
+    [
+        ((2.2, 7.3), "2 to 7 months"),
+        ((6.9, None), "for 7 months or more"),
+        (None, "hardly grow"),
+        ((0.0, 0.0), "leaves none to grow"),
+    ],
 )
 def test_the_sentence_says_the_range_and_when_to_measure(
-    months: tuple[float, float] | None, words: str
+    months: tuple[float, float | None] | None, words: str
 ) -> None:
     check = None if months is None else months[0] / 2.0
     growth = Growth("a", 14.0, 9.0, months, check, (1.0, 1.0), (5.0, 5.0), None, "an age of 5")
     assert words in growth.words
+
+
+def test_a_foot_that_may_have_stopped_to_grow_has_no_last_month() -> None:
+    low, high = month_range(5.6, 0.0, 0.4)
+    assert low == month_range(5.6, 0.4, 0.4)[0]
+    assert high is None
+    assert month_range(-1.0, 0.0, 0.4) == (0.0, 0.0)
 
 
 def test_age_and_sex_go_with_growth() -> None:

@@ -171,6 +171,13 @@ def test_the_measures_stay_and_what_is_asked_moves(
     assert "worn_with" not in [warning["code"] for warning in bare["warnings"]]
 
 
+def test_the_line_says_load_and_time_in_one_phrase() -> None:
+    assert Worn(time="morning").words == "a foot scanned in the morning"
+    assert Worn(sock_mm=2.0, load="air", time="evening").words == (
+        "a sock of 2.0 mm, a foot scanned without load in the evening"
+    )
+
+
 def test_unknown_load_widens_the_total_and_not_the_spread(
     footfit: Footfit, foot: Path, catalogue: Path
 ) -> None:

@@ -49,10 +49,10 @@ class Worn(Part):
             said.append(f"an insole of {plain(self.insole_mm)} mm")
         if self.heel_lift_mm:
             said.append(f"a heel lift of {plain(self.heel_lift_mm)} mm")
-        if self.load:
-            said.append(f"a foot scanned {LOAD_WORDS[self.load]}")
-        if self.time:
-            said.append(f"scanned in the {self.time}")
+        how = [LOAD_WORDS[self.load]] if self.load else []
+        how += [f"in the {self.time}"] if self.time else []
+        if how:
+            said.append(f"a foot scanned {' '.join(how)}")
         return ", ".join(said) or None
 
 

@@ -128,17 +128,22 @@ def growth_rate(age_years: float, sex: Sex | None) -> float:
     return next((rate for years, rate in RULE.rates if age_years <= years), RULE.last_rate)
 
 
-def month_range(spare_mm: float, slow: float, fast: float) -> tuple[float, float]:
+def month_range(spare_mm: float, slow: float, fast: float) -> tuple[float, float | None]:
     """For how many months the room to grow will do: one standard deviation to either side.
+
+    Nothing ends the range where the foot may not grow at all.
 
     Examples
     --------
     >>> [round(month, 1) for month in month_range(5.0, 1.05, 1.05)]
     [2.2, 7.3]
+    >>> month_range(5.0, 0.0, 0.4)[1]
     """
-    ends = [_months(spare_mm, rate) for rate in (fast, slow) if rate > 0.0]
-    low, high = ends[0], ends[-1]
-    return max(low[0] - low[1], 0.0), max(high[0] + high[1], 0.0) if high[0] > 0.0 else 0.0
+    least, sd = _months(spare_mm, fast)
+    low = max(least - sd, 0.0)
+    if spare_mm <= 0.0:
+        return low, 0.0
+    return low, sum(_months(spare_mm, slow)) if slow > 0.0 else None
 
 
 def _months(spare_mm: float, rate: float) -> tuple[float, float]:

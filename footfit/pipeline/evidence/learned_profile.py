@@ -144,6 +144,7 @@ def _rated_zone(row: CsvRow) -> RatedZone:
         clearance=row.number("clearance"),
         sd=row.number("sd"),
         definition=values.get("definition", ""),
+        asked_more=row.number("asked_more", "0"),
     )
 
 

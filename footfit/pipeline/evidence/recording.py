@@ -109,6 +109,7 @@ def fit_entry(
             clearance=zone.clearance.value,
             sd=zone.clearance.sd or 0.0,
             definition=known.get(zone.zone, ""),
+            asked_more=asked.shifts[0][zone.zone].more,
         )
         for zone in fit.zones
         if zone.clearance.value is not None

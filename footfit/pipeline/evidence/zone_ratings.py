@@ -50,7 +50,8 @@ def log_ratings(
     """The ratings of each zone by entries that can be compared.
 
     Entries of another profile are left out. So is a zone whose measure had another definition than
-    ``definitions`` has for it, or none.
+    ``definitions`` has for it, or none. What was worn is taken off the clearances: a profile asks
+    for a clearance without it, and a match adds what is worn.
     """
     rows: dict[str, list[tuple[float, float, int, str]]] = defaultdict(list)
     left_out: Counter[str] = Counter()
@@ -67,7 +68,8 @@ def log_ratings(
             for name in PLACES.get(place, ()):
                 zone = zones.get(name)
                 if zone is not None and zone.definition == definitions.get(name):
-                    rows[name].append((zone.clearance, zone.sd**2, rating, entry.wearer_key))
+                    room = zone.clearance - zone.asked_more
+                    rows[name].append((room, zone.sd**2, rating, entry.wearer_key))
                     known += 1
         if not known:
             left_out["of other definitions, or not measured where it was rated"] += 1

@@ -1,9 +1,10 @@
 """How socks, insoles, load and time of day shift what is asked of a clearance.
 
 They never rewrite the foot's measures. A sock of the thickness t needs 2 pi t of girth, exactly for
-a convex section, and 2 t of width, length and height. An insole needs 1.75 t of girth (between 1.5
-for upright walls and 2 for walls that lean in) and t of height. Load and time of day are shares of
-the foot's own measure; they bring it to a foot that stands on both feet in the evening.
+a convex section, and 2 t of width, length and height. An insole needs 1.75 t of girth (between 2
+for upright walls and 1.5 for walls that lean outward from the sole) and t of height. Load and time
+of day are shares of the foot's own measure; they bring it to a foot that stands on both feet in the
+evening.
 """
 
 from __future__ import annotations

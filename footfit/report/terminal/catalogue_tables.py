@@ -354,7 +354,8 @@ def backup_catalogue_line(outcome: results.BackupOutcome) -> Text:
 def copy_catalogue_line(outcome: results.CopyOutcome) -> Text:
     """Where the copy is, and what it holds."""
     line = Text("copied  ").append(visible(outcome.path), "bold")
-    words = f"{outcome.lasts} lasts, {outcome.fits} entries of the fit log, checked"
+    entries = "entry" if outcome.fits == 1 else "entries"
+    words = f"{outcome.lasts} lasts, {outcome.fits} {entries} of the fit log, checked"
     return line.append(f" to {visible(outcome.copy)}  {words}", "not bold")
 
 

@@ -11,6 +11,8 @@ from footfit.report.terminal.scan_tables import cell, lined_table
 from footfit.report.wording.text import visible
 from footfit.results.fit import GRADES, ZONE_LABELS
 
+TENTH_MM = 0.1  # a profile is written in tenths
+
 
 def list_profiles_table(listed: results.ProfileList) -> RenderableType:
     """One line for each profile."""
@@ -66,11 +68,32 @@ def calibration_table(learned: results.Calibration) -> RenderableType:
             signed(zone.before.target),
             learnt,
             f"{good}, now {range_words(zone.after.good)}" if changed else good,
-            f"target is now {signed(zone.after.target)}" if changed else f"kept: {zone.reason}",
+            f"{_move_words(zone) if changed else f'kept: {zone.reason}'}{loss_words(zone.losses)}",
         )
     notes = [f"{count} entries {why} are left out" for why, count in learned.left_out.items()]
     closing = "all in mm, last minus foot; the interval holds the target with 95 %"
     return Group(table, *(Text(note, "yellow") for note in notes), Text(closing, "dim"))
+
+
+def _move_words(zone: results.ZoneEvidence) -> str:
+    """The new target; and that it may not move further, where the ratings ask for more."""
+    words = f"target is now {signed(zone.after.target)}"
+    held = zone.target_mm is not None and abs(zone.target_mm - zone.after.target) > TENTH_MM
+    return f"{words}, as far as it may move at once" if held else words
+
+
+def loss_words(losses: tuple[float, float] | None) -> str:
+    """The mean log loss of ratings that were held out, less is better.
+
+    Examples
+    --------
+    >>> loss_words((1.404, 1.25)), loss_words(None)
+    ('; log loss of held-out ratings 1.250, by the profile 1.404', '')
+    """
+    if losses is None:
+        return ""
+    before, after = losses
+    return f"; log loss of held-out ratings {after:.3f}, by the profile {before:.3f}"
 
 
 def range_words(ends: tuple[float, float]) -> str:
@@ -87,6 +110,7 @@ def range_words(ends: tuple[float, float]) -> str:
 def check_profile_line(checked: results.CheckedProfile) -> RenderableType:
     """The profile is sound, and which zones name no source."""
     count = len(checked.zones)
-    words = f"{visible(checked.path)}: a sound fit profile {visible(checked.name)!r}, {count} zones"
+    zones = f"{count} zone" if count == 1 else f"{count} zones"
+    words = f"{visible(checked.path)}: a sound fit profile {visible(checked.name)!r}, {zones}"
     lacking = ", ".join(ZONE_LABELS[zone] for zone in checked.without_source)
     return Text(f"{words}; no source is given for {lacking}" if lacking else words)

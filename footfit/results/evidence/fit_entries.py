@@ -15,7 +15,8 @@ Outcome = Literal["kept", "returned", "altered"]
 class RatedZone(Part):
     """One zone as the match had it: the clearance with its standard deviation, both in ``unit``.
 
-    ``definition`` is that of the measure; entries of another one cannot be compared.
+    ``definition`` is that of the measure; entries of another one cannot be compared. ``asked_more``
+    is by how much more was asked of the zone because of a sock, an insole, the load or the time.
     """
 
     zone: str
@@ -23,6 +24,7 @@ class RatedZone(Part):
     clearance: float
     sd: float
     definition: str
+    asked_more: float = 0.0
 
     not_written = ("zone",)
 
@@ -84,7 +86,7 @@ OF_ENTRY = (
     *("profile", "profile_version", "profile_sha256", "footfit_version"),
     *("comfort", "outcome", "alteration", "hours", "days"),
 )
-OF_ZONE = ("place", "rating", "zone", "unit", "clearance", "sd", "definition")
+OF_ZONE = ("place", "rating", "zone", "unit", "clearance", "sd", "definition", "asked_more")
 
 
 @dataclass(frozen=True, slots=True)
@@ -130,11 +132,11 @@ def _zone_rows(entry: FitEntry) -> list[tuple[object, ...]]:
     for zone in entry.zones:
         place = place_of.get(zone.zone)
         rating = None if place is None else entry.ratings.get(place)
-        values = (zone.zone, zone.unit, zone.clearance, zone.sd, zone.definition)
+        values = (zone.zone, zone.unit, zone.clearance, zone.sd, zone.definition, zone.asked_more)
         rows.append((None if rating is None else place, rating, *values))
     shown = {row[0] for row in rows}
     rows += [
-        (place, rating, None, None, None, None, None)
+        (place, rating, *(None,) * (len(OF_ZONE) - 2))
         for place, rating in entry.ratings.items()
         if place not in shown
     ]
