@@ -196,3 +196,11 @@ def test_a_heel_lift_adds_to_the_drop(footfit: Footfit, foot: Path, catalogue: P
     for last in lifted["candidates"]:
         if last["last"] in drops:
             assert last["fits"][0]["heel"]["drop_mm"] == pytest.approx(drops[last["last"]] + 10.0)
+
+
+def test_an_insole_leaves_open_how_the_walls_lean() -> None:
+    """It takes 1.5 to 2 times its thickness of girth, and no width."""
+    plain, insole = (Worn(insole_mm=each, load="half", time="evening") for each in (None, 3.0))
+    assert zone_shift("ball_girth", 240.0, plain).sd == 0.0
+    assert zone_shift("ball_girth", 240.0, insole).sd == pytest.approx(3.0 * 0.25 / 3.0**0.5)
+    assert zone_shift("ball_width", 95.0, insole).sd == 0.0

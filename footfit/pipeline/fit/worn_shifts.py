@@ -27,7 +27,8 @@ KINDS = {
     "toes": "wall",
 }
 """What each zone measures, where something that is worn or a load changes it."""
-INSOLE_GIRTH = 1.75
+INSOLE_GIRTH = (1.75, 0.25 / math.sqrt(3.0))
+"""How much girth an insole takes over its thickness, and its standard deviation: 1.5 to 2."""
 LARGEST_MM = {"sock_mm": 10.0, "insole_mm": 15.0, "heel_lift_mm": 40.0, "scanned_in_sock_mm": 10.0}
 
 
@@ -87,17 +88,18 @@ def zone_shift(zone: str, foot_mm: float | None, worn: Worn) -> Shift:
     thickness_mm = {
         **dict.fromkeys(("length", "width", "heel_width"), 2.0 * sock),
         "height": 2.0 * sock + insole,
-        "girth": 2.0 * math.pi * sock + INSOLE_GIRTH * insole,
+        "girth": 2.0 * math.pi * sock + INSOLE_GIRTH[0] * insole,
         "wall": sock,
     }
     kind = KINDS.get(zone, "")
     thickness = thickness_mm.get(kind, 0.0)
+    insole_sd = INSOLE_GIRTH[1] * insole if kind == "girth" else 0.0
     if foot_mm is None:
-        return Shift(thickness)
+        return Shift(thickness, insole_sd)
     loaded = _load_change(kind, worn.load)
     day = MORNING_GIRTH if kind == "girth" and worn.time != "evening" else (0.0, 0.0)
     grown = day[0] if worn.time == "morning" else 0.0
-    sd = foot_mm * math.hypot(loaded[1], day[1])
+    sd = math.hypot(foot_mm * math.hypot(loaded[1], day[1]), insole_sd)
     return Shift(thickness + foot_mm * (loaded[0] + grown), sd)
 
 
