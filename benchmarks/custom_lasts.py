@@ -178,7 +178,7 @@ def _moved_by_equal_targets(pair: Pair) -> float:
     aims = tuple(
         replace(aim, target=aim.base) for aim in custom_aims(pair.foot, pair.base, pair.question)
     )
-    start = first_field(pair.base, 0.0, {}, bottom_kept=False)
+    start = first_field(pair.base, 0.0, bottom_kept=False)
     moved = custom_shape(pair.base, aims, start, np.zeros(len(aims))).vertices_mm
     return float(np.abs(moved - pair.base.shape.vertices_mm).max())
 

@@ -234,6 +234,10 @@ def test_sizes_are_whole_halves_and_thirds() -> None:
         grading_rule("jis"), SYSTEMS["mondopoint"], ("250", "EE"), ("250:260", "E,EEE"), None
     )
     assert {(each.width, each.widths) for each in japanese.fittings} == {("E", -1.0), ("EEE", 1.0)}
+    with pytest.raises(BadOption, match="and not Z: take one of them"):
+        grade_plan(
+            grading_rule("jis"), SYSTEMS["mondopoint"], ("250", "EE"), ("250", "EEE,Z"), None
+        )
 
 
 def test_the_table_shows_every_measure_of_every_last(tmp_path: Path) -> None:

@@ -172,6 +172,14 @@ def test_names_say_sizes() -> None:
         width_numbers(["narrow", "wide"])
 
 
+def test_a_last_that_is_compared_with_no_other_is_said() -> None:
+    left = replace(last(41.0, 245.0), side="left")
+    checked = run_check([*run(230.0, 235.0, 240.0), left], TOLERANCE_MM)
+    assert checked.broken == ()
+    (note,) = checked.warnings
+    assert (note.code, "'derby-41' (left, size 41)" in note.message) == ("last_not_compared", True)
+
+
 def test_files_and_families_are_checked(footfit: Footfit, tmp_path: Path) -> None:
     vertices, faces = last_mesh(LastSpec(flare_deg=6.0, rings=60, segments=48))
     folder, catalogue = tmp_path / "run", tmp_path / "lasts.footfit"

@@ -123,11 +123,11 @@ def customise(
     ]
     if store is not None:
         made = stored(made, store, lasts, force=force)
-    for custom in made:
-        tell(custom, mode)
-    for path, data in contents:
+    for path, data in contents:  # before the answer, whose reader may be gone
         write_output(path, data, force=force)
     say_written([path for path, _ in contents], quiet=mode.quiet)
+    for custom in made:
+        tell(custom, mode)
 
 
 def placed(

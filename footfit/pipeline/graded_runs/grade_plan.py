@@ -169,6 +169,12 @@ def _widths(text: str | None, base: str | None, rule: GradingRule) -> dict[str |
     asked = [part.strip() for part in re.split("[;,]", text) if part.strip()]
     if base is None or not asked:
         raise BadOption("the width of the base is not known: add --base-width, such as F")
+    listed = {width.casefold() for width in rule.widths}
+    if listed and (other := [name for name in (*asked, base) if name.casefold() not in listed]):
+        words = (
+            f"the rule {rule.name!r} has the widths {', '.join(rule.widths)}, and not {other[0]}"
+        )
+        raise BadOption(f"{words}: take one of them, or another rule")
     numbers = width_numbers([*asked, base], rule.widths)
     if not rule.width and any(numbers[width] != numbers[base] for width in asked):
         raise BadOption(f"the rule {rule.name!r} has no [width] table: leave out --widths")

@@ -97,7 +97,7 @@ def run_check(
         lasts=tuple(sorted(lasts, key=lambda last: (last.size_number, last.width or ""))),
         laws=laws,
         steps=tuple(_steps(known, by_kind, tolerance_mm)),
-        warnings=(*warnings, *_lacking(lasts)),
+        warnings=(*warnings, *_lacking(lasts), *_alone(lasts, lines)),
     )
 
 
@@ -234,4 +234,18 @@ def _lacking(lasts: Sequence[RunLast]) -> tuple[Notice, ...]:
         )
         for name, count in counts.items()
         if 0 < count < len(lasts)
+    )
+
+
+def _alone(lasts: Sequence[RunLast], lines: Sequence[Line]) -> tuple[Notice, ...]:
+    """A warning for each last that is compared with no other one."""
+    compared = {last.last for line in lines if len(line.lasts) > 1 for last in line.lasts}
+    return tuple(
+        Notice(
+            "last_not_compared",
+            f"{last.last!r} ({last.side or 'of no known side'}, size {last.size}) is not checked:"
+            " no other last has its side and its width, or its side and its size",
+        )
+        for last in lasts
+        if last.last not in compared
     )

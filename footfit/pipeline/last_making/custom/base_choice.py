@@ -86,7 +86,8 @@ def customised_from(
         return customised(foot, base, making, side)
     except OutOfReach as error:
         better = None if path is None else _better_base(foot, path, making, base.name)
-        words = f"; use --base {better}" if better else ""
+        lower = "; try a lower --flare-follow" if making.question.flare_follow else ""
+        words = f"; use --base {better}" if better else lower
         raise OutOfReach(f"{error.message}{words}", base.name) from error
 
 

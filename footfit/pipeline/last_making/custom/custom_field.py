@@ -28,6 +28,7 @@ from footfit.pipeline.last_making.custom.custom_reading import (
     value_mm,
     values_mm,
 )
+from footfit.results import CustomZone, Notice
 
 
 @dataclass(frozen=True, slots=True)
@@ -132,13 +133,11 @@ def room_bumps(base: Shape, chart: Chart, rooms_mm: Mapping[str, float]) -> tupl
 class CustomShape:
     """A base as a field has changed it: vertices (n, 3) of the right shape in the base's frame.
 
-    ``before_room`` are the aims' measures before room was given, ``least_determinant`` is of the
-    field with its room.
+    ``solved`` is without the room for single places; ``least_determinant`` is with it.
     """
 
     solved: Solution
     vertices_mm: Floats
-    before_room: Floats
     least_determinant: float
 
 
@@ -155,7 +154,7 @@ def custom_shape(
     base : BaseLast
     aims : sequence of CustomAim
     start : Field
-        The turn of the flare, and the room for single places, which is given at the end.
+        The turn of the flare.
     shifts_mm : (aims,)
         What is added to the targets, because the finished last reads otherwise.
 
@@ -166,7 +165,6 @@ def custom_shape(
     """
     chart, shape = start.chart, base.shape
     _refuse_far(aims, chart)
-    plain_start = replace(start, bumps=())
     lengthen = _pattern(chart, CUSTOM.shank)
     at = chart.centres()
     inner = np.flatnonzero((at > CUSTOM.free[0]) & (at < CUSTOM.free[1]))
@@ -175,43 +173,57 @@ def custom_shape(
     knobs.append(Knob("ahead", _pattern(chart, CUSTOM.forepart), FREE_MM))
     carried = Carried(shape)
     read = partial(values_mm, carried=carried, aims=aims, base=base)
-    turned = carried.shape(plain_start.moved_points(shape.vertices_mm))
+    turned = carried.shape(start.moved_points(shape.vertices_mm))
     goals = [
         _goal(aim, turned, value_mm(shape, aim.measure, base), shift)
         for aim, shift in zip(aims, shifts_mm.tolist(), strict=True)
     ]
-    solved = solution(plain_start, knobs, shape.vertices_mm, goals, read, _costs(chart, knobs))
-    _refuse_missed(aims, goals, solved.values_mm)
+    solved = solution(start, knobs, shape.vertices_mm, goals, read, _costs(chart, knobs))
+    _refuse_missed(aims, np.array([goal.target_mm for goal in goals]), solved.values_mm)
     _refuse_stretched(aims, solved.field)
-    field = replace(solved.field, bumps=start.bumps)
-    moved = field.moved_points(shape.vertices_mm) if start.bumps else solved.vertices_mm
-    least = least_determinant(field, shape.vertices_mm)
+    return CustomShape(solved, solved.vertices_mm, _volume_left(base, aims, solved.field))
+
+
+def with_room(
+    base: BaseLast, aims: Sequence[CustomAim], shape: CustomShape, bumps: Sequence[Bump]
+) -> CustomShape:
+    """A changed base, with room for single places on top.
+
+    Raises
+    ------
+    OutOfReach
+        The last would fold.
+    """
+    field = replace(shape.solved.field, bumps=tuple(bumps))
+    moved = field.moved_points(base.shape.vertices_mm)
+    return CustomShape(shape.solved, moved, _volume_left(base, aims, field))
+
+
+def _volume_left(base: BaseLast, aims: Sequence[CustomAim], field: Field) -> float:
+    """The least determinant of a field; OutOfReach if it comes too near to a fold."""
+    least = least_determinant(field, base.shape.vertices_mm)
     if least < CUSTOM.determinant:
         words = (
             f"the surface would come too near to a fold ({plain(least, 2)} of its volume is left)"
         )
         raise OutOfReach(f"{_worst_words(aims)}: {words}")
-    return CustomShape(solved, moved, solved.values_mm, least)
+    return least
 
 
-def first_field(
-    base: BaseLast, turn_deg: float, rooms_mm: Mapping[str, float], *, bottom_kept: bool
-) -> Field:
-    """The field that a search begins with: the turn of the flare, and room for single places.
+def first_field(base: BaseLast, turn_deg: float, *, bottom_kept: bool) -> Field:
+    """The field that a search begins with: the turn of the flare.
 
     Raises
     ------
     OutOfReach
         The base's bottom is open, so nothing is known of how it stands.
-    BadOption
-        As `room_bumps`.
     """
     if base.shape.bottom_arc is None:
         raise OutOfReach("the base's bottom is open at the heel or the ball: take another base")
     chart = chart_of(base.shape)
     still = Field.still(chart, bottom_kept=bottom_kept)
     turned = np.radians(turn_deg) * _pattern(chart, CUSTOM.bend)
-    return replace(still, turned=turned, bumps=room_bumps(base.shape, chart, rooms_mm))
+    return replace(still, turned=turned)
 
 
 def _pattern(chart: Chart, window: tuple[float, float]) -> Floats:
@@ -258,17 +270,30 @@ def _refuse_far(aims: Sequence[CustomAim], chart: Chart) -> None:
             raise OutOfReach(f"the {aim.words} is out of reach of this base: {words}")
 
 
-def _refuse_missed(aims: Sequence[CustomAim], goals: Sequence[Goal], values: Floats) -> None:
-    """Raise OutOfReach for the firm aim that is missed most, if one is."""
-    miss = [
-        abs(goal.target_mm - value) if goal.firm else 0.0
-        for goal, value in zip(goals, values, strict=True)
-    ]
-    worst = int(np.argmax(miss)) if miss else 0
-    if not miss or miss[worst] <= CUSTOM.met_mm:
+def _refuse_missed(aims: Sequence[CustomAim], asked_mm: Floats, values_mm: Floats) -> None:
+    """Raise OutOfReach for the firm aim that is missed most, if one is; both are (aims,)."""
+    firm = np.array([aim.firm for aim in aims])
+    miss = np.where(firm, np.abs(asked_mm - values_mm), 0.0)
+    worst = int(np.argmax(miss))
+    if miss[worst] <= CUSTOM.met_mm:
         return
-    words = f"it comes to {plain(float(values[worst]))} mm, not {plain(goals[worst].target_mm)} mm"
+    words = (
+        f"it comes to {plain(float(values_mm[worst]))} mm, not {plain(float(asked_mm[worst]))} mm"
+    )
     raise OutOfReach(f"the {aims[worst].words} is out of reach of this base: {words}")
+
+
+def missed(zones: Sequence[CustomZone]) -> tuple[Notice, ...]:
+    """A warning for each target that the finished last, which is read again, misses."""
+    return tuple(
+        Notice(
+            "target_missed",
+            f"the {zone.name.replace('_', ' ')} comes to {plain(zone.reached)} mm, not"
+            f" {plain(zone.target)} mm: choose a lower --flare-follow, or another base",
+        )
+        for zone in zones
+        if abs(zone.reached - zone.target) > CUSTOM.met_mm
+    )
 
 
 def _refuse_stretched(aims: Sequence[CustomAim], field: Field) -> None:

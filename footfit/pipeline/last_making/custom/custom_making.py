@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from contextlib import nullcontext, suppress
 from dataclasses import dataclass, field, replace
 
 import numpy as np
@@ -31,8 +32,11 @@ from footfit.pipeline.last_making.custom.custom_field import (
     CustomShape,
     custom_shape,
     first_field,
+    missed,
+    room_bumps,
+    with_room,
 )
-from footfit.pipeline.last_making.custom.custom_reading import tape_plane, value_mm
+from footfit.pipeline.last_making.custom.custom_reading import aims_read, tape_plane, value_mm
 from footfit.pipeline.scan.align import aligned_scan
 from footfit.pipeline.scan.flare import profiled_scan
 from footfit.pipeline.scan.kept_sections import kept_sections
@@ -43,8 +47,8 @@ from footfit.pipeline.scan.standing import stance_labels
 from footfit.results import LastLabels, Parentage, Profiled, SideName, Target
 from footfit.results.last_making.custom_last import CustomLast
 
-SETTLED_MM = 0.1
-"""The finished last is made again if it reads so far from a target."""
+SETTLED_MM = (0.1, CUSTOM.met_mm, CUSTOM.met_mm, CUSTOM.met_mm)
+"""The finished last is made again if it reads so far from a target: by the tries before."""
 TOE_FROM = 0.93
 BACK_TO, BACK_WIDTH_MM = 0.10, 6.0
 """The back curve runs along the middle of what lies behind this share of the arc."""
@@ -127,29 +131,36 @@ def _made_to(
     """The base, changed to these aims."""
     own: SideName = foot.aligned.alignment.side.side or "right"
     turn_deg = _flare_turn_deg(foot, base, making)
-    start = first_field(base, turn_deg, making.rooms_mm, bottom_kept=making.question.bottom_kept)
+    start = first_field(base, turn_deg, bottom_kept=making.question.bottom_kept)
+    bumps = room_bumps(base.shape, start.chart, making.rooms_mm)
     shifts = room = np.zeros(len(aims))
     made_side = side or own
     firm = np.array([aim.firm for aim in aims])
-    for _ in range(2):
-        shape = custom_shape(base, aims, start, shifts)
-        made = made_last(base, shape.vertices_mm, made_side, making.name)
-        reached = np.array([value_mm(made.shape, aim.measure, base) for aim in aims])
-        off = np.where(firm, reached - _asked(base, aims, shape), 0.0)
-        if start.bumps:  # room is given on top of the targets, which are met without it
-            room, off = off, np.zeros(len(aims))
-        if np.abs(off).max(initial=0.0) <= SETTLED_MM:
+    tries: list[tuple[float, CustomShape, MadeLast, Floats]] = []
+    for settled_mm in SETTLED_MM:
+        with suppress(OutOfReach) if tries else nullcontext():
+            shape = custom_shape(base, aims, start, shifts)
+            made = made_last(base, shape.vertices_mm, made_side, making.name)
+            reached = aims_read(made.shape, aims, base)
+            off = np.where(firm, reached - _asked(base, aims, shape), 0.0)
+            tries.append((float(np.abs(off).max()), shape, made, reached))
+            shifts = shifts - off
+        if tries[-1][0] <= settled_mm:
             break
-        shifts = shifts - off
+    _, shape, made, reached = min(tries, key=lambda each: each[0])
+    if bumps:  # room is given on top of the targets, which are met without it
+        shape = with_room(base, aims, shape, bumps)
+        made = made_last(base, shape.vertices_mm, made_side, making.name)
+        room = np.where(firm, aims_read(made.shape, aims, base) - reached, 0.0)
     attempt = Attempt(aims, shape, made, room, turn_deg, made_side != own)
     return _answer(foot, base, making, attempt)
 
 
 def _asked(base: BaseLast, aims: Sequence[CustomAim], shape: CustomShape) -> Floats:
     """What each aim should read; one that only follows, what it came to."""
-    own = np.array([value_mm(base.shape, aim.measure, base) for aim in aims])
+    own = aims_read(base.shape, aims, base)
     firm = np.array([aim.target - aim.base for aim in aims]) + own
-    return np.where([aim.firm for aim in aims], firm, shape.before_room)
+    return np.where([aim.firm for aim in aims], firm, shape.solved.values_mm)
 
 
 def _flare_turn_deg(foot: Profiled, base: BaseLast, making: Making) -> float:
@@ -232,7 +243,7 @@ def _answer(foot: Profiled, base: BaseLast, making: Making, attempt: Attempt) ->
         flare_turn_deg=attempt.turn_deg,
         largest_move_mm=float(np.linalg.norm(shift, axis=1).max()),
         least_determinant=shape.least_determinant,
-        warnings=_notices(base, after),
+        warnings=(*missed(zones), *_notices(base, after, bottom_kept=question.bottom_kept)),
         record=made.record,
         sections=sections,
         parentage=_parentage(foot, base, making, zones),
@@ -343,7 +354,9 @@ def _not_rigid(before: Floats, after: Floats) -> Floats:
     return np.asarray(np.linalg.norm(start @ left @ right - end, axis=1))
 
 
-def _notices(base: BaseLast, after: results.FootFit) -> tuple[results.Notice, ...]:
+def _notices(
+    base: BaseLast, after: results.FootFit, *, bottom_kept: bool
+) -> tuple[results.Notice, ...]:
     """What should be known of a custom last: its base's mesh, and zones that are not good."""
     notices = []
     if base.mesh.kind == "light copy":
@@ -354,7 +367,8 @@ def _notices(base: BaseLast, after: results.FootFit) -> tuple[results.Notice, ..
         notices.append(results.Notice("light_copy", words))
     poor = [z.label for z in after.zones if z.verdict is not None and z.verdict != "good"]
     if poor:
-        words = f"not good in {', '.join(poor)}: a custom last keeps its base's toe, flare and top"
+        kept = "toe, flare, top and bottom outline" if bottom_kept else "toe, flare and top"
+        words = f"not good in {', '.join(poor)}: a custom last keeps its base's {kept}"
         notices.append(results.Notice("not_good", words))
     return tuple(notices)
 

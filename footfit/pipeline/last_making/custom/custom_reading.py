@@ -211,5 +211,9 @@ def values_mm(
     vertices_mm: Floats, carried: Carried, aims: Sequence[CustomAim], base: BaseLast
 ) -> Floats:
     """The aims' measures of a moved base, (aims,)."""
-    shape = carried.shape(vertices_mm)
+    return aims_read(carried.shape(vertices_mm), aims, base)
+
+
+def aims_read(shape: Shape, aims: Sequence[CustomAim], base: BaseLast) -> Floats:
+    """The aims' measures of a shape, (aims,)."""
     return np.array([value_mm(shape, aim.measure, base) for aim in aims])
