@@ -203,6 +203,8 @@ def test_the_command_writes_stores_and_draws(footfit: Footfit, tmp_path) -> None
     first = footfit("match", FOOT, *at, "--json").document["candidates"][0]
     assert first["last"] == "anna" or "anna" in first["tied_with"]
     assert footfit(*asked).code == 2  # the file is there
+    again = footfit("customise", FOOT, "-o", tmp_path / "bob.stl", *at, "--json").document
+    assert again["base"] == "derby"  # not anna, which was made for a customer
     for wrong in (["--room", "nose=3"], ["--room", "nose"], ["--flare-follow", "2"]):
         assert footfit(*asked, "--force", *wrong).code == 2
 

@@ -7,7 +7,7 @@ from contextlib import suppress
 from dataclasses import replace
 from pathlib import Path
 
-from footfit.catalogue.store import open_catalogue
+from footfit.catalogue.store import Catalogue, open_catalogue
 from footfit.errors import FootfitError, NoCandidate, OutOfReach
 from footfit.locations import Location
 from footfit.pipeline.fit.match import Question, matched
@@ -19,6 +19,8 @@ from footfit.results.last_making.custom_last import CustomLast
 
 TRIED = 3
 """So many of the best lasts are tried before a foot is refused."""
+LOOKED_AT = 20
+"""Among so many of the best lasts those that were not made for a customer come first."""
 
 
 def best_bases(
@@ -26,18 +28,27 @@ def best_bases(
 ) -> Iterator[BaseLast]:
     """The lasts of a catalogue that match a customer best, or the nearest if none fits.
 
+    A last that was made for a customer comes after all others: its shape is that of a foot.
+
     Raises
     ------
     NotInCatalogue, HalfScan
         There is no catalogue or no last in it; a foot's length is not known.
     """
     asked = making.question
-    question = Question(top=TRIED + 1, profile=asked.profile, heel=asked.heel, worn=asked.worn)
+    question = Question(top=LOOKED_AT, profile=asked.profile, heel=asked.heel, worn=asked.worn)
     match = matched(feet, choice(path, None, None), question)
     names = [each.last for each in (match.candidates or match.nearest) if each.last != without]
+    with open_catalogue(path) as catalogue:
+        names.sort(key=lambda name: _made_for_a_customer(catalogue, name))
     for name in names[:TRIED]:
         with suppress(FootfitError):  # a last without a sound mesh is no base
             yield stored_base(path, name, base_folders(path))
+
+
+def _made_for_a_customer(catalogue: Catalogue, name: str) -> bool:
+    parentage = catalogue.parentage(name)
+    return parentage is not None and parentage.made_by == "customise"
 
 
 def base_folders(path: Location) -> tuple[Path, ...]:
