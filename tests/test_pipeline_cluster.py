@@ -81,6 +81,9 @@ def test_ctrl_c_leaves_what_was_acknowledged(cluster: LocalCluster, tmp_path: Pa
     command = [sys.executable, "-m", "footfit", "ingest-last", *lasts, "--json"]
     path = tmp_path / "lasts.footfit"
     command += ["--catalogue", str(path), "--scheduler", cluster.address]
+    heard = f"import signal, runpy; signal.signal({int(signal.SIGINT)}, signal.default_int_handler)"
+    heard += "; runpy.run_module('footfit', run_name='__main__', alter_sys=True)"
+    command[1:3] = ["-c", heard]  # a job in the background starts with SIGINT ignored
     running = subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE)
     assert running.stdout is not None
     first = running.stdout.readline()
