@@ -19,6 +19,7 @@ from footfit.catalogue.rows.columns import (
     SECTION,
     Table,
 )
+from footfit.catalogue.rows.digests import Row
 from footfit.catalogue.rows.last_names import last_id
 from footfit.catalogue.rows.records import mesh_copy_of, parentage_of, record_of, sections_of
 from footfit.catalogue.rows.reference_last import (
@@ -151,9 +152,7 @@ class CatalogueReader:
         UnknownLast, CatalogueDamaged
             There is no such last; its sections are not what was stored.
         """
-        with self.file.reading() as connection:
-            key, words = last_id(connection, name), f"the sections of {name!r} are"
-            row = sealed_row(connection, SECTION, key, words)
+        row = self._sealed(name, SECTION, f"the sections of {name!r} are")
         return None if row is None else sections_of(row)
 
     def parentage(self, name: str) -> Parentage | None:
@@ -164,10 +163,13 @@ class CatalogueReader:
         UnknownLast, CatalogueDamaged
             There is no such last; its parentage is not what was stored.
         """
-        with self.file.reading() as connection:
-            key, words = last_id(connection, name), f"the parentage of {name!r} is"
-            row = sealed_row(connection, PARENTAGE, key, words)
+        row = self._sealed(name, PARENTAGE, f"the parentage of {name!r} is")
         return None if row is None else parentage_of(row)
+
+    def _sealed(self, name: str, table: Table, words: str) -> Row | None:
+        """The verified row that a last has in a table, if it has one."""
+        with self.file.reading() as connection:
+            return sealed_row(connection, table, last_id(connection, name), words)
 
     def mesh_copy_names(self) -> tuple[str, ...]:
         """The names of the lasts that have a mesh copy, damaged or not, sorted."""

@@ -123,10 +123,14 @@ def foot_clearance(foot: Shape, last: Shape) -> Floats:
     NaN where the shoe does not reach: over the topline, at the foot's own top cut, where the last's
     top or an open rim is nearest, and at vertices without a face.
     """
-    compared = in_shoe(foot)
-    clearance_mm = np.full(len(foot.vertices_mm), np.nan)
+    return clearance_at(foot, last, in_shoe(foot))
+
+
+def clearance_at(shape: Shape, other: Shape, compared: Bools) -> Floats:
+    """How deep each vertex (n,) of a shape lies in another one, mm; NaN where not ``compared``."""
+    clearance_mm = np.full(len(shape.vertices_mm), np.nan)
     clearance_mm[compared] = signed_clearance(
-        foot.vertices_mm[compared], last.vertices_mm, last.faces, last.top_cut
+        shape.vertices_mm[compared], other.vertices_mm, other.faces, other.top_cut
     )
     return clearance_mm
 

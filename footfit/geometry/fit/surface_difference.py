@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from footfit.geometry.fit.clearance import ZONES, signed_clearance, zone_of
+from footfit.geometry.fit.clearance import ZONES, clearance_at, zone_of
 from footfit.geometry.measures.landmarks import Shape
 from footfit.geometry.mesh.surface import vertex_areas
 from footfit.geometry.numeric.arrays import Bools, Floats
@@ -60,8 +60,8 @@ class SurfaceDifference:
 
 def surface_difference(first: Shape, second: Shape) -> SurfaceDifference:
     """How the surface of a last differs from that of another one in whose frame it is."""
-    here = _apart(first, second)
-    there = -_apart(second, first)
+    here = clearance_at(first, second, _walls(first))
+    there = -clearance_at(second, first, _walls(second))
     values = np.concatenate([here, there])
     areas = np.concatenate([vertex_areas(s.vertices_mm, s.faces) for s in (first, second)])
     zone = np.concatenate([zone_of(first), zone_of(second)])
@@ -86,16 +86,6 @@ def surface_difference(first: Shape, second: Shape) -> SurfaceDifference:
         ),
         zones=zones,
     )
-
-
-def _apart(shape: Shape, other: Shape) -> Floats:
-    """At each vertex (n,) of a shape how deep it lies in the other; NaN where nothing is said."""
-    compared = _walls(shape)
-    apart = np.full(len(shape.vertices_mm), np.nan)
-    apart[compared] = signed_clearance(
-        shape.vertices_mm[compared], other.vertices_mm, other.faces, other.top_cut
-    )
-    return apart
 
 
 def _walls(shape: Shape) -> Bools:

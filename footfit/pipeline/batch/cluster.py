@@ -20,7 +20,7 @@ from urllib.parse import urlsplit
 
 from footfit.errors import BadOption, ClusterUnusable, FootfitError
 from footfit.pipeline.batch.sources import Source, source_bytes
-from footfit.pipeline.batch.workers import WorkerPool
+from footfit.pipeline.batch.workers import WorkerPool, settle
 from footfit.version import __version__
 
 P = ParamSpec("P")
@@ -82,7 +82,7 @@ class Cluster(Executor):
         future: Future[T] = Future()
         future.set_running_or_notify_cancel()
         if any(_stays(argument) for argument in args):
-            _settle(future, *_answer(partial(fn, *args, **kwargs)))
+            settle(future, *_answer(partial(fn, *args, **kwargs)))
             return future
         try:
             call = pickle.dumps((fn, [_with_bytes(argument) for argument in args], kwargs))
@@ -136,7 +136,7 @@ class Cluster(Executor):
     def _settle(self, future: Future[Any], answer: object, error: BaseException | None) -> None:
         with self._lock:
             self._pending.pop(future, None)
-        _settle(future, answer, error)
+        settle(future, answer, error)
 
     def _gone(self) -> ClusterUnusable:
         words = "the scheduler has gone away; start it again, and run the command again"
@@ -222,15 +222,6 @@ def _answer(call: Callable[[], T]) -> tuple[T | None, BaseException | None]:
         return None, error
 
 
-def _settle(future: Future[Any], answer: object, error: BaseException | None) -> None:
-    if future.done():
-        return
-    if error is None:
-        future.set_result(answer)
-    else:
-        future.set_exception(error)
-
-
 def _stays(item: object) -> bool:
     """Whether an item cannot travel: a stored last is read from a catalogue of this machine."""
     source = getattr(item, "source", item)
@@ -276,7 +267,7 @@ def _client(address: str, patience: Patience) -> Any:
     connect = partial(distributed.Client, address, timeout=wait, set_as_default=False)
     client: Future[Any] = Future()
     # Dask may wait for ever if another program listens there.
-    threading.Thread(target=lambda: _settle(client, *_answer(connect)), daemon=True).start()
+    threading.Thread(target=lambda: settle(client, *_answer(connect)), daemon=True).start()
     try:
         return client.result(patience.to_connect_s + patience.look_every_s)
     except Exception as error:

@@ -180,7 +180,7 @@ class WorkerPool(Executor):
             if worker.answers.closed:
                 self._crew.remove(worker)
             if order is not None:  # an idle worker may die too
-                _settle(order.future, answer, error)
+                settle(order.future, answer, error)
 
     def _fail_all(self, error: BaseException | None) -> None:
         """No order that is left can be done: it is cancelled, or has the ``error``."""
@@ -191,14 +191,14 @@ class WorkerPool(Executor):
             self._waiting.clear()
         for order in left:
             if error is not None:
-                _settle(order.future, None, error)
+                settle(order.future, None, error)
             elif not order.future.cancel():
-                _settle(order.future, None, RuntimeError("the pool of workers was shut down"))
+                settle(order.future, None, RuntimeError("the pool of workers was shut down"))
         for worker in self._crew:
             worker.order = None
 
 
-def _settle(future: Future[Any], answer: object, error: BaseException | None) -> None:
+def settle(future: Future[Any], answer: object, error: BaseException | None) -> None:
     """Give a future its answer or its error."""
     if future.done():
         return

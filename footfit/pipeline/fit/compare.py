@@ -70,8 +70,10 @@ def stored_last(path: Location, name: str) -> LastShape:
         return LastShape(record, Shape(*mesh, "last"))
 
 
-def scanned_last(source: Source, reading: ReadingOptions) -> LastShape:
+def scanned_last(source: Source, reading: ReadingOptions, nameless: str = "last") -> LastShape:
     """A last in a file of its own; its name is the file's, ``reading`` says how it stands.
+
+    What comes from no file has the name ``nameless``.
 
     Raises
     ------
@@ -80,7 +82,7 @@ def scanned_last(source: Source, reading: ReadingOptions) -> LastShape:
     """
     shape = profiled_source(source, reading)
     said = {name: getattr(reading, name) for name in LABELLED_MM}
-    record = last_record(shape, results.LastLabels(Path(source.path or "last").stem, **said))
+    record = last_record(shape, results.LastLabels(Path(source.path or nameless).stem, **said))
     return LastShape(record, replace(shape.aligned.prepared.shape, kind="last"))
 
 

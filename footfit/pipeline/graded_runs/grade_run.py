@@ -6,8 +6,6 @@ import math
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, replace
 
-import numpy as np
-
 from footfit.errors import OutOfReach
 from footfit.geometry.measures.landmarks import Shape
 from footfit.geometry.measures.measure_table import measure_named
@@ -26,6 +24,7 @@ from footfit.pipeline.graded_runs.grade_plan import (
 from footfit.pipeline.graded_runs.grade_shape import HELD, LENGTH, GradeStep, graded
 from footfit.pipeline.graded_runs.run_increments import CHECKED
 from footfit.pipeline.last_making.base_last import BaseLast
+from footfit.pipeline.scan.preparation import right_copy
 from footfit.pipeline.scan.reading import prepared_source
 from footfit.results import LastLabels
 from footfit.results.last_making.graded_run import GradedLast, GradedMeasure, GradedRun
@@ -239,10 +238,7 @@ def grader(base: BaseLast, plan: GradePlan, family: str) -> Grader:
 
 def file_of(shape: Shape, base: BaseLast) -> bytes:
     """The file of a right shape: an STL in mm, in the base's frame, of the base's side."""
-    vertices, faces = shape.vertices_mm, shape.faces
-    if base.record.side.side == "left":
-        vertices, faces = vertices * np.array([1.0, -1.0, 1.0]), faces[:, ::-1]
-    return encoded_mesh(vertices, faces, "stl")
+    return encoded_mesh(*right_copy(shape.vertices_mm, shape.faces, base.record.side.side), "stl")
 
 
 def measures_of(data: bytes, base: BaseLast, stands: StanceLabels) -> dict[str, float]:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import defaultdict
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from itertools import pairwise
@@ -126,8 +127,10 @@ def _refuse_twins(lasts: Sequence[RunLast]) -> None:
 
 def _size_lines(lasts: Sequence[RunLast], step: float) -> Iterator[Line]:
     """The lasts of each width and side, by size."""
-    for key in sorted({(last.width or "", _side(last, lasts)) for last in lasts}):
-        group = [last for last in lasts if (last.width or "", _side(last, lasts)) == key]
+    groups: dict[tuple[str, str], list[RunLast]] = defaultdict(list)
+    for last, side in zip(lasts, _sides(lasts), strict=True):
+        groups[last.width or "", side].append(last)
+    for key, group in sorted(groups.items()):
         group.sort(key=lambda last: last.size_number)
         yield _line("size", key, group, [last.size_number / step for last in group])
 
@@ -144,9 +147,11 @@ def _width_lines(
     except BadOption as error:
         return [], (Notice("widths_without_order", f"{error.message}; they are not compared"),)
     lines, step = [], rule.width_step if rule else 1.0
-    wide = [last for last in lasts if last.width]
-    for key in sorted({(last.size_number, _side(last, lasts)) for last in wide}):
-        group = [last for last in wide if (last.size_number, _side(last, lasts)) == key]
+    groups: dict[tuple[float, str], list[RunLast]] = defaultdict(list)
+    for last, side in zip(lasts, _sides(lasts), strict=True):
+        if last.width:
+            groups[last.size_number, side].append(last)
+    for key, group in sorted(groups.items()):
         group.sort(key=lambda last: number[last.width or ""])
         if len(group) > 1:
             common = (group[0].size, key[1])
@@ -161,9 +166,10 @@ def _line(
     return Line(kind, " ".join(filter(None, common)), tuple(group), tuple(places))
 
 
-def _side(last: RunLast, lasts: Sequence[RunLast]) -> str:
-    """The side of a last, if the run has both sides."""
-    return last.side or "" if len({each.side for each in lasts}) > 1 else ""
+def _sides(lasts: Sequence[RunLast]) -> list[str]:
+    """The side of each last, if the run has both sides; else nothing."""
+    both = len({last.side for last in lasts}) > 1
+    return [(last.side or "") if both else "" for last in lasts]
 
 
 def _laws(

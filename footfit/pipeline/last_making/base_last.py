@@ -11,12 +11,12 @@ from footfit.errors import FootfitError
 from footfit.geometry.measures.landmarks import Shape
 from footfit.locations import Location
 from footfit.pipeline.batch.sources import ReadingOptions, Source
+from footfit.pipeline.fit.compare import scanned_last
 from footfit.pipeline.scan.kept_sections import kept_sections
-from footfit.pipeline.scan.measure import last_record
 from footfit.pipeline.scan.preparation import stored_shape
 from footfit.pipeline.scan.reading import content_hash, profiled_source
-from footfit.pipeline.scan.standing import LABELLED_MM, stance_labels
-from footfit.results import LastLabels, LastRecord, ShapeSections
+from footfit.pipeline.scan.standing import stance_labels
+from footfit.results import LastRecord, ShapeSections
 from footfit.results.last_making.custom_last import BaseMesh
 
 
@@ -100,8 +100,5 @@ def scanned_base(source: Source, reading: ReadingOptions) -> BaseLast:
     InputError, GeometryRefused
         As in reading, aligning and profiling any last.
     """
-    shape = profiled_source(source, reading)
-    said = {name: getattr(reading, name) for name in LABELLED_MM}
-    record = last_record(shape, LastLabels(Path(source.path or "base").stem, **said))
-    right = replace(shape.aligned.prepared.shape, kind="last")
-    return BaseLast(record, right, kept_sections(right), BaseMesh("file", 0.0))
+    last = scanned_last(source, reading, "base")
+    return BaseLast(last.record, last.shape, kept_sections(last.shape), BaseMesh("file", 0.0))

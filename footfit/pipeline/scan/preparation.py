@@ -145,7 +145,10 @@ def on_side(prepared: PreparedScan, side: SideVerdict, notice: Notice) -> Prepar
 
 
 def right_copy(vertices_mm: Floats, faces: Ints, side: SideName | None) -> tuple[Floats, Ints]:
-    """A canonical mesh as a right one: a left mesh is mirrored, its faces turned over."""
+    """A canonical mesh as a right one: a left mesh is mirrored, its faces turned over.
+
+    It is its own inverse: it takes a right mesh to one of that side, too.
+    """
     if side != "left":
         return vertices_mm, faces
     return vertices_mm * np.array([1.0, -1.0, 1.0]), faces[:, ::-1]

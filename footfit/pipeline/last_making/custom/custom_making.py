@@ -41,7 +41,7 @@ from footfit.pipeline.scan.align import aligned_scan
 from footfit.pipeline.scan.flare import profiled_scan
 from footfit.pipeline.scan.kept_sections import kept_sections
 from footfit.pipeline.scan.measure import last_record
-from footfit.pipeline.scan.preparation import prepared_scan
+from footfit.pipeline.scan.preparation import prepared_scan, right_copy
 from footfit.pipeline.scan.reading import read
 from footfit.pipeline.scan.standing import stance_labels
 from footfit.results import LastLabels, Parentage, Profiled, SideName, Target
@@ -181,9 +181,7 @@ def made_last(base: BaseLast, vertices_mm: Floats, side: SideName, name: str) ->
 
     The pose is known, so it is not searched for. The labels of how the base stands stay.
     """
-    faces = base.shape.faces
-    if side == "left":
-        vertices_mm, faces = vertices_mm * np.array([1.0, -1.0, 1.0]), faces[:, ::-1]
+    vertices_mm, faces = right_copy(vertices_mm, base.shape.faces, side)
     data = encoded_mesh(vertices_mm, faces, "stl")
     scan = read(Source(None, data), ReadingOptions(units="mm"))
     quality = base.record.pose
