@@ -115,6 +115,17 @@ def test_every_option_that_a_page_names_is_one_of_a_command() -> None:
         assert set(named) <= known, f"{page.name}: {sorted(set(named) - known)}"
 
 
+def test_the_page_of_the_cluster_names_the_commands_that_work_on_one() -> None:
+    group = get_command(application())
+    able = {
+        name
+        for name, _, _ in COMMANDS
+        if any("--scheduler" in p.opts for p in group.get_command(None, name).params)
+    }
+    page = (ROOT / "docs/cluster.md").read_text(encoding="utf-8")
+    assert set(re.findall(r"`([\w-]+)`", page.split("can work on a cluster")[0])) == able
+
+
 def test_every_cited_source_is_listed() -> None:
     listed = set(re.findall(r"^- \[(\w+)\]", (ROOT / "docs/references.md").read_text(), re.M))
     for path in ROOT.glob("footfit/**/*.py"):
