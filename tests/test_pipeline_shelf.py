@@ -25,7 +25,8 @@ from footfit.pipeline.fit.judging.judged_lasts import asked_of
 from footfit.pipeline.fit.match import Question, matched
 from footfit.pipeline.fit.worn_shifts import worn_with
 from footfit.pipeline.library.upgrade import upgrade
-from footfit.pipeline.shelf.candidates import choice, in_stock
+from footfit.pipeline.shelf import candidates, near_lasts
+from footfit.pipeline.shelf.candidates import in_stock
 from footfit.results import Library, Measured, Profiled, Worn
 from tests import row_by_row
 from tests.conftest import SAMPLES
@@ -35,13 +36,20 @@ SEEDS = range(6)
 EXACT = 1e-9
 
 
-@pytest.fixture(scope="module", autouse=True)
-def _small_blocks() -> Iterator[None]:
-    """Blocks of 8 lasts, chunks of 2 blocks, and first looks of 2 lasts: every border is met."""
+@pytest.fixture(scope="module", autouse=True, params=["blocks", "search file"])
+def _small_blocks(request: pytest.FixtureRequest) -> Iterator[None]:
+    """Blocks of 8 lasts, chunks of 2 blocks, and first looks of 2 lasts: every border is met.
+
+    All tests are made twice: without a search file, and with one for every catalogue.
+    """
     patch = pytest.MonkeyPatch()
     for module in (block_bytes, block_writing):
         patch.setattr(module, "BLOCK_LASTS", 8)
     patch.setattr(block_reading, "CHUNK_BLOCKS", 2)
+    if request.param == "search file":
+        patch.setattr(block_reading, "LEAST_LASTS", 1)
+        patch.setattr(block_reading, "PICKED", 3)
+    patch.setattr(near_lasts, "FIRST_PICKED", 2)
     for name in ("FIRST_LAID", "FIRST_LOOK", "LAY_MORE", "LOOK_FURTHER"):
         patch.setattr(ranking, name, 2)
     patch.setattr(scoring, "TIER_LOOK", 1)
@@ -60,6 +68,12 @@ def measured(stocked: Path) -> list[NewLast]:
 @pytest.fixture(scope="module")
 def feet() -> list[Profiled]:
     return [footfit.flare(path) for path in sorted((SAMPLES / "feet").glob("*.stl"))]
+
+
+def choice(*asked):
+    """The shelf of a second question: the first one made the search file, if there is to be one."""
+    candidates.choice(*asked)
+    return candidates.choice(*asked)
 
 
 def varied(lasts: Iterator[NewLast], rng: np.random.Generator) -> Iterator[NewLast]:

@@ -7,6 +7,7 @@ from contextlib import contextmanager
 from dataclasses import dataclass, replace
 
 from footfit.catalogue.blocks.block_writing import fill_blocks, refresh_blocks
+from footfit.catalogue.blocks.search_file import drop_search_file
 from footfit.catalogue.catalogue_reader import CatalogueReader
 from footfit.catalogue.file.dialect import driver_of
 from footfit.catalogue.file.engine import SETTINGS
@@ -101,6 +102,8 @@ def open_catalogue(
         yield Catalogue(file, revisions, schema.up_to(revisions.after), busy_timeout_s)
     finally:
         file.close()
+        if write:
+            drop_search_file(location)
 
 
 @dataclass

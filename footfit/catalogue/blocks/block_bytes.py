@@ -44,7 +44,7 @@ def block_of(key: int) -> int:
     return key // BLOCK_LASTS
 
 
-def checksum(data: bytes) -> str:
+def checksum(data: bytes | memoryview) -> str:
     """The hash of a part: its words of 64 bits, each times an odd number of its own, added up.
 
     A change inside one word always changes it; any other change is missed once in 2^64. It is ten
@@ -59,14 +59,14 @@ def checksum(data: bytes) -> str:
     whole = len(data) // 8
     words = np.frombuffer(data, dtype="<u8", count=whole)
     rest = int.from_bytes(data[8 * whole :], "little")
-    factors = _factors(1 << max(whole + 2, 1 << 10).bit_length())
+    factors = odd_factors(1 << max(whole + 2, 1 << 10).bit_length())
     total = int(np.dot(words, factors[2 : whole + 2]))
     total += rest * int(factors[0]) + len(data) * int(factors[1])
     return f"{total % (1 << 64):016x}"
 
 
 @lru_cache(maxsize=4)
-def _factors(count: int) -> NDArray[np.uint64]:
+def odd_factors(count: int) -> NDArray[np.uint64]:
     """Odd numbers; those of a larger count begin with those of a smaller one."""
     return np.random.PCG64(HASH_SEED).random_raw(count) | np.uint64(1)
 

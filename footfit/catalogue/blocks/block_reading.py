@@ -7,8 +7,9 @@ the lasts of any other block are read from their rows.
 from __future__ import annotations
 
 import struct
+from collections import Counter
 from collections.abc import Iterable, Iterator, Sequence
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from dataclasses import dataclass, field, replace
 
 import numpy as np
@@ -26,26 +27,30 @@ from footfit.catalogue.blocks.block_bytes import (
     checksum,
     lasts_of,
 )
-from footfit.catalogue.blocks.record_columns import Kept, columns_of
+from footfit.catalogue.blocks.record_columns import columns_of
+from footfit.catalogue.blocks.row_columns import columns_of_rows, last_of_rows
 from footfit.catalogue.blocks.same_lasts import same_lasts
+from footfit.catalogue.blocks.search_file import (
+    LEAST_LASTS,
+    BadSearchFile,
+    SearchFile,
+    mark_of,
+    open_search_file,
+    write_search_file,
+)
 from footfit.catalogue.file.dialect import Driver
 from footfit.catalogue.file.engine import SETTINGS
 from footfit.catalogue.file.migrate import Schema
-from footfit.catalogue.rows.columns import SECTION
-from footfit.catalogue.rows.records import record_of, sections_of
 from footfit.catalogue.rows.verified_rows import (
     LastRows,
-    row_digest,
-    rows,
-    shown_name,
     stored_lasts,
 )
 from footfit.catalogue.server.any_location import open_location_for_reading, stamp_of
+from footfit.geometry.flare.profile_sketch import Sketches
 from footfit.geometry.numeric.arrays import Bools, Ints
 from footfit.locations import Location
 from footfit.results import LastRecord
 from footfit.results.columns.last_columns import (
-    NOT_KEPT,
     SPOILT,
     LastColumns,
     joined,
@@ -54,6 +59,8 @@ from footfit.results.columns.vocabulary import Vocabulary
 
 CHUNK_BLOCKS = 16
 """So many blocks are looked at together: 4,096 lasts take some MB."""
+PICKED = 4096
+"""So many lasts are looked at together, if they are picked from among many."""
 KEPT_BYTES = 4_000_000
 """What is read of blocks stays in memory up to this size for each part; if it is asked for again,
 as for the next customer, whatever its size.
@@ -91,6 +98,7 @@ class BlockLasts:
     and ``starts`` (b + 1,) say where each begins. ``from_rows`` are the lasts whose blocks are not
     used, with all columns; in ``base`` they come last. ``damaged`` names the lasts that are left
     out because their rows are damaged, and ``bad`` the blocks that are not what was stored.
+    ``search`` is the catalogue's search file, if it has one; then every last has a block.
     """
 
     path: Location
@@ -101,9 +109,10 @@ class BlockLasts:
     from_rows: LastColumns
     damaged: tuple[str, ...]
     bad: frozenset[int]
+    search: SearchFile | None = None
     spoilt: frozenset[int] = frozenset()
     _kept: dict[tuple[str, int], bytes] = field(default_factory=dict)
-    _asked: dict[str, int] = field(default_factory=dict)
+    _asked: Counter[str] = field(default_factory=Counter)
 
     def chunks(self, parts: Sequence[str]) -> Iterator[tuple[int, LastColumns]]:
         """All lasts with these parts, some thousand at a time, each time with the first's row.
@@ -114,14 +123,52 @@ class BlockLasts:
             The catalogue was changed meanwhile; a part is not what was stored.
         """
         with self._snapshot(parts) as connection:
-            for first in range(0, len(self.blocks), CHUNK_BLOCKS):
-                last = min(first + CHUNK_BLOCKS, len(self.blocks))
-                yield int(self.starts[first]), self._read(connection, first, last, parts)
+            yield from self.block_chunks(connection, parts)
         if len(self.from_rows):
             yield int(self.starts[-1]), _only(self.from_rows, parts)
 
+    def block_chunks(
+        self, connection: Driver, parts: Sequence[str]
+    ) -> Iterator[tuple[int, LastColumns]]:
+        """The lasts that are read from blocks, as `chunks` gives them."""
+        for first in range(0, len(self.blocks), CHUNK_BLOCKS):
+            last = min(first + CHUNK_BLOCKS, len(self.blocks))
+            yield int(self.starts[first]), self._read(connection, first, last, parts)
+
+    @property
+    def by_label(self) -> Ints | None:
+        """The rows in the order of labels, then of extents, if that is known."""
+        return None if self.search is None else self.search.by_label
+
+    def sketches(self) -> Sketches | None:
+        """A sketch of the flare of each last, from the search file; None if there is none."""
+        if self.search is None:
+            return None
+        with _wrong_search_file():
+            return self.search.sketches()
+
+    def picked(self, chosen: Ints, parts: Sequence[str]) -> Iterator[LastColumns]:
+        """Many lasts with these parts, some thousand at a time; raises as `chunks`."""
+        rest = [part for part in parts if part not in (PLAN, BOTTOM)]
+        if self.search is None or rest:
+            yield self.taken(chosen, parts)
+            return
+        with self._snapshot(()), _wrong_search_file():
+            for first in range(0, len(chosen), PICKED):
+                some = chosen[first : first + PICKED]
+                yield replace(self.base.taken(some), flare=self.search.profiles(some))
+
     def taken(self, chosen: Ints, parts: Sequence[str]) -> LastColumns:
         """Some lasts with these parts, in the order of ``chosen``; raises as `chunks`."""
+        if self.search is None or not {PLAN, BOTTOM} <= set(parts):
+            return self._taken_of_blocks(chosen, parts)
+        rest = [part for part in parts if part not in (PLAN, BOTTOM)]
+        lasts = self._taken_of_blocks(chosen, rest) if rest else self.base.taken(chosen)
+        with self._snapshot(()), _wrong_search_file():
+            return replace(lasts, flare=self.search.profiles(chosen))
+
+    def _taken_of_blocks(self, chosen: Ints, parts: Sequence[str]) -> LastColumns:
+        """Some lasts with these parts, from their blocks."""
         order = np.argsort(chosen, kind="stable")
         wanted = chosen[order]
         of_block = np.searchsorted(self.starts, wanted, side="right") - 1
@@ -162,14 +209,16 @@ class BlockLasts:
         of_parts = [self._data(connection, part, first, last) for part in ordered]
         found = []
         for at in range(first, last):
-            lasts = self.base.taken(slice(int(self.starts[at]), int(self.starts[at + 1])))
+            rows_there = slice(int(self.starts[at]), int(self.starts[at + 1]))
+            lasts = replace(self.base.taken(rows_there), names=())
             for part, data in zip(ordered, of_parts, strict=True):
                 try:
                     lasts = READERS[part](lasts, data[at - first])
                 except (ValueError, IndexError, struct.error) as error:
                     raise BadBlocks([int(self.blocks[at])]) from error
             found.append(lasts)
-        return joined(found)
+        names = self.base.names[int(self.starts[first]) : int(self.starts[last])]
+        return replace(joined(found), names=names)
 
     def _data(self, connection: Driver, part: str, first: int, last: int) -> list[bytes]:
         """One part of some neighbouring blocks, verified."""
@@ -204,6 +253,9 @@ class BlockLasts:
         if kept == SPOILT:
             rows_say = replace(rows_say, toes=None)
         if row < self.starts[-1] and not same_lasts(mine, rows_say):
+            with _wrong_search_file():
+                if self.search is not None:
+                    self.search.refuse()
             raise BadBlocks([block_of(key)])
         known = row in self.spoilt or row >= self.starts[-1]
         return ShownLast(record, spoilt=kept == SPOILT and not known)
@@ -212,7 +264,7 @@ class BlockLasts:
     def _snapshot(self, parts: Sequence[str]) -> Iterator[Driver]:
         """The catalogue as it was when the lasts were read."""
         for part in parts:
-            self._asked[part] = self._asked.get(part, 0) + 1
+            self._asked[part] += 1
         file, _ = open_location_for_reading(self.path, Schema(), SETTINGS.busy_timeout_s)
         try:
             with file.reading() as connection:
@@ -221,6 +273,15 @@ class BlockLasts:
                 yield connection
         finally:
             file.close()
+
+
+@contextmanager
+def _wrong_search_file() -> Iterator[None]:
+    """Read the catalogue again, without its search file, if that is damaged."""
+    try:
+        yield
+    except BadSearchFile as error:
+        raise OtherCatalogue from error
 
 
 STORED = "block, layout, data, hash"
@@ -234,8 +295,29 @@ def is_sound(layout: object, data: object, digest: object) -> bool:
 def block_lasts(
     connection: Driver, path: Location, untrusted: frozenset[int] = frozenset()
 ) -> BlockLasts:
-    """The lasts of a catalogue, inside a transaction; blocks in ``untrusted`` are not used."""
-    stamp = stamp_of(connection, path)
+    """The lasts of a catalogue, inside a transaction; blocks in ``untrusted`` are not used.
+
+    A large catalogue gets a search file, if all its lasts are in blocks; it is used the next time.
+    """
+    stamp, mark = stamp_of(connection, path), None if untrusted else mark_of(connection, path)
+    search = open_search_file(path, mark)
+    if search is not None:
+        nothing = columns_of_rows(connection, [], search.base.words)
+        columns = (search.base, search.blocks, search.starts, nothing)
+        return BlockLasts(path, stamp, *columns, (), frozenset(), search)
+    lasts = _of_blocks(connection, path, stamp, untrusted)
+    whole = not lasts.bad and not lasts.damaged and not len(lasts.from_rows)
+    if mark is not None and whole and len(lasts.base) >= LEAST_LASTS:
+        chunks = lasts.block_chunks(connection, (PLAN, BOTTOM))
+        with suppress(BadBlocks):
+            write_search_file(path, mark, (lasts.base, lasts.blocks, lasts.starts), chunks)
+    return lasts
+
+
+def _of_blocks(
+    connection: Driver, path: Location, stamp: bytes, untrusted: frozenset[int]
+) -> BlockLasts:
+    """The lasts of a catalogue by their blocks alone."""
     words, found, bad = Vocabulary(), {}, set(untrusted)
     select = f"SELECT {STORED} FROM search_block WHERE part = ? ORDER BY block"
     for block, layout, data, digest in connection.execute(select, (LASTS,)):
@@ -283,32 +365,6 @@ def _beside_blocks(
 
 def _bare(lasts: LastColumns) -> LastColumns:
     return _only(lasts, ())
-
-
-def columns_of_rows(
-    connection: Driver, lasts: Sequence[LastRows], words: Vocabulary
-) -> LastColumns:
-    """Lasts whose rows are intact, by column, with all columns."""
-    read = [last_of_rows(connection, stored) for stored in lasts]
-    return columns_of(
-        [record for record, _ in read],
-        [kept for _, kept in read],
-        words,
-        keys=[stored.id for stored in lasts],
-        profiles=[stored.definition for stored in lasts],
-    )
-
-
-def last_of_rows(connection: Driver, stored: LastRows) -> tuple[LastRecord, Kept]:
-    """The record and the kept sections of a last whose rows are intact."""
-    select = "SELECT id, name FROM last NOT INDEXED WHERE id = ?"
-    parents = connection.execute(select, (stored.last.get("parent_id"),)).fetchall()
-    record = record_of(stored, {key: shown_name(name) for key, name in parents})
-    kept = rows(connection, SECTION, stored.id)
-    if not kept:
-        return record, NOT_KEPT
-    intact = kept[0].get("sha256") == row_digest(SECTION, kept[0])
-    return record, sections_of(kept[0]) if intact else SPOILT
 
 
 def _only(lasts: LastColumns, parts: Sequence[str]) -> LastColumns:

@@ -18,7 +18,8 @@ from footfit.catalogue.blocks.block_bytes import (
     lasts_of,
     parts_of,
 )
-from footfit.catalogue.blocks.block_reading import columns_of_rows, is_sound
+from footfit.catalogue.blocks.block_reading import is_sound
+from footfit.catalogue.blocks.row_columns import columns_of_rows
 from footfit.catalogue.blocks.same_lasts import same_lasts
 from footfit.catalogue.file.dialect import Driver
 from footfit.catalogue.rows.verified_rows import stored_lasts

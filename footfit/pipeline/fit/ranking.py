@@ -12,7 +12,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from footfit.catalogue.blocks.block_bytes import BOTTOM, MEASURES, PLAN, TOES
+from footfit.catalogue.blocks.block_bytes import TOES
 from footfit.geometry.numeric.arrays import Bools, Floats, Ints
 from footfit.pipeline.fit.heels import Heels, full_change, heel_change, joined_heels
 from footfit.pipeline.fit.judging.clearances import joined_clearances
@@ -38,7 +38,8 @@ from footfit.pipeline.fit.scoring import (
 from footfit.pipeline.fit.worn_shifts import with_total
 from footfit.pipeline.fit.zones import TOES as TOES_ZONE
 from footfit.pipeline.fit.zones import ZONES
-from footfit.pipeline.shelf.nearness import feet_distance, flare_distances, shape_distance
+from footfit.pipeline.shelf.near_lasts import Shape, all_distances, least_of
+from footfit.pipeline.shelf.nearness import feet_distance, flare_distances
 from footfit.pipeline.shelf.shelf import KeptSections, Lasts, of_own_side, record_lasts
 from footfit.results import FlareDifference, FootFit, LastRecord, Profiled, ToeBox, ZoneFit
 from footfit.results.columns.last_columns import SIDES, LastColumns, joined
@@ -50,6 +51,11 @@ DISTANCE_DIGITS = 6
 """Lasts whose distances are equal to so many decimals are ordered by name."""
 FIRST_LAID, LAY_MORE = 32, 4
 """Toes are laid into so many of the most promising lasts first, then into so many times more."""
+TIE_SDS = 1.0
+TIED_WITHIN = TIE_SDS * 2**0.5
+"""Two distances by flare or shape are tied if they differ by no more than two scans of one shape
+differ, in units of what each scan is wrong by.
+"""
 FIRST_LOOK, LOOK_FURTHER = 8, 8
 """A search by flare or shape sorts so many of the best lasts first, then so many times more."""
 
@@ -85,7 +91,7 @@ def ranking(asked: Asked, lasts: Lasts, among: Bools, top: int, nearest: int) ->
     no last fits, those that come ``nearest`` are shown: so many.
     """
     side = SIDES.index(asked.feet[asked.longer].aligned.alignment.side.side)
-    chosen = of_own_side(lasts.base, among, side)
+    chosen = of_own_side(lasts, among, side)
     if asked.by != "fit":
         return _ranked_by_distance(asked, lasts, chosen, top)
     judged, gated = _gate(asked, lasts, chosen, rejects=False)
@@ -157,34 +163,22 @@ def _by_distance(distance: Floats, group: Ints, names: Sequence[str]) -> Ints:
 
 def _ranked_by_distance(asked: Asked, lasts: Lasts, chosen: Bools, top: int) -> Ranking:
     """The order by flare or shape. Only the lasts that are shown are judged."""
-    by_shape = asked.by == "shape"
-    parts = (MEASURES, PLAN, BOTTOM) if by_shape else (PLAN, BOTTOM)
-    distance = np.full(len(chosen), np.nan)
-    for start, chunk in lasts.chunks(parts):
-        there = slice(start, start + len(chunk))
-        some = np.arange(len(chunk))
-        if (chunk.stations != len(asked.feet[0].flare.stations)).any():  # of outdated profiles
-            some = np.flatnonzero(chosen[there])
-            chunk = chunk.taken(some)
-        distance[start + some] = (
-            shape_distance(asked.feet, asked.longer, chunk)
-            if by_shape
-            else feet_distance(asked.feet, chunk)
-        )
+    shape = Shape(asked.feet, asked.longer, asked.by == "shape")
     rows = np.flatnonzero(chosen)
-    best, tier, wanted = rows, [0], FIRST_LOOK
-    while len(tier) == len(best) < len(rows) or wanted == FIRST_LOOK:
-        wanted = len(rows) if not top else wanted * LOOK_FURTHER
-        best = _best(distance, rows, wanted)
+    least = least_of(shape, lasts, chosen, top, TIED_WITHIN) if 0 < top < len(rows) else None
+    near, distance = least or (rows, all_distances(shape, lasts, chosen))
+    best, tier, wanted = near, [0], FIRST_LOOK
+    while len(tier) == len(best) < len(near) or wanted == FIRST_LOOK:
+        wanted = len(near) if least or not top else wanted * LOOK_FURTHER
+        best = _best(distance, near, wanted)
         one = np.zeros(len(best), dtype=np.int64)
-        names = lasts.base.taken(best).names
-        order = _by_distance(distance[best], one, names)
-        tier = tiers(order.tolist(), distance[best], one, rescan_spread(len(best)), 1.0, top)
+        order = _by_distance(distance[best], one, lasts.base.taken(best).names)
+        tier = tiers(order, distance[best], one, rescan_spread(len(best)), TIE_SDS, top)
     shown = best[order[: top or None]]
     columns = lasts.taken(shown, (*asked.parts, TOES) if asked.toes else asked.parts)
     judged = judged_lasts(asked, columns, shown, *rooms_of(asked, columns, Words()))
     judged = replace(judged, distance=distance[shown], spread=rescan_spread(len(shown)))
-    ordered = tuple(names[row] for row in order[: len(tier)].tolist())
+    ordered = tuple(lasts.base.taken(best[order[: len(tier)]]).names)
     return Ranking(judged, Gated(len(rows), len(rows)), ordered, tuple(tier))
 
 

@@ -112,15 +112,15 @@ def last_table(
     lasts = sorted(records, key=lambda record: record.labels.name)
     names = (*zone_measures(profile), *LENGTHS)
     drops = [last.drop_mm for last in lasts]
-    columns = record_lasts(lasts, file).base
+    shelf_lasts = record_lasts(lasts, file)
     every = np.ones(len(lasts), dtype=bool)
     return LastTable(
         names=tuple(last.labels.name for last in lasts),
         shapes=shape_columns([last_shape(last) for last in lasts], names),
         drop_mm=np.array([np.nan if drop is None else drop for drop in drops]),
-        own_side={side: of_own_side(columns, every, at) for at, side in enumerate(SIDES)},
+        own_side={side: of_own_side(shelf_lasts, every, at) for at, side in enumerate(SIDES)},
         records=tuple(lasts),
-        toe_boxes=None if file is None else _toe_boxes(columns, profile),
+        toe_boxes=None if file is None else _toe_boxes(shelf_lasts.base, profile),
     )
 
 

@@ -57,6 +57,12 @@ def shape_distance(feet: Sequence[Profiled], longer: int, lasts: LastColumns) ->
     return nearness
 
 
+def extent_squares(mesh: Profiled, lasts: LastColumns) -> Floats:
+    """The extents' difference, (n,), in squared standard deviations."""
+    longer_mm = lasts.extent_mm - mesh.aligned.alignment.extent_mm
+    return np.asarray(np.square(longer_mm) / (2.0 * LENGTH_SD_MM**2))
+
+
 def size_squares(mesh: Profiled, lasts: LastColumns) -> Floats:
     """How far each last's measures are from the mesh's, (n,), in squared standard deviations.
 
@@ -81,5 +87,4 @@ def size_squares(mesh: Profiled, lasts: LastColumns) -> Floats:
         total += np.where(shared, square, 0.0)
         count += shared
     mean = total / np.maximum(count, 1.0)
-    longer_mm = lasts.extent_mm - mesh.aligned.alignment.extent_mm
-    return np.asarray(np.square(longer_mm) / (2.0 * LENGTH_SD_MM**2) + INDEPENDENT * mean)
+    return np.asarray(extent_squares(mesh, lasts) + INDEPENDENT * mean)

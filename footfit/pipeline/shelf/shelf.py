@@ -12,6 +12,7 @@ from footfit.catalogue.blocks.block_reading import ShownLast
 from footfit.catalogue.blocks.record_columns import Kept, columns_of
 from footfit.catalogue.store import Catalogue, open_catalogue
 from footfit.errors import CatalogueDamaged, UnknownLast
+from footfit.geometry.flare.profile_sketch import Sketches
 from footfit.geometry.numeric.arrays import Bools, Floats, Ints
 from footfit.locations import Location
 from footfit.pipeline.library.lasts import damaged_last
@@ -31,11 +32,21 @@ class Lasts(Protocol):
     def base(self) -> LastColumns:
         """What is always read."""
 
+    @property
+    def by_label(self) -> Ints | None:
+        """The rows in the order of labels, then of extents, if that is known."""
+
     def chunks(self, parts: Sequence[str], /) -> Iterator[tuple[int, LastColumns]]:
         """All lasts with these parts, in their order: each time the first row, and its lasts."""
 
     def taken(self, chosen: Ints, parts: Sequence[str], /) -> LastColumns:
         """Some lasts with these parts, in the order of ``chosen``."""
+
+    def picked(self, chosen: Ints, parts: Sequence[str], /) -> Iterator[LastColumns]:
+        """Many lasts with these parts, in the order of ``chosen``, some thousand at a time."""
+
+    def sketches(self) -> Sketches | None:
+        """A sketch of the flare of each last, if they are kept."""
 
     def shown(self, chosen: Sequence[int], /) -> list[ShownLast]:
         """The records of a few lasts."""
@@ -50,6 +61,7 @@ class RecordLasts:
 
     records: tuple[LastRecord, ...]
     base: LastColumns
+    by_label: Ints | None = None
 
     def chunks(self, _: Sequence[str]) -> Iterator[tuple[int, LastColumns]]:
         """All lasts at once."""
@@ -59,6 +71,13 @@ class RecordLasts:
     def taken(self, chosen: Ints, _: Sequence[str]) -> LastColumns:
         """Some lasts."""
         return self.base.taken(chosen)
+
+    def picked(self, chosen: Ints, parts: Sequence[str]) -> Iterator[LastColumns]:
+        """Many lasts, at once."""
+        yield self.taken(chosen, parts)
+
+    def sketches(self) -> None:
+        """No sketches: the records are in memory."""
 
     def shown(self, chosen: Sequence[int]) -> list[ShownLast]:
         """The records of a few lasts."""
@@ -174,13 +193,14 @@ def shelf_of(library: Library) -> Shelf:
     )
 
 
-def of_own_side(lasts: LastColumns, among: Bools, side: int) -> Bools:
+def of_own_side(shelf_lasts: Lasts, among: Bools, side: int) -> Bools:
     """Which lasts ``among`` (n,) the given ones are ranked: all but those of the other side whose
     twin of the foot's own side (an index of SIDES) is there.
     """
+    lasts = shelf_lasts.base
     chosen = among.copy()
     own = among & (lasts.side == side)
-    others = np.flatnonzero(among & (lasts.side != side))
+    others = np.flatnonzero(among & ~own)
     named = [
         style is not None and size is not None for style, size, *_ in lasts.words.labels.values
     ]
@@ -190,24 +210,22 @@ def of_own_side(lasts: LastColumns, among: Bools, side: int) -> Bools:
     others = others[twinned[lasts.label[others]]]
     if not len(others):
         return chosen
-    chosen[others[_nearest_mm(lasts, np.flatnonzero(own), others) < TWIN_LENGTH_MM]] = False
+    order = shelf_lasts.by_label
+    if order is None:
+        order = np.lexsort((lasts.extent_mm, lasts.label))
+    chosen[others[_nearest_mm(lasts, order, own, others) < TWIN_LENGTH_MM]] = False
     return chosen
 
 
-def _nearest_mm(lasts: LastColumns, own: Ints, others: Ints) -> Floats:
+def _nearest_mm(lasts: LastColumns, order: Ints, own: Bools, others: Ints) -> Floats:
     """How much longer or shorter each of the others is than the nearest own one with its labels;
-    each has one.
+    each has one. ``order`` is that of all rows, by labels, then by lengths.
     """
-    sorted_mm = np.unique(lasts.extent_mm[own])
-
-    def keys(rows: Ints) -> Ints:
-        """Whole numbers in the order of labels, then of lengths."""
-        ranks = np.searchsorted(sorted_mm, lasts.extent_mm[rows])
-        return np.asarray(lasts.label[rows] * (len(sorted_mm) + 1) + ranks)
-
-    own = own[np.argsort(keys(own))]
-    at = np.searchsorted(keys(own), keys(others))
-    beside = own[np.clip([at - 1, at], 0, max(len(own) - 1, 0))]
+    own_there = own[order]
+    before = np.empty(len(order), dtype=np.int64)  # how many own ones come before each row
+    before[order] = np.cumsum(own_there)
+    own_rows, at = order[own_there], before[others]
+    beside = own_rows[np.clip([at - 1, at], 0, len(own_rows) - 1)]
     apart_mm = np.abs(lasts.extent_mm[beside] - lasts.extent_mm[others])
     same = lasts.label[beside] == lasts.label[others]
     return np.asarray(np.where(same, apart_mm, np.inf).min(axis=0))

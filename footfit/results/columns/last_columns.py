@@ -9,6 +9,7 @@ from typing import Any, TypeVar
 import numpy as np
 
 from footfit.geometry.numeric.arrays import Bools, Floats, Ints
+from footfit.results.columns.packed_names import PackedNames
 from footfit.results.columns.vocabulary import NO_WORD, Vocabulary
 from footfit.results.values import SideName
 
@@ -16,6 +17,7 @@ SIDES: tuple[SideName | None, ...] = (None, "left", "right")
 KINDS = ("foot", "last")
 KEPT, NOT_KEPT, SPOILT = range(3)
 """Whether the sections of a last are kept, were not stored, or are damaged."""
+Names = tuple[str, ...] | PackedNames
 Rows = TypeVar("Rows", "ProfileColumns", "ToesColumns")
 
 
@@ -107,7 +109,7 @@ class LastColumns:
 
     words: Vocabulary
     keys: Ints
-    names: tuple[str, ...]
+    names: Names
     label: Ints
     profile: Ints
     method: Ints
@@ -146,12 +148,9 @@ class LastColumns:
 
     def taken(self, rows: Ints | slice) -> LastColumns:
         """Some of the lasts, in the order of ``rows``."""
-        names = self.names
         return LastColumns(
             words=self.words,
-            names=names[rows]
-            if isinstance(rows, slice)
-            else tuple(names[row] for row in rows.tolist()),
+            names=_taken_names(self.names, rows),
             **{name: getattr(self, name)[rows] for name in ARRAYS},
             measures=None if self.measures is None else self.measures.taken(rows),
             flare=_taken(self.flare, rows),
@@ -165,6 +164,14 @@ ARRAYS = tuple(
     if field.name not in ("words", "names", "measures", "flare", "toes")
 )
 """The columns that are single arrays."""
+
+
+def _taken_names(names: Names, rows: Ints | slice) -> Names:
+    if isinstance(rows, slice):
+        return names[rows]
+    if isinstance(names, PackedNames):
+        return names.taken(rows)
+    return tuple(names[row] for row in rows.tolist())
 
 
 def _taken(columns: Rows | None, rows: Ints | slice) -> Rows | None:
