@@ -271,18 +271,29 @@ def _away(fitting: Fitting) -> tuple[float, float]:
 
 
 def _before(sizes: float, widths: float) -> Place:
-    """From which last another one is made: a width nearer to the base, else a size."""
-    if widths:
-        return sizes, _nearer(widths)
-    return _nearer(sizes), 0.0
+    """From which last another one is made: a width or a size nearer to the base.
 
-
-def _nearer(steps: float) -> float:
-    """The next whole step towards the base.
+    Widths are changed where the last is longer, so that a run leads back: a larger last gets its
+    size first, a smaller one its width.
 
     Examples
     --------
-    >>> [_nearer(steps) for steps in (2.0, 2.5, -1.0, -0.5)]
-    [1.0, 2.0, 0.0, 0.0]
+    >>> _before(2.0, 1.0), _before(-2.0, 1.0)
+    ((2.0, 0.0), (-1.0, 1.0))
     """
-    return math.copysign(math.ceil(abs(steps) - 1e-9) - 1.0, steps) + 0.0
+    if sizes < 0.0 or not widths:
+        return _nearer(sizes), widths
+    return sizes, _nearer(widths)
+
+
+def _nearer(steps: float) -> float:
+    """The next step towards the base; the way down stops where the way up from there does.
+
+    Examples
+    --------
+    >>> [_nearer(steps) for steps in (2.0, 2.5, -1.0, -0.5, -2.5)]
+    [1.0, 2.0, 0.0, 0.0, -1.5]
+    """
+    if steps > 0.0:
+        return math.ceil(steps - 1e-9) - 1.0
+    return min(round(steps + 1.0, 9), 0.0)

@@ -18,11 +18,11 @@ from footfit.geometry.grading.length_flow import (
     flowed_mm,
     raised_mm,
 )
+from footfit.geometry.grading.steady_lines import cone_top_mm, middle_mm
 from footfit.geometry.measures.heights import HEIGHTS
 from footfit.geometry.measures.landmarks import AXES, Shape
 from footfit.geometry.measures.measure_table import measure_named
 from footfit.geometry.numeric.arrays import Floats
-from footfit.geometry.numeric.planes import Plane
 from footfit.geometry.stance.cues import StanceLabels
 from footfit.number_words import plain
 from footfit.pipeline.last_making.custom.custom_reading import probe_of
@@ -42,7 +42,7 @@ class GradeSettings:
         There it has one too, if their girths are planned. Behind the instep, the cone rises as the
         instep does.
     low : float
-        Where the plane of the cone's top lies lower, over its height at the instep, that is taken.
+        Where the line of the cone's top lies lower, over its height at the instep, that is taken.
     edge, height : float
         What lies lower over the bottom keeps its height over it; heights come to their full change
         over a share of the other, as in `ChartSettings`.
@@ -67,7 +67,7 @@ class GradeSettings:
     edge: float = 0.03
     height: float = 0.26
     small_rise_mm: float = 1.0
-    settled_mm: float = 0.003
+    settled_mm: float = 0.0005
     rounds: int = 12
     free_bend: float = 1.0
     free_size: float = 10.0
@@ -79,6 +79,7 @@ GRADE = GradeSettings()
 GRADE_SOLVER = replace(
     SOLVER,
     settled_mm=GRADE.settled_mm,
+    near_mm=GRADE.settled_mm,
     rounds=GRADE.rounds,
     bend=GRADE.free_bend,
     size=GRADE.free_size,
@@ -123,7 +124,8 @@ def graded(shape: Shape, step: GradeStep) -> Shape:
         raise OutOfReach("its bottom is open at the heel or the ball: grade a whole last")
     grows = step.ratio >= 1.0
     first = _lengthened(shape, step) if grows else shape
-    chart, top = _chart(first, step), _cone_mm(_chart(first, step), chart_of(first).top)
+    chart = _chart(first, step)
+    top = _cone_mm(chart, first)
     names = list(step.targets_mm)
     goals = [Goal(step.targets_mm[name], _probe(first, name)) for name in names]
 
@@ -179,13 +181,17 @@ def _lengthened(shape: Shape, step: GradeStep) -> Shape:
 
 
 def _chart(shape: Shape, step: GradeStep) -> Chart:
-    """The chart of a last, with one edge and one height: a step back must find them again."""
+    """The chart of a last, with one edge and one height: a step back must find them again.
+
+    The middle of its plan is read from sections for the same reason.
+    """
     chart = chart_of(shape, hold_top="top" in step.held, settings=GRADE_CHART)
     edge_mm, height_mm = (
         np.full(len(chart.stations), share * chart.arc.length_mm)
         for share in (GRADE.edge, GRADE.height)
     )
-    return replace(chart, edge_mm=edge_mm, height_mm=height_mm)
+    middle = middle_mm(chart, shape)
+    return replace(chart, middle_mm=middle, edge_mm=edge_mm, height_mm=height_mm)
 
 
 def _curve(chart: Chart, values: Floats) -> Floats:
@@ -213,17 +219,11 @@ def _knobs(chart: Chart, cone_mm: Floats, step: GradeStep) -> list[Knob]:
     ]
 
 
-def _cone_mm(chart: Chart, plane: Plane | None) -> Floats:
-    """How high the plane of the cone's top lies over the bottom, at the stations.
-
-    It is drawn on over the whole last. Of a last without such a plane it is one height.
-    """
-    if plane is None:
-        return np.full(len(chart.stations), GRADE.height * chart.arc.length_mm)
-    x, z = chart.arc.line.at(chart.stations * chart.arc.length_mm)
-    height_mm = -plane.heights(np.column_stack([x, chart.middle_mm, z])) / plane.normal[2]
+def _cone_mm(chart: Chart, shape: Shape) -> Floats:
+    """How high the cone's top lies over the bottom at the stations, but not less than a part."""
+    height_mm = cone_top_mm(chart, shape)
     instep_mm = float(np.interp(GRADE.instep, chart.stations, height_mm))
-    return np.asarray(np.maximum(height_mm, GRADE.low * instep_mm))
+    return np.maximum(height_mm, GRADE.low * instep_mm)
 
 
 def _level_rise(chart: Chart, cone_mm: Floats) -> Floats:
