@@ -8,7 +8,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import example, given, settings
 from hypothesis import strategies as st
 from scipy.spatial import cKDTree
 
@@ -88,22 +88,19 @@ def stepped(
     return graded(shape, GradeStep(ratio, goals, asked.held, standing(after, None)))
 
 
-@settings(max_examples=4, deadline=None, derandomize=True)  # see the known fault below
+@settings(max_examples=4, deadline=None, derandomize=True)
 @given(
     st.sampled_from([15.0, 60.0]),
     st.sampled_from([None, "bottom,toe"]),
     st.floats(-1.0, 1.0),
     st.sampled_from([0.0, 1.0]),
 )
+@example(15.0, "bottom,toe", 0.9, 1.0)
+@example(60.0, "top", 1.0, 0.0)
 def test_a_step_back_leads_back(
     heel_mm: float, hold: str | None, sizes: float, widths: float
 ) -> None:
     assert missed_way_back(heel_mm, hold, sizes, widths) < BACK_MM
-
-
-@pytest.mark.xfail(reason="with a held bottom a low heel comes back to .05 mm: not yet understood")
-def test_a_held_bottom_leads_back_from_nearly_a_size() -> None:
-    assert missed_way_back(15.0, "bottom,toe", 0.9, 1.0) < BACK_MM
 
 
 def missed_way_back(heel_mm: float, hold: str | None, sizes: float, widths: float) -> float:

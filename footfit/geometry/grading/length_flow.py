@@ -11,7 +11,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from footfit.geometry.deform.chart import eased
+from footfit.geometry.deform.chart import Chart, eased
+from footfit.geometry.grading.steady_lines import free_of_top
 from footfit.geometry.numeric.arrays import Floats
 
 
@@ -29,6 +30,7 @@ class LengthSettings:
     rounds: int = 12
     behind: float = 0.4
     taken_up: float = 0.65
+    even_rounds: int = 6
 
 
 LENGTHENING = LengthSettings()
@@ -106,6 +108,25 @@ def raised_mm(x_mm: Floats, z_mm: Floats, ratio: float, held: tuple[bool, bool])
     place = np.arange(len(x_mm))
     kept = np.where(place < lowest, held[0], held[1])
     return np.where(kept, 0.0, (ratio - 1.0) * (z_mm - z_mm[lowest]))
+
+
+def lengthened_mm(chart: Chart, points_mm: Floats, ahead_mm: Floats, raised_mm: Floats) -> Floats:
+    """Points (n, 3) of the resting frame where the bottom's line goes ahead and is raised.
+
+    ``ahead_mm`` and ``raised_mm`` (k,) are given at the chart's stations. Each point moves by what
+    the line does that has its middle where the point has it, and is as free of a held top as there.
+    So the way back is the same one.
+    """
+    standing = chart.standing(points_mm)
+    half_mm = chart.arc.line.at(chart.stations * chart.arc.length_mm)[0] + 0.5 * ahead_mm
+    shift = np.zeros_like(standing)
+    for _ in range(LENGTHENING.even_rounds):
+        half_way = standing + 0.5 * shift
+        x_mm = half_way[:, 0]
+        ahead, raised = (np.interp(x_mm, half_mm, curve) for curve in (ahead_mm, raised_mm))
+        shift = np.column_stack([ahead, np.zeros(len(x_mm)), raised])
+        shift *= free_of_top(chart, half_way)[:, None]
+    return chart.resting(standing + shift)
 
 
 def ends_raised_mm(x_mm: Floats, z_mm: Floats, by_mm: tuple[float, float]) -> Floats:

@@ -16,9 +16,10 @@ from footfit.geometry.grading.length_flow import (
     ahead_mm,
     ends_raised_mm,
     flowed_mm,
+    lengthened_mm,
     raised_mm,
 )
-from footfit.geometry.grading.steady_lines import cone_top_mm, middle_mm
+from footfit.geometry.grading.steady_lines import cone_top_mm, middle_mm, with_top_held
 from footfit.geometry.measures.heights import HEIGHTS
 from footfit.geometry.measures.landmarks import AXES, Shape
 from footfit.geometry.measures.measure_table import measure_named
@@ -176,22 +177,25 @@ def _lengthened(shape: Shape, step: GradeStep) -> Shape:
     if least < GRADE.determinant:
         words = "its shank is too steep to become so much shorter"
         raise OutOfReach(f"{words}: take fewer sizes, or hold neither bottom nor heel")
-    field = Field.still(chart).with_curves(ahead=_curve(chart, ahead), raised=_curve(chart, raised))
-    return Shape(field.moved_points(shape.vertices_mm), shape.faces, "last", step.labels)
+    longer_mm = lengthened_mm(chart, shape.vertices_mm, ahead, raised)
+    return Shape(longer_mm, shape.faces, "last", step.labels)
 
 
 def _chart(shape: Shape, step: GradeStep) -> Chart:
     """The chart of a last, with one edge and one height: a step back must find them again.
 
-    The middle of its plan is read from sections for the same reason.
+    The middle of its plan, and a top that is held, are read from sections for the same reason.
     """
-    chart = chart_of(shape, hold_top="top" in step.held, settings=GRADE_CHART)
+    chart = chart_of(shape, hold_top=False, settings=GRADE_CHART)
     edge_mm, height_mm = (
         np.full(len(chart.stations), share * chart.arc.length_mm)
         for share in (GRADE.edge, GRADE.height)
     )
     middle = middle_mm(chart, shape)
-    return replace(chart, middle_mm=middle, edge_mm=edge_mm, height_mm=height_mm)
+    chart = replace(chart, middle_mm=middle, edge_mm=edge_mm, height_mm=height_mm)
+    if "top" not in step.held or not len(shape.faces[shape.top_cut]):
+        return chart
+    return with_top_held(chart, shape)
 
 
 def _curve(chart: Chart, values: Floats) -> Floats:
