@@ -36,6 +36,7 @@ from footfit.results import GradedLast
 from tests.tape_peer import least_girths
 from tools.last_specs import STYLES, wide
 from tools.lasts import last_mesh
+from tools.resting import at_rest
 
 HEELS_MM = ((0.0, 20.0), (20.0, 40.0), (40.0, 60.0), (60.0, 80.0), (80.0, 100.0))
 STEPS = (
@@ -121,7 +122,7 @@ def second_mesh(rng: np.random.Generator, band: tuple[float, float]) -> tuple[Fl
     import lasts2
 
     mesh = lasts2.mesh(stance.other_spec(rng, band), n_long=90, n_round=56)
-    return stance.at_rest(np.array(mesh.vertices))[0], np.array(mesh.faces)
+    return at_rest(np.array(mesh.vertices))[0], np.array(mesh.faces)
 
 
 def corners_mm(data: bytes) -> Floats:

@@ -22,7 +22,8 @@ from footfit.geometry.numeric.arrays import Floats, Ints
 from footfit.geometry.stance.stance import stance_of
 from tools.last_specs import HEEL_BANDS_MM, STYLES, wide
 from tools.lasts import centre_line_mm, last_mesh
-from tools.outline_slab import outline_slab, own_slab, resting_side
+from tools.outline_slab import outline_slab, own_slab, plan_side
+from tools.resting import at_rest
 
 DEFINITION = FlareDefinition()
 ON_THE_FLAT = replace(DEFINITION, length_height=DEFINITION.flat_length_height)
@@ -57,7 +58,7 @@ def own(rng: np.random.Generator, band: tuple[float, float], number: int) -> Cas
     spec = wide(rng, STYLES[number % len(STYLES)], band, rings=110, segments=80)
     spec = replace(spec, side="right")
     line = centre_line_mm(spec, AT)
-    return Case(last_mesh(spec), own_slab(spec), planted_deg(line, resting_side(spec)))
+    return Case(last_mesh(spec), own_slab(spec), planted_deg(line, plan_side(spec)))
 
 
 def other(rng: np.random.Generator, band: tuple[float, float], _: int) -> Case:
@@ -66,7 +67,7 @@ def other(rng: np.random.Generator, band: tuple[float, float], _: int) -> Case:
 
     spec = stance.other_spec(rng, band)
     mesh = lasts2.mesh(spec, n_long=150, n_round=84)
-    vertices, faces = stance.at_rest(np.array(mesh.vertices))[0], np.array(mesh.faces)
+    vertices, faces = at_rest(np.array(mesh.vertices))[0], np.array(mesh.faces)
     plan = lasts2.Plan(spec)
     at = 0.5 - 0.5 * np.cos(np.pi * np.linspace(0.0, 1.0, 700))
     x, y, heading = plan.at(at)

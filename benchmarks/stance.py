@@ -25,6 +25,7 @@ from footfit.geometry.stance.cues import StanceLabels
 from footfit.geometry.stance.stance import STANCE, stance_of
 from tools.last_specs import HEEL_BANDS_MM, STYLES, wide
 from tools.lasts import last_mesh, standing
+from tools.resting import at_rest
 
 SHARED = Path(__file__).resolve().parents[2] / "shared" / "tools"
 HIGHEST_MM = 112.0  # of lasts2
@@ -80,23 +81,6 @@ def other_spec(rng: np.random.Generator, band: tuple[float, float]) -> Any:
     spec = lasts2.random_last(rng, length=rng.uniform(225, 280))
     spec.heel_height, spec.toe_spring = min(rng.uniform(*band), HIGHEST_MM), rng.uniform(3, 8)
     return spec
-
-
-def at_rest(points: Floats) -> tuple[Floats, float]:
-    """Points (n, 3) laid on their resting line, and the angle (radians) that this turned them by.
-
-    The angle is + if the heel was lowered: it leads from the resting plane back to the ground.
-    """
-    from scipy.spatial import ConvexHull
-
-    hull = points[ConvexHull(points[:, [0, 2]]).vertices][:, [0, 2]]
-    edges = np.roll(hull, -1, axis=0) - hull
-    below = edges[np.argmax(np.where(edges[:, 0] > 0, edges[:, 0], 0.0))]
-    angle = -float(np.arctan2(below[1], below[0]))
-    cosine, sine = np.cos(angle), np.sin(angle)
-    turn = np.array([[cosine, 0.0, sine], [0.0, 1.0, 0.0], [-sine, 0.0, cosine]])
-    resting = points @ turn
-    return resting - resting.min(axis=0) * [1.0, 0.0, 1.0], angle
 
 
 def rows(count: int, seed: int) -> Iterator[list[str]]:

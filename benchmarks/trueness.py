@@ -37,6 +37,7 @@ from tests.reading import read_scan
 from tests.scans import aligned
 from tools.last_specs import HEEL_BANDS_MM, STYLES, wide
 from tools.lasts import last_mesh, standing
+from tools.resting import at_rest
 
 FINE = {"rings": 170, "segments": 120}
 FINE_OTHER = {"n_long": 170, "n_round": 104}
@@ -122,7 +123,7 @@ def own(rng: np.random.Generator, band: int, number: int) -> Case:
     seat = (place >= 0.06) & (place <= 0.14)
     heel_mm = float(np.polyfit(x[seat] - x[0], z[seat] - z.min(), 1)[1])
     vertices, faces = last_mesh(replace(spec, **FINE))
-    resting, turned = stance.at_rest(vertices)
+    resting, turned = at_rest(vertices)
     planted = {"heel_height": heel_mm, "toe_spring_tip": drafted.tip_mm}
     pitch = float(np.radians(drafted.pitch_deg)) + turned
     draft = Drafted(on_plan_axis(resting, faces), faces, "last", pitch, planted)
@@ -135,7 +136,7 @@ def other(rng: np.random.Generator, band: int) -> Case:
 
     spec = stance.other_spec(rng, HEEL_BANDS_MM[band])
     fine = lasts2.mesh(spec, **FINE_OTHER)
-    resting, pitch = stance.at_rest(np.array(fine.vertices))
+    resting, pitch = at_rest(np.array(fine.vertices))
     planted = {"heel_height": spec.heel_height, "toe_spring_tip": spec.toe_spring}
     vertices = on_plan_axis(resting, fine.faces)
     draft = Drafted(vertices, np.array(fine.faces), "last", pitch, planted)

@@ -16,6 +16,7 @@ from tools import last_cuts
 from tools.bent_lasts import bent
 from tools.last_specs import HEEL_BANDS_MM, STYLES, LastSpec, wide
 from tools.lasts import last_mesh, standing
+from tools.resting import at_rest
 
 SMALL = {"rings": 90, "segments": 64}
 HEEL_MM = 3.0  # of the mesh's seat against the drafted one, on a steep seat; measured: 2.5
@@ -91,10 +92,10 @@ def test_a_high_heel_is_not_taken_for_a_toe_that_springs_high():
 
     spec = replace(lasts2.random_last(np.random.default_rng(2)), heel_height=0.0)
     mesh = lasts2.mesh(spec, n_long=150, n_round=84)
-    vertices, faces = benchmark.at_rest(np.array(mesh.vertices))[0], np.array(mesh.faces)
+    vertices, faces = at_rest(np.array(mesh.vertices))[0], np.array(mesh.faces)
     stance = stance_of(vertices, faces, "last")
     stands = stance.standing_transform
     level = vertices @ stands[:3, :3].T + stands[:3, 3]
-    raised, _ = benchmark.at_rest(bent(level, stance.length_mm, 95.0, 1.0))
+    raised, _ = at_rest(bent(level, stance.length_mm, 95.0, 1.0))
     found = stance_of(raised, faces, "last")
     assert found.heel_mm() == pytest.approx(95.0, abs=4.0)  # measured 1.9

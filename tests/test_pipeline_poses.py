@@ -9,11 +9,12 @@ import pytest
 
 from benchmarks.poses.case import Case, outcome
 from benchmarks.poses.feet import of_kind
-from benchmarks.poses.lasts import cut_last, rested
+from benchmarks.poses.lasts import cut_last
 from tests.conftest import SAMPLES
 from tests.reading import read_scan
 from tools.last_specs import wide
 from tools.lasts import last_mesh
+from tools.resting import at_rest
 
 PITCH_DEG = 0.9  # of a heeled last against its resting line; measured: 0.45
 LOW_DEG = 3.2  # of a low last and of a foot against where they were drawn; measured: 1.6
@@ -47,7 +48,7 @@ def test_a_last_of_every_kind_is_posed(name):
     rng = seeded(name)
     spec = wide(rng, style, (heel_mm, heel_mm), flare_deg=FLARE_DEG, rings=70, segments=50, **given)
     vertices, faces = cut_last(*last_mesh(spec), cut)
-    case = Case("own", style, "", cut, rested(vertices), faces, FLARE_DEG, spec.length_mm)
+    case = Case("own", style, "", cut, at_rest(vertices)[0], faces, FLARE_DEG, spec.length_mm)
     found = outcome(case, rng)
     assert not found.refused, found.message
     assert not found.wrong

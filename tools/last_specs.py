@@ -37,7 +37,8 @@ class LastSpec:
     toe spring begins. ``shaft_mm`` is the height of a boot's shaft over the seat, 0 for none;
     ``cone_width`` is the width of the cone over the width below it. With ``level_tread`` the arch
     and the hollow of the shank end before the tread, which then lies level: only so is the
-    drafted stance the true one.
+    drafted stance the true one. With ``bent_standing`` the plan is bent as the last stands, so
+    that seat and tread are level across there; else it is bent as the last rests.
     """
 
     length_mm: float = 270.0
@@ -66,6 +67,7 @@ class LastSpec:
     shaft_mm: float = 0.0
     cone_width: float = 0.31
     level_tread: bool = False
+    bent_standing: bool = False
     medial_wall: float = 0.0
     feather_inset: float = 0.10
     sole_crown: float = 1.0
@@ -178,6 +180,7 @@ def wide(
         * rng.uniform(*((0.20, 0.28) if style == "pump" else (0.29, 0.37))),
         cone_width=rng.uniform(0.26, 0.36),
         level_tread=True,
+        bent_standing=True,
         shaft_mm=length_mm * rng.uniform(0.50, 0.95) if style == "boot" else 0.0,
         fullness=rng.uniform(0.85, 0.95) if style == "sandal" else rng.uniform(0.92, 1.1),
     )

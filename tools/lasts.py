@@ -15,6 +15,9 @@ is a centre line moved by o to the lateral side and a half width less by o. With
 :func:`plain` these are zero and c is one smooth bend. What differs above or under the widest
 row (instep ridge, arch, the feather line's cut at the waist) leaves c alone.
 
+A last may also be bent as it stands (``LastSpec.bent_standing``): then s and z are those of the
+standing last, c is the mid-point of the widest row there, and seat and tread are level across.
+
 Canonical pose of a right last: x from heel to toe, y medial positive, z up, z = 0 the
 resting plane (it touches the seat and the tread, level across), x = 0 the rearmost point, y = 0 the
 heel's middle; x runs along the principal plan axis. A left last is the mirror image.
@@ -47,6 +50,7 @@ from tools.last_profiles import (
     widths,
 )
 from tools.last_specs import LastSpec, graded, plain, share, varied
+from tools.resting import at_rest, pitched
 
 __all__ = [
     "LastSpec",
@@ -109,11 +113,19 @@ def _heading(spec: LastSpec) -> Floats:
 
 @dataclass(frozen=True, slots=True)
 class _Plan:
-    """The planted curve over the length, and what brings it into the canonical pose."""
+    """The planted curve over the length, and what brings it into the canonical pose.
 
+    ``pitch`` (radians) leads from the resting last to the pose that is bent. There the widest row
+    begins at ``start`` and is ``span`` long, over the length of the resting last.
+    """
+
+    pitch: float
+    start: float
+    span: float
     heading: Floats
     x: Floats
     y: Floats
+    half: Floats
     scale: float
     origin: tuple[float, float]
 
@@ -136,6 +148,12 @@ def _plan(spec: LastSpec, half_width: Floats) -> _Plan:
 
     ``half_width`` is given on ``_GRID``; the plan figure is the strip of that half width.
     """
+    view = _side_view(spec)
+    pitch = float(np.radians(view.pitch_deg)) if spec.bent_standing else 0.0
+    along = np.cos(pitch) * _GRID + np.sin(pitch) * view.widest(_GRID)
+    start, end = (float(np.interp(s, _GRID, along)) for s in (0.0, 1.0))
+    span = end - start
+    half_width = np.interp(_GRID, (along - start) / span, half_width) / span
     heading = _heading(spec)
     yaw = 0.0
     for _ in range(4):
@@ -152,9 +170,8 @@ def _plan(spec: LastSpec, half_width: Floats) -> _Plan:
     edges = np.concatenate([x - side * half_width * np.sin(heading) for side in (-1, 1)])
     ends = edges[np.tile(inside, 2)]
     heel = (_GRID >= 0.02) & (_GRID <= 0.10)
-    return _Plan(
-        heading, x, y, 1.0 / float(np.ptp(ends)), (float(ends.min()), float(y[heel].mean()))
-    )
+    origin = float(ends.min()), float(y[heel].mean())
+    return _Plan(pitch, start, span, heading, x, y, half_width, 1.0 / float(np.ptp(ends)), origin)
 
 
 def _planted(spec: LastSpec) -> tuple[_Plan, Widths]:
@@ -192,18 +209,27 @@ def true_flare_deg(spec: LastSpec) -> float:
 
 
 def centre_line_mm(spec: LastSpec, s: Floats) -> Floats:
-    """The planted centre line in the pose of :func:`last_mesh` (right last): (n, 2), x and y."""
+    """The planted centre line of the right last: (n, 2), x and y.
+
+    In the pose of :func:`last_mesh`, or in that of :func:`standing` if the last was bent there.
+    """
     plan, _ = _planted(spec)
     x, y, _ = plan.at(np.asarray(s, dtype=float))
-    scale = plan.scale * spec.length_mm
-    return np.column_stack([x - plan.origin[0], y - plan.origin[1]]) * scale
+    return np.column_stack([x - plan.origin[0], y - plan.origin[1]]) * _unit_mm(spec, plan)
 
 
 def half_width_mm(spec: LastSpec, s: Floats) -> Floats:
     """Half the distance of the band's two extremes, normal to the centre line: (n,) in mm."""
-    plan, shape = _planted(spec)
-    half: Floats = np.interp(np.asarray(s, dtype=float), _GRID, shape.half)
-    return half * (plan.scale * spec.length_mm)
+    plan, _ = _planted(spec)
+    half: Floats = np.interp(np.asarray(s, dtype=float), _GRID, plan.half)
+    return half * _unit_mm(spec, plan)
+
+
+def _unit_mm(spec: LastSpec, plan: _Plan) -> float:
+    """How many mm a unit of the planted curve is."""
+    if spec.bent_standing:
+        return plan.span * _placed(spec).unit_mm
+    return plan.scale * spec.length_mm
 
 
 # ------------------------------------------------------------------ the straight last
@@ -389,26 +415,42 @@ def last_mesh(spec: LastSpec) -> tuple[Floats, Ints]:
     faces : (m, 3) int64
         Wound outward, watertight, no degenerate face.
     """
-    vertices, faces, _ = _placed(spec)
+    placed = _placed(spec)
+    vertices, faces = placed.vertices_mm, placed.faces
     if spec.side == "left":
         vertices[:, 1] *= -1.0
         faces = faces[:, ::-1].copy()
     return vertices, faces
 
 
-def _placed(spec: LastSpec) -> tuple[Floats, Ints, float]:
-    """The right last in mm in the canonical pose, and how many mm a unit of the curves is."""
+@dataclass(frozen=True, slots=True)
+class _Placed:
+    """The right last in the canonical pose, how many mm a unit of the curves is, and the angle
+    (radians) that leads from there to where it stands.
+    """
+
+    vertices_mm: Floats
+    faces: Ints
+    unit_mm: float
+    pitch: float
+
+
+def _placed(spec: LastSpec) -> _Placed:
     plan, shape = _planted(spec)
     ring = _rings(spec, shape).reshape(-1, 3)
     faces, used = _ring_faces(spec)
-    s, d, z = ring[used].T
-    x, y, heading = plan.at(s)
-    vertices = np.column_stack([x - d * np.sin(heading), y + d * np.cos(heading), z])
-    vertices -= [plan.origin[0], plan.origin[1], z.min()]
+    along, d, z = pitched(ring[used], plan.pitch).T
+    x, y, heading = plan.at((along - plan.start) / plan.span)
+    x, y = plan.span * x - d * np.sin(heading), plan.span * y + d * np.cos(heading)
+    vertices = np.column_stack([x, y, z])
+    vertices -= [plan.span * plan.origin[0], plan.span * plan.origin[1], z.min()]
+    pitch = float(np.radians(_side_view(spec).pitch_deg))
+    if spec.bent_standing:
+        vertices, pitch = at_rest(vertices)
     unit_mm = spec.length_mm / float(np.ptp(vertices[:, 0]))
     vertices *= unit_mm
     vertices[:, 0] -= vertices[:, 0].min()
-    return vertices, faces, unit_mm
+    return _Placed(vertices, faces, unit_mm, pitch)
 
 
 @dataclass(frozen=True, slots=True)
@@ -420,7 +462,8 @@ class Standing:
     pitch_deg : float
         From the resting plane to the floor, + where the heel is raised.
     middle_mm : (k, 2)
-        The bottom's middle from heel to toe, x along the floor and z over it.
+        The bottom's middle from heel to toe, x along the floor and z over it. x = 0 is where the
+        plan outline begins if the last was bent as it stands.
     tip_mm : float
         The height of the feather edge at the tip, where the sole is no longer hollowed to its
         middle.
@@ -443,8 +486,14 @@ class Standing:
 
 def standing(spec: LastSpec) -> Standing:
     """How the last of a spec stands, as it was drafted."""
-    view = _side_view(spec)
-    unit_mm = _placed(spec)[2]
-    middle_mm = view.drafted * unit_mm
-    tip_mm = middle_mm[-1, 1] - middle_mm[:, 1].min() + unit_mm * float(view.crown(np.ones(1))[0])
-    return Standing(view.pitch_deg, middle_mm, float(tip_mm))
+    view, placed = _side_view(spec), _placed(spec)
+    middle = view.drafted
+    if spec.bent_standing:  # the bend in plan makes it a little shorter along the floor
+        plan, _ = _planted(spec)
+        along = middle[:, 0] + np.sin(plan.pitch) * float(view.bottom(np.zeros(1))[0])
+        x = plan.at((along - plan.start) / plan.span)[0] - plan.origin[0]
+        middle = np.column_stack([plan.span * x, middle[:, 1]])
+    middle_mm = middle * placed.unit_mm
+    tip_mm = middle_mm[-1, 1] - middle_mm[:, 1].min()
+    tip_mm += placed.unit_mm * float(view.crown(np.ones(1))[0])
+    return Standing(float(np.degrees(placed.pitch)), middle_mm, float(tip_mm))

@@ -54,16 +54,20 @@ def own_slab(spec: LastSpec, points: int = 700) -> tuple[Floats, Ints]:
     along = np.gradient(line, at, axis=0)
     aside = np.column_stack([-along[:, 1], along[:, 0]]) / np.linalg.norm(along, axis=1)[:, None]
     edges = (line + sign * half[:, None] * aside for sign in (1.0, -1.0))
-    return outline_slab(*edges, resting_side(spec))
+    return outline_slab(*edges, plan_side(spec))
 
 
-def resting_side(spec: LastSpec) -> Floats:
-    """The side view of a bottom in the resting frame, drawn on straight at both ends."""
+def plan_side(spec: LastSpec) -> Floats:
+    """The side view of a bottom in the pose in which the last was bent in plan, drawn on straight
+    at both ends.
+    """
     pose = standing(spec)
-    angle = np.radians(pose.pitch_deg)
-    cosine, sine = np.cos(angle), np.sin(angle)
-    side = pose.middle_mm @ np.array([[cosine, sine], [-sine, cosine]])
-    side -= [side[0, 0], 0.0]
+    side = pose.middle_mm
+    if not spec.bent_standing:
+        angle = np.radians(pose.pitch_deg)
+        cosine, sine = np.cos(angle), np.sin(angle)
+        side = side @ np.array([[cosine, sine], [-sine, cosine]])
+        side -= [side[0, 0], 0.0]
     first, last = side[1] - side[0], side[-1] - side[-2]
     far = 0.2 * spec.length_mm
     return np.concatenate(

@@ -12,6 +12,7 @@ from footfit.geometry.numeric.arrays import Floats, Ints
 from tools import last_cuts
 from tools.last_specs import HEEL_BANDS_MM, STYLES, wide
 from tools.lasts import last_mesh
+from tools.resting import at_rest
 
 TOOLS = Path(__file__).resolve().parents[3] / "shared" / "tools"
 CUTS = ("none", "thimble", "v-cut", "hinge open", "hinge touching", "hinge in one body")
@@ -75,17 +76,4 @@ def other_last(rng: np.random.Generator, number: int) -> Case:
     vertices, faces = cut_last(np.array(mesh.vertices), np.array(mesh.faces), cut)
     flare_deg = lasts2.truth(spec, mesh)["flare_angle_deg"]
     heel = "0-30" if child else f"{band[0]:.0f}-{band[1]:.0f}"
-    return Case("lasts2", style, heel, cut, rested(vertices), faces, flare_deg, length_mm)
-
-
-def rested(points: Floats) -> Floats:
-    """Points turned about Y until the longest lower edge of their side view lies level."""
-    from scipy.spatial import ConvexHull
-
-    side_view = points[:, [0, 2]]
-    hull = side_view[ConvexHull(side_view).vertices]
-    edges = np.roll(hull, -1, axis=0) - hull
-    below = edges[np.argmax(np.where(edges[:, 0] > 0, edges[:, 0], 0.0))]
-    cosine, sine = below / np.hypot(*below)
-    turn = np.array([[cosine, 0.0, sine], [0.0, 1.0, 0.0], [-sine, 0.0, cosine]])
-    return np.asarray(points @ turn.T)
+    return Case("lasts2", style, heel, cut, at_rest(vertices)[0], faces, flare_deg, length_mm)

@@ -18,9 +18,11 @@ from footfit.geometry.numeric.planes import LEVEL, Plane
 from footfit.geometry.numeric.quantiles import area_quantile
 from footfit.geometry.pose.resting_line import (
     bottom_of,
+    contact_plane,
     heeled_share,
     resting_line,
-    resting_plane,
+    resting_slope,
+    slope_across,
     thinned,
 )
 from footfit.geometry.pose.sole_plane import FLOOR, rim_plane, sole_plane, support
@@ -115,18 +117,21 @@ def _rim_plane(sample: SurfaceSample, length: float, _: Plane) -> tuple[Plane, f
 
 
 def _last_plane(sample: SurfaceSample, length: float, start: Plane) -> tuple[Plane, float]:
-    """The plane of a last, and how much of it is the resting plane of one with a raised heel."""
+    """The plane of a last, and how much of its pitch is that of the line that it rests on.
+
+    It is level across its tread. Its pitch is that of the resting line if its heel is raised.
+    """
     line = resting_line(bottom_of(thinned(sample), length))
     share = heeled_share(line, length)
-    if line is None or share == 0.0:
+    if line is None:
         return sole_plane(sample, length, start), 0.0
-    resting = resting_plane(bottom_of(sample, length), line, length)
-    if share == 1.0:
-        return resting, share
-    low = sole_plane(sample, length, start)
-    normal = share * resting.normal + (1.0 - share) * low.normal
-    offset = share * resting.offset + (1.0 - share) * low.offset
-    return Plane(normal / np.linalg.norm(normal), offset), share
+    bottom = bottom_of(sample, length)
+    across = slope_across(bottom, line, length)
+    along = resting_slope(bottom, line, across) if share else 0.0
+    if share < 1.0:
+        normal = sole_plane(sample, length, start).normal
+        along = share * along - (1.0 - share) * float(normal[0] / normal[2])
+    return contact_plane(bottom, along, across), share
 
 
 def _settled(

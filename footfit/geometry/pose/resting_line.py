@@ -1,4 +1,4 @@
-"""The line that a last with a raised heel rests on: the longest lower edge of its side view.
+"""What a last rests on: the longest lower edge of its side view, and its tread across.
 
 Points are in an approximate canonical pose: x heel to toe, z up, the ground near z = 0; mm.
 """
@@ -31,8 +31,16 @@ class RestingSettings:
         Of the whole surface: enough to find the line and the rise.
     contact_share : float
         Seat and tread touch the ground where this share of the area of their half lies below.
+    seat : float
+        What levels a last across behind the front end of its seat, over the bottom's extent. Where
+        the line touches the seat further back, it is what lies behind that place.
+    tread : (2,)
+        And from here to there before the place where the line touches the tread. The shank bends
+        into the tread about that place, often along a slanting line: there is no level.
+    tread_least : float
+        That place is not taken further back than this, over the bottom's extent.
     width : float
-        How near the ground the points lie that level the last across.
+        How near their parabolas the points lie that level the last across.
     heeled : (2,)
         The rise of the bottom over the resting line from which, and up to which, the resting line
         takes the place of the sole plane. Lasts with a heel of 0-20 mm rise .010-.020, those with
@@ -46,8 +54,11 @@ class RestingSettings:
     fewest_points: int = 3
     some_points: int = 8000
     contact_share: float = 0.003
-    width: float = 0.02
-    levelling_rounds: int = 3
+    seat: float = 0.20
+    tread: tuple[float, float] = (0.05, 0.22)
+    tread_least: float = 0.50
+    width: float = 0.012
+    levelling_rounds: int = 4
     heeled: tuple[float, float] = (0.018, 0.028)
 
 
@@ -104,37 +115,50 @@ def heeled_share(line: RestingLine | None, length: float) -> float:
     return share * share * (3.0 - 2.0 * share)
 
 
-def resting_plane(bottom: SurfaceSample, line: RestingLine, length: float) -> Plane:
-    """The plane that a bottom rests on: along its resting line, level across seat and tread."""
+def resting_slope(bottom: SurfaceSample, line: RestingLine, across: float) -> float:
+    """The slope in x of the plane that a bottom rests on, if that is level across (``across``)."""
     x, y, z = bottom.points.T
     (x_seat, z_seat), (x_tread, z_tread) = line.contacts
     along = float((z_tread - z_seat) / (x_tread - x_seat))
-    height = z - z_seat - along * (x - x_seat)
+    height = z - z_seat - along * (x - x_seat) - across * y
     front = x > line.summit
-    across = _slope_across(bottom, front, height, RESTING.width * length)
-    height = height - across * y
     seat, tread = (
         area_quantile(height[half], bottom.areas[half], RESTING.contact_share)
         for half in (~front, front)
     )
-    along += (tread - seat) / float(x_tread - x_seat)
+    return along + (tread - seat) / float(x_tread - x_seat)
+
+
+def slope_across(bottom: SurfaceSample, line: RestingLine, length: float) -> float:
+    """The slope in y that seat and tread share, whatever parabola in x each of them follows.
+
+    A last stands level across its tread. Its shank and its arch are steep, and higher on one side:
+    they do not count.
+    """
+    x, y, z = bottom.points.T
+    rear = float(x.min())
+    end = min(float(line.contacts[0, 0]), rear + RESTING.seat * length)
+    start = max(float(line.contacts[1, 0]), rear + RESTING.tread_least * length)
+    first, last = start + np.multiply(RESTING.tread, length)
+    tread = (x > first) & (x < last)
+    level = tread | (x < end)
+    seat, tread = np.where(tread, [[0.0], [1.0]], [[1.0], [0.0]])[:, level]
+    u, y, z = (x[level] - start) / length, y[level], z[level]
+    v = (x[level] - end) / length
+    rows = np.column_stack([seat, seat * v, tread, tread * u, tread * u * u, y])
+    down = np.square(np.square(bottom.normals[level, 2])) * bottom.areas[level]
+    weights, solution = down, np.zeros(rows.shape[1])
+    for _ in range(RESTING.levelling_rounds):
+        weighted = rows * weights[:, None]
+        solution = np.linalg.lstsq(weighted.T @ rows, weighted.T @ z, rcond=None)[0]
+        weights = down * np.exp(-(((z - rows @ solution) / (RESTING.width * length)) ** 2))
+    return float(solution[-1])
+
+
+def contact_plane(bottom: SurfaceSample, along: float, across: float) -> Plane:
+    """The plane of some slopes in x and y that touches a bottom."""
     normal = np.array([-along, -across, 1.0]) / np.sqrt(1.0 + along**2 + across**2)
     return Plane(normal, area_quantile(bottom.points @ normal, bottom.areas, RESTING.contact_share))
-
-
-def _slope_across(bottom: SurfaceSample, front: Floats, height: Floats, width: float) -> float:
-    """The slope in y that seat and tread share, whatever slope in x each of them has."""
-    x, y = bottom.points[:, 0], bottom.points[:, 1]
-    half = np.where(front, 1.0, 0.0)
-    rows = np.column_stack([1.0 - half, half, (1.0 - half) * x, half * x, y])
-    down = np.square(np.square(bottom.normals[:, 2])) * bottom.areas
-    slope = 0.0
-    for _ in range(RESTING.levelling_rounds):
-        weights = down * np.exp(-(((height - slope * (y - y.mean())) / width) ** 2))
-        weighted = rows * weights[:, None]
-        solution = np.linalg.lstsq(weighted.T @ rows, weighted.T @ height, rcond=None)[0]
-        slope = float(solution[4])
-    return slope
 
 
 def _lower_edge(points: Floats) -> Floats:
