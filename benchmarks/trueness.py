@@ -37,7 +37,7 @@ from tests.reading import read_scan
 from tests.scans import aligned
 from tools.last_specs import HEEL_BANDS_MM, STYLES, wide
 from tools.lasts import last_mesh, standing
-from tools.resting import at_rest
+from tools.resting import at_rest, pitched
 
 FINE = {"rings": 170, "segments": 120}
 FINE_OTHER = {"n_long": 170, "n_round": 104}
@@ -95,8 +95,10 @@ Errors = dict[str, list[Error]]
 """By measure."""
 
 
-def on_plan_axis(vertices: Floats, faces: Ints) -> Floats:
-    """A shape turned in plan until its longest direction below .15 of the length is x."""
+def to_plan_axis(vertices: Floats, faces: Ints) -> Floats:
+    """The turn in plan (3, 3), for points on its left, to where the longest direction below .15 of
+    the length is x.
+    """
     vertices = vertices - [vertices[:, 0].min(), 0.0, vertices[:, 2].min()]
     corners = vertices[faces]
     area = np.linalg.norm(
@@ -108,8 +110,17 @@ def on_plan_axis(vertices: Floats, faces: Ints) -> Floats:
     plan = middle[low, :2] - np.average(middle[low, :2], axis=0, weights=area[low])
     axis = np.linalg.eigh(plan.T @ (plan * area[low, None]))[1][:, 1]
     axis = axis * np.sign(axis[0])
-    turn = np.array([[axis[0], -axis[1], 0.0], [axis[1], axis[0], 0.0], [0.0, 0.0, 1.0]])
-    return np.asarray(vertices @ turn)
+    return np.array([[axis[0], -axis[1], 0.0], [axis[1], axis[0], 0.0], [0.0, 0.0, 1.0]])
+
+
+def laid_down(standing: Floats, faces: Ints) -> tuple[Floats, float]:
+    """A standing last laid on its resting line about its own y, and the angle back (radians).
+
+    Its x is the plan axis of the resting last, and it stands level across that axis.
+    """
+    for _ in range(3):
+        standing = standing @ to_plan_axis(at_rest(standing)[0], faces)
+    return at_rest(standing)
 
 
 def own(rng: np.random.Generator, band: int, number: int) -> Case:
@@ -122,11 +133,12 @@ def own(rng: np.random.Generator, band: int, number: int) -> Case:
     place = (x - x[0]) / np.ptp(x)
     seat = (place >= 0.06) & (place <= 0.14)
     heel_mm = float(np.polyfit(x[seat] - x[0], z[seat] - z.min(), 1)[1])
-    vertices, faces = last_mesh(replace(spec, **FINE))
-    resting, turned = at_rest(vertices)
+    fine = replace(spec, **FINE)
+    vertices, faces = last_mesh(fine)
+    stands = pitched(vertices, float(np.radians(standing(fine).pitch_deg)))
+    resting, pitch = laid_down(stands, faces)
     planted = {"heel_height": heel_mm, "toe_spring_tip": drafted.tip_mm}
-    pitch = float(np.radians(drafted.pitch_deg)) + turned
-    draft = Drafted(on_plan_axis(resting, faces), faces, "last", pitch, planted)
+    draft = Drafted(resting, faces, "last", pitch, planted)
     return Case(last_mesh(spec), draft)
 
 
@@ -136,10 +148,9 @@ def other(rng: np.random.Generator, band: int) -> Case:
 
     spec = stance.other_spec(rng, HEEL_BANDS_MM[band])
     fine = lasts2.mesh(spec, **FINE_OTHER)
-    resting, pitch = at_rest(np.array(fine.vertices))
+    resting, pitch = laid_down(np.array(fine.vertices), fine.faces)
     planted = {"heel_height": spec.heel_height, "toe_spring_tip": spec.toe_spring}
-    vertices = on_plan_axis(resting, fine.faces)
-    draft = Drafted(vertices, np.array(fine.faces), "last", pitch, planted)
+    draft = Drafted(resting, np.array(fine.faces), "last", pitch, planted)
     mesh = lasts2.mesh(spec, n_long=150, n_round=84)
     return Case((np.array(mesh.vertices), np.array(mesh.faces)), draft)
 
@@ -152,7 +163,8 @@ def foot(number: int) -> Case:
     vertices, faces = scan.vertices_mm, scan.faces
     if row["side"] == "L":
         vertices, faces = vertices * (1.0, -1.0, 1.0), faces[:, ::-1]
-    draft = Drafted(on_plan_axis(vertices, faces), faces, "foot", 0.0, {})
+    vertices = vertices - [vertices[:, 0].min(), 0.0, vertices[:, 2].min()]
+    draft = Drafted(vertices @ to_plan_axis(vertices, faces), faces, "foot", 0.0, {})
     return Case((vertices, faces), draft)
 
 

@@ -17,11 +17,11 @@ from footfit.geometry.numeric.arrays import Floats
 from footfit.geometry.numeric.planes import LEVEL, Plane
 from footfit.geometry.numeric.quantiles import area_quantile
 from footfit.geometry.pose.resting_line import (
+    RESTING,
     bottom_of,
-    contact_plane,
     heeled_share,
     resting_line,
-    resting_slope,
+    resting_plane,
     slope_across,
     thinned,
 )
@@ -82,6 +82,9 @@ def canonical_frame(sample: SurfaceSample, length: float, *, last: bool = False)
     rotation, plane, share = _settled(sample, length, standing_plane)
     tilt_deg = float(np.degrees(angle_between(rotation[2], LEVEL.normal)))
     turned = turned_sample(sample, rotation)
+    if last:
+        turn, plane = _level_across(turned, plane.offset, length)
+        rotation, turned = turn @ rotation, turned_sample(turned, turn)
     back_height = FRAME.length_height + share * (FRAME.heeled_back - FRAME.length_height)
     length = length_of(turned.points, plane.offset, length, back_height)
     held = support(turned, plane, length)
@@ -117,21 +120,35 @@ def _rim_plane(sample: SurfaceSample, length: float, _: Plane) -> tuple[Plane, f
 
 
 def _last_plane(sample: SurfaceSample, length: float, start: Plane) -> tuple[Plane, float]:
-    """The plane of a last, and how much of its pitch is that of the line that it rests on.
-
-    It is level across its tread. Its pitch is that of the resting line if its heel is raised.
-    """
-    line = resting_line(bottom_of(thinned(sample), length))
+    """The plane of a last, and how much of it is the resting plane of one with a raised heel."""
+    line = resting_line(bottom_of(thinned(sample), start.offset, length))
     share = heeled_share(line, length)
-    if line is None:
+    if line is None or share == 0.0:
         return sole_plane(sample, length, start), 0.0
-    bottom = bottom_of(sample, length)
-    across = slope_across(bottom, line, length)
-    along = resting_slope(bottom, line, across) if share else 0.0
-    if share < 1.0:
-        normal = sole_plane(sample, length, start).normal
-        along = share * along - (1.0 - share) * float(normal[0] / normal[2])
-    return contact_plane(bottom, along, across), share
+    resting = resting_plane(bottom_of(sample, start.offset, length), line, length)
+    if share == 1.0:
+        return resting, share
+    low = sole_plane(sample, length, start)
+    normal = share * resting.normal + (1.0 - share) * low.normal
+    offset = share * resting.offset + (1.0 - share) * low.offset
+    return Plane(normal / np.linalg.norm(normal), offset), share
+
+
+def _level_across(sample: SurfaceSample, ground: float, length: float) -> tuple[Floats, Plane]:
+    """What a last whose frame is nearly settled must still be turned by, and its plane then.
+
+    The sole plane follows the arch, which is higher on one side: it rolls by 1 to 4 degrees. The
+    place of the tread is read in a frame that no longer depends on the pose, so the turn does not.
+    """
+    bottom = bottom_of(sample, ground, length)
+    line = resting_line(bottom)
+    if line is None:
+        return np.eye(3), Plane(LEVEL.normal, ground)
+    normal = np.array([0.0, -slope_across(bottom, line, length), 1.0])
+    level = levelling(normal / np.linalg.norm(normal))
+    touching = area_quantile(bottom.points @ level[2], bottom.areas, RESTING.contact_share)
+    axis = plan_axis(sample.points @ level.T, sample.areas, touching, length)
+    return about_z(axis) @ level, Plane(LEVEL.normal, touching)
 
 
 def _settled(

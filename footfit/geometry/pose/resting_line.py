@@ -84,10 +84,10 @@ def thinned(sample: SurfaceSample) -> SurfaceSample:
     return SurfaceSample(sample.points[::step], sample.normals[::step], sample.areas[::step])
 
 
-def bottom_of(sample: SurfaceSample, length: float) -> SurfaceSample:
-    """The points of a sample that face down and lie low."""
+def bottom_of(sample: SurfaceSample, ground: float, length: float) -> SurfaceSample:
+    """The points of a sample that face down and lie low over a level ground."""
     points, normals = sample.points, sample.normals
-    low = (points[:, 2] < RESTING.reach * length) & (normals[:, 2] < RESTING.facing)
+    low = (points[:, 2] < ground + RESTING.reach * length) & (normals[:, 2] < RESTING.facing)
     return SurfaceSample(points[low], normals[low], sample.areas[low])
 
 
@@ -115,18 +115,21 @@ def heeled_share(line: RestingLine | None, length: float) -> float:
     return share * share * (3.0 - 2.0 * share)
 
 
-def resting_slope(bottom: SurfaceSample, line: RestingLine, across: float) -> float:
-    """The slope in x of the plane that a bottom rests on, if that is level across (``across``)."""
+def resting_plane(bottom: SurfaceSample, line: RestingLine, length: float) -> Plane:
+    """The plane that a bottom rests on: along its resting line, level across its tread."""
     x, y, z = bottom.points.T
     (x_seat, z_seat), (x_tread, z_tread) = line.contacts
     along = float((z_tread - z_seat) / (x_tread - x_seat))
+    across = slope_across(bottom, line, length)
     height = z - z_seat - along * (x - x_seat) - across * y
     front = x > line.summit
     seat, tread = (
         area_quantile(height[half], bottom.areas[half], RESTING.contact_share)
         for half in (~front, front)
     )
-    return along + (tread - seat) / float(x_tread - x_seat)
+    along += (tread - seat) / float(x_tread - x_seat)
+    normal = np.array([-along, -across, 1.0]) / np.sqrt(1.0 + along**2 + across**2)
+    return Plane(normal, area_quantile(bottom.points @ normal, bottom.areas, RESTING.contact_share))
 
 
 def slope_across(bottom: SurfaceSample, line: RestingLine, length: float) -> float:
@@ -135,17 +138,15 @@ def slope_across(bottom: SurfaceSample, line: RestingLine, length: float) -> flo
     A last stands level across its tread. Its shank and its arch are steep, and higher on one side:
     they do not count.
     """
-    x, y, z = bottom.points.T
+    x = bottom.points[:, 0]
     rear = float(x.min())
     end = min(float(line.contacts[0, 0]), rear + RESTING.seat * length)
     start = max(float(line.contacts[1, 0]), rear + RESTING.tread_least * length)
     first, last = start + np.multiply(RESTING.tread, length)
-    tread = (x > first) & (x < last)
-    level = tread | (x < end)
-    seat, tread = np.where(tread, [[0.0], [1.0]], [[1.0], [0.0]])[:, level]
-    u, y, z = (x[level] - start) / length, y[level], z[level]
-    v = (x[level] - end) / length
-    rows = np.column_stack([seat, seat * v, tread, tread * u, tread * u * u, y])
+    level = (x < end) | ((x > first) & (x < last))
+    (x, y, z), tread = bottom.points[level].T, x[level] > end
+    u, v = ((x - place) / length for place in (end, start))
+    rows = np.column_stack([~tread, ~tread * u, tread, tread * v, tread * v * v, y])
     down = np.square(np.square(bottom.normals[level, 2])) * bottom.areas[level]
     weights, solution = down, np.zeros(rows.shape[1])
     for _ in range(RESTING.levelling_rounds):
@@ -153,12 +154,6 @@ def slope_across(bottom: SurfaceSample, line: RestingLine, length: float) -> flo
         solution = np.linalg.lstsq(weighted.T @ rows, weighted.T @ z, rcond=None)[0]
         weights = down * np.exp(-(((z - rows @ solution) / (RESTING.width * length)) ** 2))
     return float(solution[-1])
-
-
-def contact_plane(bottom: SurfaceSample, along: float, across: float) -> Plane:
-    """The plane of some slopes in x and y that touches a bottom."""
-    normal = np.array([-along, -across, 1.0]) / np.sqrt(1.0 + along**2 + across**2)
-    return Plane(normal, area_quantile(bottom.points @ normal, bottom.areas, RESTING.contact_share))
 
 
 def _lower_edge(points: Floats) -> Floats:
