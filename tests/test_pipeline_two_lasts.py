@@ -203,8 +203,10 @@ def test_a_stored_last_with_labels_and_its_file_agree(footfit: Footfit, stocked)
     assert found["schema"] == "footfit.compare-lasts/1"
     assert (found["inside"], found["outside"]) == (True, [])
     assert "stance_by_shape" in [notice["code"] for notice in found["warnings"]]
-    differences = [row["difference"]["value"] for row in found["measures"].values()]
-    assert max(abs(value) for value in differences) < 0.02  # the copy keeps 0.005 mm
+    differences = {name: row["difference"]["value"] for name, row in found["measures"].items()}
+    # the search for a least tape may end 3 degrees further, which costs 0.1 mm (decision 0180)
+    assert abs(differences.pop("instep_girth_least")) < 0.2
+    assert max(abs(value) for value in differences.values()) < 0.02  # the copy keeps 0.005 mm
     assert abs(found["surface"]["largest"]["value_mm"]) < 0.01
 
 

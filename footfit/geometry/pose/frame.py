@@ -141,10 +141,8 @@ def _level_across(sample: SurfaceSample, ground: float, length: float) -> tuple[
     place of the tread is read in a frame that no longer depends on the pose, so the turn does not.
     """
     bottom = bottom_of(sample, ground, length)
-    line = resting_line(bottom)
-    if line is None:
-        return np.eye(3), Plane(LEVEL.normal, ground)
-    normal = np.array([0.0, -slope_across(bottom, line, length), 1.0])
+    across = slope_across(bottom, bottom.points[:, 2] - ground, length)
+    normal = np.array([0.0, -across, 1.0])
     level = levelling(normal / np.linalg.norm(normal))
     touching = area_quantile(bottom.points @ level[2], bottom.areas, RESTING.contact_share)
     axis = plan_axis(sample.points @ level.T, sample.areas, touching, length)

@@ -31,14 +31,14 @@ class RestingSettings:
         Of the whole surface: enough to find the line and the rise.
     contact_share : float
         Seat and tread touch the ground where this share of the area of their half lies below.
-    seat : float
-        What levels a last across behind the front end of its seat, over the bottom's extent. Where
-        the line touches the seat further back, it is what lies behind that place.
+    near : float
+        How near the ground the points lie whose middle is the place where seat or tread touches.
+    waist : float
+        Seat and tread are looked for behind and in front of this share of the bottom.
     tread : (2,)
-        And from here to there before the place where the line touches the tread. The shank bends
-        into the tread about that place, often along a slanting line: there is no level.
-    tread_least : float
-        That place is not taken further back than this, over the bottom's extent.
+        What levels a last across, beside the seat behind its touching place: from here to there in
+        front of the place where the tread touches. The shank bends into the tread about that place, often
+        along a slanting line: there is no level.
     width : float
         How near their parabolas the points lie that level the last across.
     heeled : (2,)
@@ -54,9 +54,9 @@ class RestingSettings:
     fewest_points: int = 3
     some_points: int = 8000
     contact_share: float = 0.003
-    seat: float = 0.20
+    near: float = 0.004
+    waist: float = 0.40
     tread: tuple[float, float] = (0.05, 0.22)
-    tread_least: float = 0.50
     width: float = 0.012
     levelling_rounds: int = 4
     heeled: tuple[float, float] = (0.018, 0.028)
@@ -120,8 +120,9 @@ def resting_plane(bottom: SurfaceSample, line: RestingLine, length: float) -> Pl
     x, y, z = bottom.points.T
     (x_seat, z_seat), (x_tread, z_tread) = line.contacts
     along = float((z_tread - z_seat) / (x_tread - x_seat))
-    across = slope_across(bottom, line, length)
-    height = z - z_seat - along * (x - x_seat) - across * y
+    height = z - z_seat - along * (x - x_seat)
+    across = slope_across(bottom, height, length)
+    height = height - across * y
     front = x > line.summit
     seat, tread = (
         area_quantile(height[half], bottom.areas[half], RESTING.contact_share)
@@ -132,22 +133,25 @@ def resting_plane(bottom: SurfaceSample, line: RestingLine, length: float) -> Pl
     return Plane(normal, area_quantile(bottom.points @ normal, bottom.areas, RESTING.contact_share))
 
 
-def slope_across(bottom: SurfaceSample, line: RestingLine, length: float) -> float:
+def slope_across(bottom: SurfaceSample, height: Floats, length: float) -> float:
     """The slope in y that seat and tread share, whatever parabola in x each of them follows.
 
     A last stands level across its tread. Its shank and its arch are steep, and higher on one side:
-    they do not count.
+    they do not count. ``height`` (n,) is that of the bottom over the ground, nearly.
     """
     x = bottom.points[:, 0]
-    rear = float(x.min())
-    end = min(float(line.contacts[0, 0]), rear + RESTING.seat * length)
-    start = max(float(line.contacts[1, 0]), rear + RESTING.tread_least * length)
-    first, last = start + np.multiply(RESTING.tread, length)
-    level = (x < end) | ((x > first) & (x < last))
-    (x, y, z), tread = bottom.points[level].T, x[level] > end
-    u, v = ((x - place) / length for place in (end, start))
+    down = np.square(np.square(bottom.normals[:, 2])) * bottom.areas
+    near = down * np.exp(-((height / (RESTING.near * length)) ** 2))
+    front = x > area_quantile(x, bottom.areas, RESTING.contact_share) + RESTING.waist * length
+    touching = [
+        float(near[half] @ x[half] / max(near[half].sum(), 1e-9)) for half in (~front, front)
+    ]
+    first, last = touching[1] + np.multiply(RESTING.tread, length)
+    level = (x < touching[0]) | ((x > first) & (x < last))
+    (x, y, z), tread = bottom.points[level].T, front[level]
+    u, v = ((x - place) / length for place in touching)
     rows = np.column_stack([~tread, ~tread * u, tread, tread * v, tread * v * v, y])
-    down = np.square(np.square(bottom.normals[level, 2])) * bottom.areas[level]
+    down = down[level]
     weights, solution = down, np.zeros(rows.shape[1])
     for _ in range(RESTING.levelling_rounds):
         weighted = rows * weights[:, None]
