@@ -37,8 +37,8 @@ class RestingSettings:
         Seat and tread are looked for behind and in front of this share of the bottom.
     tread : (2,)
         What levels a last across, beside the seat behind its touching place: from here to there in
-        front of the place where the tread touches. The shank bends into the tread about that place, often
-        along a slanting line: there is no level.
+        front of the place where the tread touches. The shank bends into the tread about that
+        place, often along a slanting line: there is no level.
     width : float
         How near their parabolas the points lie that level the last across.
     heeled : (2,)
