@@ -146,10 +146,13 @@ def perimeter(points: np.ndarray) -> float:
     return float(ConvexHull(points).area)  # scipy calls the perimeter of a flat hull area
 
 
-def middle_of_cap(shape: Drafted, direction, near: np.ndarray) -> np.ndarray:
+def middle_of_cap(
+    shape: Drafted, direction, near: np.ndarray, *, by_depth: bool = False
+) -> np.ndarray:
     """Where the surface at some vertices (n,) reaches farthest in a direction, (3,).
 
-    It is the middle of what is less than .012 of the length under the farthest, on that level.
+    It is the middle of what is less than .012 of the length under the farthest, on that level; or,
+    ``by_depth``, the middle itself, for which what lies farther out counts for more.
     """
     reach = shape.vertices_mm @ direction
     top = reach[near].max()
@@ -162,6 +165,10 @@ def middle_of_cap(shape: Drafted, direction, near: np.ndarray) -> np.ndarray:
     parts = np.einsum("pk,mkd->pmd", _parts(8), corners).reshape(-1, 3)
     weight = np.tile(area, len(parts) // len(area))
     inside = parts @ direction > deep
+    if by_depth:
+        return np.average(
+            parts[inside], axis=0, weights=(weight * (parts @ direction - deep))[inside]
+        )
     place = np.average(parts[inside], axis=0, weights=weight[inside])
     return np.asarray(place + (top - place @ direction) * direction)
 
@@ -193,7 +200,7 @@ def outermost(shape: Drafted, side: float, window: tuple[float, float], along=No
 
 def true_measures(shape: Drafted) -> dict[str, float]:
     """Every measure that can be read, by name, in mm."""
-    values = _ends(shape) | _joints(shape) | _sections(shape) | _heel_girths(shape)
+    values = _ends(shape) | _joints(shape) | _sections(shape) | true_heel_girths(shape)
     values |= _least_tapes(shape)
     if shape.kind == "last":
         values |= _last_only(shape) | standing_measures(shape)
@@ -252,11 +259,13 @@ def _sections(shape: Drafted) -> dict[str, float]:
 
 
 def _heel_base(shape: Drafted) -> np.ndarray:
+    """The middle of the cap farthest back and down; what lies farther out counts for more."""
     low = shape.vertices_mm[:, 2] < 0.3 * shape.length_mm
-    return middle_of_cap(shape, np.array([-1.0, 0.0, -1.0]) / np.sqrt(2.0), low)
+    direction = np.array([-1.0, 0.0, -1.0]) / np.sqrt(2.0)
+    return middle_of_cap(shape, direction, low, by_depth=True)
 
 
-def _heel_girths(shape: Drafted) -> dict[str, float]:
+def true_heel_girths(shape: Drafted) -> dict[str, float]:
     base = _heel_base(shape)
     top = np.array([shape.x_mm(0.5), shape.across(shape.x_mm(0.5))[:, 1].max()])
     start = np.degrees(np.arctan2(top[1] - base[2], top[0] - base[0]))
@@ -313,9 +322,7 @@ def _least_tapes(shape: Drafted) -> dict[str, float]:
             at = at + stands.shift_mm[[0, 2]]
             where = at[0] * np.cos(shape.pitch) - at[1] * np.sin(shape.pitch)
         section = shape.across(where)
-        top = section[:, 1].max()
-        flat = section[section[:, 1] > top - 0.3, 0]
-        return np.array([where, 0.5 * (flat.min() + flat.max()), top])
+        return np.array([where, *_crown(section, 0.004 * shape.length_mm)])
 
     share = float(np.interp(0.5 * (inner + outer)[0], np.sort(points[:, 0]), np.sort(along)))
     if shape.kind == "last":
@@ -330,6 +337,16 @@ def _least_tapes(shape: Drafted) -> dict[str, float]:
         "instep_girth_least": _least_over(shape, instep),
         "heel_girth_instep": _least_about(shape, base, instep, ACROSS, farthest),
     }
+
+
+def _crown(section: np.ndarray, deep_mm: float) -> tuple[float, float]:
+    """Of a section (n, 2): the y of the centroid of what lies so deep under its top; its top."""
+    top = section[:, 1].max()
+    cap = section[section[:, 1] > top - 3.0 * deep_mm]
+    y, z = cap[np.argsort(cap[:, 0])].T
+    fine = np.linspace(y[0], y[-1], 2001)
+    thick = np.maximum(np.interp(fine, y, z) - (top - deep_mm), 0.0)
+    return float(fine @ thick / thick.sum()), float(top)
 
 
 def _least_about(shape: Drafted, start, end, upright, farthest=None) -> float:

@@ -8,11 +8,15 @@ from hypothesis import given, settings
 from scipy.spatial import ConvexHull
 from scipy.special import ellipe
 
+from footfit.geometry.measures.girths import instep_girth, short_heel_girth
 from footfit.geometry.measures.landmarks import Shape
 from footfit.geometry.measures.tape import convex_hull, hull_girth
 from tests import shapes
 from tests.bounds import EXACT
+from tests.measure_peer import Drafted, true_heel_girths
 from tests.strategies import seeds
+from tools.last_specs import LastSpec
+from tools.lasts import last_mesh
 
 
 @settings(max_examples=50, deadline=None)
@@ -50,3 +54,27 @@ def test_the_girth_of_an_ellipsoids_section_is_the_ellipses(share: float) -> Non
     assert hull_girth(shape.across(share).points) == pytest.approx(
         girth, abs=0.099
     )  # measured 0.066
+
+
+def test_a_tape_lies_over_a_sharp_edge() -> None:
+    # a box of 80 by 50 mm with a ridge of 20 mm: smoothing took 4 mm of its girth away
+    tube, faces = shapes.cylinder(40.0, 260.0, 240, 60)
+    angle = np.arctan2(tube[:, 1], tube[:, 0])
+    across, up = np.cos(angle), np.sin(angle)
+    box = 1.0 / np.maximum(np.abs(across) / 40.0, np.abs(up) / 25.0)
+    y, z = box * across, box * up
+    z = z + np.where(z > 0.0, 20.0 * (1.0 - np.abs(y) / 40.0) * z / 25.0, 0.0) + 25.0
+    vertices = np.column_stack([tube[:, 2], y, z])
+    vertices[-2:, 1:] = 0.0, 25.0  # the middles of the two ends
+    girth = ConvexHull(vertices[:-2, 1:]).area
+    value = instep_girth(Shape(vertices - vertices.min(axis=0) * [1, 0, 1], faces, "last")).value
+    assert value == pytest.approx(girth, abs=0.02)
+
+
+@pytest.mark.parametrize("cone", [0.27, 0.30, 0.36])
+def test_the_short_heel_girth_goes_over_the_edge_of_low_and_high_cones(cone: float) -> None:
+    spec = LastSpec(heel_height_mm=10.0, cone_height_mm=cone * 270.0, rings=120, segments=90)
+    vertices, faces = last_mesh(spec)
+    true_mm = true_heel_girths(Drafted(vertices, faces, "last", 0.0, {}))["short_heel_girth"]
+    # measured .85; it was up to 6 mm short where a low cone's edge was half-way to its middle
+    assert short_heel_girth(Shape(vertices, faces, "last")).value == pytest.approx(true_mm, abs=1.6)

@@ -58,6 +58,20 @@ def test_the_tip_is_the_surfaces_not_the_meshs(seed: int) -> None:
     assert outermost - TIPS.law[0] * LENGTH_MM <= one.reach <= outermost
 
 
+@pytest.mark.parametrize("lopsided", [-1e-5, 0.0, 1e-5])
+def test_a_shallower_cap_lies_nearer_to_the_top_of_a_lopsided_outline(lopsided: float) -> None:
+    sheet, faces = shapes.flat_sheet(80.0, 60.0, 80)
+    x, z = sheet[:, 0] - 40.0, sheet[:, 1] - 30.0
+    outward = -np.square(x) / 300.0 + lopsided * x**3 - np.square(z) / 80.0
+    vertices = np.column_stack([x, outward, z])
+    deep, shallow = (
+        tip(vertices, faces, np.array([0.0, 1.0, 0.0]), LENGTH_MM, cap).place[0]
+        for cap in (0.012, 0.006)
+    )
+    assert abs(shallow) <= 0.55 * abs(deep) + ROUNDING  # it grows as the depth does
+    assert np.sign(deep.round(6)) == np.sign(lopsided)
+
+
 @settings(max_examples=25, deadline=None)
 @given(st.lists(st.floats(-5.0, 5.0), min_size=3, max_size=3))
 def test_the_shares_over_all_levels_add_up_to_the_mean(corner: list[float]) -> None:

@@ -9,8 +9,8 @@ import numpy as np
 
 from footfit.geometry.measures.landmarks import AXES, LANDMARKS, Shape
 from footfit.geometry.measures.tape import hull_girth
-from footfit.geometry.mesh.outermost_point import Tip, tip
-from footfit.geometry.mesh.outlines import Outline
+from footfit.geometry.mesh.outermost_point import tip
+from footfit.geometry.mesh.outlines import OUTLINES, TAPE_OUTLINES, Outline, OutlineSettings
 from footfit.geometry.mesh.surface import cross
 from footfit.geometry.numeric.arrays import Floats
 
@@ -25,11 +25,11 @@ class HeelSettings:
     flat: float = 0.003  # of the length: the last whole girth serves if the girth falls less
     ball: float = 0.70  # over the length: the line from the cone's top to here passes any cone
     cone_end: float = 0.55  # a cone's front edge lies behind this place; a boot has none
-    turn_deg: float = 6.0  # the plane that touches a low cone's edge is turned so far both ways
-    apart: tuple[float, float] = (0.015, 0.035)  # of the length: a cone is low, see cone_edge
+    turn_deg: float = 9.0  # the plane that touches the cone's edge is turned so far both ways
 
 
 HEEL = HeelSettings()
+TURNS = np.array([-1.0, 0.0, 1.0])
 
 
 def angle_to_deg(shape: Shape, place: Floats) -> float:
@@ -38,13 +38,13 @@ def angle_to_deg(shape: Shape, place: Floats) -> float:
     return float(np.degrees(np.arctan2(rise[2], rise[0])))
 
 
-def around_heel(shape: Shape, angle_deg: float) -> Outline:
+def around_heel(shape: Shape, angle_deg: float, outlines: OutlineSettings = OUTLINES) -> Outline:
     """The section by the plane across the foot through the heel's base that rises forward by an
     angle.
     """
     angle = np.radians(angle_deg)
     forward = np.cos(angle) * AXES[0] + np.sin(angle) * AXES[2]
-    return shape.cut(shape.heel_base, np.stack([AXES[1], forward]))
+    return shape.cut(shape.heel_base, np.stack([AXES[1], forward]), outlines)
 
 
 def shortest_around_heel(shape: Shape, settings: HeelSettings = HEEL) -> Outline | None:
@@ -60,48 +60,38 @@ def shortest_around_heel(shape: Shape, settings: HeelSettings = HEEL) -> Outline
     turn = _turn(angles, girths)
     if shape.kind == "last":
         reached = turn is not None and turn.steps_beyond <= settings.beyond
-        return around_heel(shape, min(turn.angle_deg, edge_deg) if reached and turn else edge_deg)
+        angle_deg = min(turn.angle_deg, edge_deg) if reached and turn else edge_deg
+        return around_heel(shape, angle_deg, TAPE_OUTLINES)
     if turn is None or turn.steps_beyond > settings.beyond:
         return None
-    section = around_heel(shape, turn.angle_deg)
+    section = around_heel(shape, turn.angle_deg, TAPE_OUTLINES)
     if not shape.topped(section):
         return section
     flat = turn.fall_mm <= settings.flat * shape.length_mm
-    return around_heel(shape, angles[-1]) if flat else None
+    return around_heel(shape, angles[-1], TAPE_OUTLINES) if flat else None
 
 
 def cone_edge(shape: Shape, settings: HeelSettings = HEEL) -> Floats:
-    """A last's upper front edge, (3,): what is farthest over a line down from the cone's top.
+    """A last's upper front edge, (3,): where a plane touches that leads from the cone's top (.15 L)
+    down to the top of the ball.
 
-    It is the middle of what lies near a plane along the line to the instep. On a low cone that is
-    the middle of its top, which is nearly parallel to the line. There the edge is where a plane
-    along the line to the ball touches. If that plane's normal is n and its distance h, it touches
-    at h n + h' n', as it turns. Between ``apart`` the edge goes from one to the other.
+    A plane with the normal n has the distance h. As it turns, h changes by h' and n by n': it
+    touches at h n + h' n'.
     """
-    usual = _over_cone(shape, LANDMARKS.instep, LANDMARKS.instep)[1].place
-    turns = np.radians(settings.turn_deg) * np.array([-1.0, 0.0, 1.0])
-    planes = [_over_cone(shape, settings.ball, settings.cone_end, turn) for turn in turns]
-    (_, before), (normal, at), (_, after) = planes
-    change = (after.reach - before.reach) / (2.0 * np.sin(turns[2]))
-    touched = at.reach * normal + change * cross(AXES[1], normal) + at.place * AXES[1]
-    low, lower = (share * shape.length_mm for share in settings.apart)
-    share = np.clip((abs(touched[0] - usual[0]) - low) / (lower - low), 0.0, 1.0)
-    return np.asarray(usual + share * (touched - usual))
-
-
-def _over_cone(
-    shape: Shape, end: float, window_end: float, turn: float = 0.0
-) -> tuple[Floats, Tip]:
-    """The normal (3,) of the plane along the line from the cone's top to the top of the section at
-    ``end``, turned forward by an angle, and what lies farthest over it.
-    """
-    start_mm, end_mm = shape.x_mm(LANDMARKS.cone), shape.x_mm(end)
-    tops_mm = [shape.across(share).points[:, 1].max() for share in (LANDMARKS.cone, end)]
-    lean = np.arctan2(tops_mm[0] - tops_mm[1], end_mm - start_mm) + turn
-    normal = np.array([np.sin(lean), 0.0, np.cos(lean)])
+    start_mm, end_mm = (shape.x_mm(share) for share in (LANDMARKS.cone, settings.ball))
+    tops_mm = [shape.across(share).points[:, 1].max() for share in (LANDMARKS.cone, settings.ball)]
     x = shape.vertices_mm[:, 0]
-    a, b, c = ((x > start_mm) & (x < shape.x_mm(window_end)))[shape.faces.T]
-    return normal, tip(shape.vertices_mm, shape.faces[a & b & c], normal, shape.length_mm)
+    a, b, c = ((x > start_mm) & (x < shape.x_mm(settings.cone_end)))[shape.faces.T]
+    lean = np.arctan2(tops_mm[0] - tops_mm[1], end_mm - start_mm)
+    turn = np.radians(settings.turn_deg)
+    normals = [np.array([np.sin(at), 0.0, np.cos(at)]) for at in lean + turn * TURNS]
+    before, at, after = (
+        tip(shape.vertices_mm, shape.faces[a & b & c], normal, shape.length_mm)
+        for normal in normals
+    )
+    change = (after.reach - before.reach) / (2.0 * np.sin(turn))
+    onward = cross(AXES[1], normals[1])
+    return np.asarray(at.reach * normals[1] + change * onward + at.place * AXES[1])
 
 
 def _whole_girths(

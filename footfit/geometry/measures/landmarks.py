@@ -36,6 +36,7 @@ class LandmarkSettings:
     width_height: float = 0.20  # over the floor; above it ankles may stand out
     inner_joint: tuple[float, float] = (0.60, 0.82)  # MT1 of a foot lies at .72, MT5 at .63
     outer_joint: tuple[float, float] = (0.52, 0.76)
+    cap: tuple[float, float] = (0.012, 0.006)  # of a foot, a last: a place is its cap's middle
     joint_edge: float = 0.008  # a joint this close to the edge of its search window is rejected
     instep: float = 0.50
     cone: float = 0.15  # a place on a last's cone
@@ -114,7 +115,9 @@ class Shape:
 
     @cached_property
     def heel_base(self) -> Floats:
-        """Where the heel's back turns into its bottom: the point farthest back and down, (3,)."""
+        """Where the heel's back turns into its bottom, (3,): the middle of the cap farthest back and
+        down. It is a little inside: at the outermost point a section changes too fast.
+        """
         return tip(self.vertices_mm, self.low, BACK_AND_DOWN, self.length_mm).place
 
     @cached_property
@@ -201,12 +204,21 @@ class Shape:
         faces = self.faces[a | b | c]  # coarse triangles at the window's ends count too
         if not len(faces):
             return None
-        outermost = tip(self.vertices_mm, faces, side * AXES[1], self.length_mm)
+        outermost = self._tip(faces, side * AXES[1])
         filled = faces[self.filled[a | b | c]]
         beside_mm = (side * self.vertices_mm[filled, 1]).max(initial=-np.inf)
         if beside_mm > outermost.reach - LANDMARKS.filled_beside * self.length_mm:
             return None
         return np.array([outermost.place[0], side * outermost.reach, outermost.place[2]])
+
+    def _tip(self, faces: Ints, direction: Floats) -> Tip:
+        """The outermost point of faces (k, 3), whose place serves as a landmark.
+
+        The cap of a last is half as deep: its triangles are small and its outline is smooth. On a
+        lopsided outline the middle of a cap lies off its top, the farther the deeper the cap is.
+        """
+        cap = LANDMARKS.cap[self.kind == "last"]
+        return tip(self.vertices_mm, faces, direction, self.length_mm, cap)
 
     # ------------------------------------------------------------ what was not scanned
 

@@ -109,7 +109,7 @@ MEASURES: tuple[MeasureDefinition, ...] = (
     ),
     MeasureDefinition(
         lengths.ball_length,
-        1,
+        2,
         0.45,
         foot=off(0.79, 0.82),
         last=off(0.02, 1.50, 1.59, 2.20, 2.26),
@@ -117,7 +117,7 @@ MEASURES: tuple[MeasureDefinition, ...] = (
     ),
     MeasureDefinition(
         widths.ball_width,
-        2,
+        3,
         0.3,
         foot=off(-0.25, 0.26),
         last=off(0.03, 0.35, 0.35, 0.44, 0.68),
@@ -133,28 +133,28 @@ MEASURES: tuple[MeasureDefinition, ...] = (
     ),
     MeasureDefinition(
         girths.ball_girth,
-        1,
+        2,
         0.6,
         foot=off(-0.45, 0.54),
         last=off(0.49, 0.83, 1.04, 1.55, 1.54),
         usual_share=(0.77, 1.10),
     ),
     MeasureDefinition(
-        girths.waist_girth, 1, 0.35, foot=off(-0.19, 0.21), last=off(-0.56, 0.37, 0.65, 0.76, 0.82)
+        girths.waist_girth, 2, 0.35, foot=off(-0.19, 0.21), last=off(-0.56, 0.37, 0.65, 0.76, 0.82)
     ),
     MeasureDefinition(
-        girths.instep_girth, 1, 0.45, foot=off(-0.14, 0.18), last=off(-0.43, 0.12, 0.63, 0.39, 0.57)
+        girths.instep_girth, 2, 0.45, foot=off(-0.14, 0.18), last=off(-0.43, 0.12, 0.63, 0.39, 0.57)
     ),
     MeasureDefinition(
         girths.long_heel_girth,
-        1,
+        2,
         0.4,
         foot=off(-0.25, 0.46),
         last=off(-0.38, 0.91, 0.55, 0.39, 0.57),
     ),
     MeasureDefinition(
         girths.short_heel_girth,
-        2,
+        3,
         0.6,
         foot=off(-0.35, 0.00),
         last=off(-0.29, 2.65, 1.61, 1.44, 1.89),
@@ -162,14 +162,14 @@ MEASURES: tuple[MeasureDefinition, ...] = (
     ),
     MeasureDefinition(
         girths.ball_girth_least,
-        1,
+        2,
         0.6,
         foot=off(-0.03, 0.00),
         last=off(0.88, 1.00, 1.35, 1.80, 1.81),
     ),
     MeasureDefinition(
         girths.waist_girth_least,
-        2,
+        3,
         0.35,
         foot=off(0.11, 0.00),
         last=off(-0.26, 0.61, 0.37, 0.64, 0.47),

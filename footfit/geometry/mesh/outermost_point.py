@@ -46,7 +46,9 @@ class Tip:
     place: Floats
 
 
-def tip(vertices: Floats, faces: Ints, direction: Floats, length: float) -> Tip:
+def tip(
+    vertices: Floats, faces: Ints, direction: Floats, length: float, cap: float = TIPS.cap
+) -> Tip:
     """The outermost point of a surface in a direction.
 
     Take a level at the depth t under the extreme of a smooth surface. The area beyond it is 2 pi t
@@ -62,7 +64,9 @@ def tip(vertices: Floats, faces: Ints, direction: Floats, length: float) -> Tip:
     direction : (3,)
         A unit vector.
     length : float
-        The shape's length, which the settings' depths are multiplied by.
+        The shape's length, which depths are multiplied by.
+    cap : float
+        The depth of the cap whose middle is the tip's place.
 
     Returns
     -------
@@ -79,7 +83,7 @@ def tip(vertices: Floats, faces: Ints, direction: Floats, length: float) -> Tip:
     corner = values[faces]
     outermost = np.maximum(np.maximum(corner[:, 0], corner[:, 1]), corner[:, 2])
     top = float(outermost.max())
-    near = outermost > top - max(TIPS.law[1], TIPS.cap) * length
+    near = outermost > top - max(TIPS.law[1], cap) * length
     corner, triangles = corner[near], vertices[faces[near]]
     sides = triangles[:, 1] - triangles[:, 0], triangles[:, 2] - triangles[:, 0]
     area = row_lengths(cross(*sides))
@@ -87,7 +91,7 @@ def tip(vertices: Floats, faces: Ints, direction: Floats, length: float) -> Tip:
     beyond = area @ share_over(corner, top - depth)
     slope, start = np.polyfit(depth, beyond, 1)
     inward = -start / slope if slope > 0.0 else 0.0
-    weight = np.maximum(corner @ _PARTS.T - (top - TIPS.cap * length), 0.0) * area[:, None]
+    weight = np.maximum(corner @ _PARTS.T - (top - cap * length), 0.0) * area[:, None]
     place = np.einsum("ts,sk,tkj->j", weight, _PARTS, triangles) / max(weight.sum(), 1e-300)
     if not weight.any():  # a spike so thin that no middle of a part lies in the cap
         place = vertices[faces].reshape(-1, 3)[np.argmax(values[faces])]
