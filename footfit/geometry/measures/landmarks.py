@@ -115,8 +115,8 @@ class Shape:
 
     @cached_property
     def heel_base(self) -> Floats:
-        """Where the heel's back turns into its bottom, (3,): the middle of the cap farthest back and
-        down. It is a little inside: at the outermost point a section changes too fast.
+        """Where the heel's back turns into its bottom, (3,): the middle of the cap farthest back
+        and down. It is a little inside: at the outermost point a section changes too fast.
         """
         return tip(self.vertices_mm, self.low, BACK_AND_DOWN, self.length_mm).place
 
