@@ -13,7 +13,9 @@ from scipy.spatial import ConvexHull
 from tests.bounds import EXACT, ROUNDING
 from tests.test_shapes import cross, euler, is_closed_and_wound, volume
 from tools import lasts
+from tools.last_specs import HEEL_BANDS_MM, wide
 from tools.lasts import LastSpec, graded, last_mesh, plain, varied
+from tools.resting import pitched
 
 SMALL = {"rings": 64, "segments": 52}
 SPECS = {
@@ -110,6 +112,25 @@ def test_sections_are_simple_loops(spec):
         for z in rows + 1e-7:
             below = segments[..., 1] < z
             assert (below[:, 0] != below[:, 1]).sum() in (2, 4)
+
+
+@pytest.mark.parametrize("band", HEEL_BANDS_MM)
+def test_the_truth_of_a_stance_is_read_from_the_mesh_that_stands(band):
+    """Tread and tip of the mesh, without any code of the product: the two lie as drafted."""
+    spec = wide(np.random.default_rng(HEEL_BANDS_MM.index(band)), "shoe", band, **SMALL)
+    vertices, _ = last_mesh(spec)
+    pose = lasts.standing(spec)
+    level = pitched(vertices, np.radians(pose.pitch_deg))
+    level[:, 2] -= level[:, 2].min()
+    tip_ring = slice(-1 - sum(lasts._rows(spec.segments)), None)  # it has one rib and no sole
+    feather = np.argmin(vertices[tip_ring, 2])
+    assert level[tip_ring][feather, 2] == pytest.approx(pose.tip_mm, abs=0.1)  # measured .03
+    tread = level[np.abs(level[:, 0] / np.ptp(level[:, 0]) - 0.68) < 0.02]
+    low = tread[tread[:, 2] < 1.0]
+    # a parabola across its crown has its lowest place near the middle: it stands level
+    bend, slope, _ = np.polyfit(low[:, 1] - low[:, 1].mean(), low[:, 2], 2)
+    assert abs(slope) < 0.02
+    assert bend > 0.0
 
 
 def test_a_left_last_is_the_mirror_image():

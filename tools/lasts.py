@@ -465,8 +465,8 @@ class Standing:
         The bottom's middle from heel to toe, x along the floor and z over it. x = 0 is where the
         plan outline begins if the last was bent as it stands.
     tip_mm : float
-        The height of the feather edge at the tip, where the sole is no longer hollowed to its
-        middle.
+        The toe spring of the trade: the height of the feather edge at the tip, as it is drawn. It
+        is a sharp corner, which lies a little behind the foremost place of the bottom.
     """
 
     pitch_deg: float
@@ -494,6 +494,14 @@ def standing(spec: LastSpec) -> Standing:
         x = plan.at((along - plan.start) / plan.span)[0] - plan.origin[0]
         middle = np.column_stack([plan.span * x, middle[:, 1]])
     middle_mm = middle * placed.unit_mm
-    tip_mm = middle_mm[-1, 1] - middle_mm[:, 1].min()
-    tip_mm += placed.unit_mm * float(view.crown(np.ones(1))[0])
-    return Standing(float(np.degrees(placed.pitch)), middle_mm, float(tip_mm))
+    tip_mm = placed.unit_mm * _tip_height(spec, view)
+    return Standing(float(np.degrees(placed.pitch)), middle_mm, tip_mm)
+
+
+def _tip_height(spec: LastSpec, view: SideView) -> float:
+    """How high the feather edge of the foremost ring stands over the tread, over the length."""
+    s = np.linspace(0.0, 1.0, 1001)
+    feather = _rings(spec, _planted(spec)[1])[-1, :1]
+    bottom = np.column_stack([s, np.zeros_like(s), view.bottom(s)])
+    tip, stands = (pitched(line, np.radians(view.pitch_deg))[:, 2] for line in (feather, bottom))
+    return float(tip[0] - stands.min())
