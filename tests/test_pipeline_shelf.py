@@ -29,7 +29,7 @@ from footfit.pipeline.shelf import candidates, near_lasts
 from footfit.pipeline.shelf.candidates import in_stock
 from footfit.results import Library, Measured, Profiled, Worn
 from tests import row_by_row
-from tests.conftest import SAMPLES
+from tests.conftest import SAMPLES, Footfit
 
 LASTS = 45
 SEEDS = range(6)
@@ -338,7 +338,9 @@ def blocks_of(path: Path) -> list[tuple[object, ...]]:
         return connection.execute(blocks).fetchall() + connection.execute(seals).fetchall()
 
 
-def test_an_upgrade_makes_wrong_blocks_anew_and_says_so(stocked: Path, tmp_path: Path) -> None:
+def test_an_upgrade_makes_wrong_blocks_anew_and_says_so(
+    stocked: Path, tmp_path: Path, footfit: Footfit
+) -> None:
     path = tmp_path / "lasts.footfit"
     path.write_bytes(stocked.read_bytes())
     with open_catalogue(path, write=True) as catalogue:
@@ -347,6 +349,9 @@ def test_an_upgrade_makes_wrong_blocks_anew_and_says_so(stocked: Path, tmp_path:
     shelf = choice(path, None, None)
     assert shelf.lasts.bad == frozenset()  # type: ignore[attr-defined]
     assert [notice.code for notice in upgrade(path).warnings] == ["blocks_renewed"]
+    harmed(path, "UPDATE search_block SET hash = 'x' WHERE part = 'toes' AND block = 1")
+    shown = footfit("upgrade-catalogue", "--catalogue", path)
+    assert shown.err == f"{path}: 1 search block was made anew from the lasts' rows\n"
     assert upgrade(path).warnings == ()
     with open_catalogue(path) as catalogue:
         assert catalogue.findings() == []

@@ -135,7 +135,10 @@ FORMS: dict[type, Form] = {
     results.RemoveOutcome: Form(catalogue_tables.remove_last_line),
     results.ExportOutcome: Form(catalogue_tables.export_last_line),
     results.CatalogueFacts: Form(catalogue_tables.catalogue_info_table),
-    results.UpgradeOutcome: Form(catalogue_tables.upgrade_catalogue_line),
+    results.UpgradeOutcome: Form(
+        catalogue_tables.upgrade_catalogue_line,
+        lambda outcome: (outcome.path, outcome.warnings),
+    ),
     results.CheckOutcome: Form(catalogue_tables.check_catalogue_table),
     results.BackupOutcome: Form(catalogue_tables.backup_catalogue_line),
     results.CopyOutcome: Form(catalogue_tables.copy_catalogue_line),
