@@ -12,24 +12,14 @@ from typing import NamedTuple
 
 from footfit.catalogue.blocks.record_columns import LABELS, columns_of
 from footfit.catalogue.file.dialect import Driver, change_mark
-from footfit.catalogue.rows.columns import (
-    FLARE,
-    FRAME,
-    LAST,
-    MEASURE,
-    NOTICE,
-    SEALED,
-    Table,
-)
-from footfit.catalogue.rows.digests import Row
 from footfit.catalogue.rows.last_names import caseless
 from footfit.catalogue.rows.reference_last import expressed, stored_reference
 from footfit.catalogue.rows.requirements import require_storable
-from footfit.catalogue.rows.verified_rows import LastRows, row_digest, shown_name
+from footfit.catalogue.rows.sealed_rows import WRITTEN, Values, sealed_rows
+from footfit.catalogue.rows.verified_rows import shown_name
 from footfit.results import LastRecord, MeshCopy, Parentage, ShapeSections
 from footfit.results.columns.last_columns import NOT_KEPT, LastColumns
 from footfit.results.columns.vocabulary import Vocabulary
-from footfit.version import __version__
 
 
 @dataclass(frozen=True, slots=True)
@@ -129,58 +119,22 @@ def write_group(connection: Driver, group: Sequence[NewLast]) -> LastColumns:
     assert reference is not None
     (top,) = connection.execute("SELECT coalesce(max(id), 0) FROM last").fetchone()
     keys = list(range(top + 1, top + 1 + len(group)))
-    tables: dict[str, list[Row]] = {table.name: [] for table in WRITTEN}
+    tables: dict[str, list[Values]] = {name: [] for name in WRITTEN}
     for key, last in zip(keys, group, strict=True):
         require_storable(last.record.labels.name)
         record = replace(last.record, paper_transform=expressed(last.record, reference[1]))
-        for name, rows_of_table in _sealed_rows(last._replace(record=record), key).items():
-            tables[name] += rows_of_table
-    for table in WRITTEN:
-        _insert(connection, table, tables[table.name])
+        for name, rows in sealed_rows(key, record, last[1:]).items():
+            tables[name] += rows
+    for name, columns in WRITTEN.items():
+        _insert(connection, name, columns, tables[name])
     records, kept = [last.record for last in group], [last.sections or NOT_KEPT for last in group]
     return columns_of(records, kept, Vocabulary(), keys=keys)
 
 
-WRITTEN = (LAST, FRAME, FLARE, MEASURE, NOTICE, *SEALED)
-"""The tables of lasts, in the order in which their rows are written."""
-
-
-def _sealed_rows(last: NewLast, key: int) -> dict[str, list[Row]]:
-    """Every row of a last, by table."""
-    record, owner = last.record, {"last_id": key}
-    added = {"parent_id": None, "footfit_version": __version__, "record_sha256": ""}
-    of_last = LAST.row(record, id=key, **added)
-    frame, flare = owner | FRAME.row(record), owner | FLARE.row(record)
-    measures = [owner | MEASURE.row(m, position=i) for i, m in enumerate(record.measures)]
-    notices = [owner | NOTICE.row(n, position=i) for i, n in enumerate(record.warnings)]
-    stored = LastRows(
-        key, _as_read(of_last), _as_read(frame), flare, tuple(measures), tuple(notices)
-    )
-    of_last["record_sha256"] = stored.content_digest
-    rows = {
-        LAST.name: [of_last],
-        FRAME.name: [frame],
-        FLARE.name: [flare],
-        MEASURE.name: measures,
-        NOTICE.name: notices,
-    }
-    for table, value in zip(SEALED, (last.copy, last.sections, last.parentage), strict=True):
-        if value is not None:
-            row: Row = {**owner, **table.row(value, sha256="")}
-            row["sha256"] = row_digest(table, row)
-            rows[table.name] = [row]
-    return rows
-
-
-def _as_read(row: Row) -> Row:
-    """A row as the database gives it back: a flag is 0 or 1."""
-    return {name: int(v) if isinstance(v, bool) else v for name, v in row.items()}
-
-
-def _insert(connection: Driver, table: Table, values: list[Row]) -> None:
-    if not values:
-        return
-    names = list(values[0])
-    places = ", ".join("?" for _ in names)
-    insert = f"INSERT INTO {table.name} ({', '.join(names)}) VALUES ({places})"
-    connection.executemany(insert, [[row[name] for name in names] for row in values])
+def _insert(
+    connection: Driver, table: str, columns: Sequence[str], values: Sequence[Values]
+) -> None:
+    if values:
+        places = ", ".join("?" for _ in columns)
+        insert = f"INSERT INTO {table} ({', '.join(columns)}) VALUES ({places})"
+        connection.executemany(insert, values)

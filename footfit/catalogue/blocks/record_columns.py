@@ -117,20 +117,26 @@ def _toes(records: Sequence[LastRecord], kept: Sequence[Kept]) -> ToesColumns:
     behind_mm = np.full(count, np.nan)
     ends_mm, seat_mm = np.full((2, count, 2), np.nan)
     edges_mm = np.full((count, 2, stations), np.nan)
+    whole: list[int] = []
+    outlines_mm: list[Floats] = []
+    middles_mm: list[Floats] = []
     for last, (record, sections) in enumerate(zip(records, kept, strict=True)):
         if not isinstance(sections, ShapeSections):
             state[last] = sections
             continue
         section = sections.sections.get(TOES_SECTION.name)
         if section is not None:
-            behind_mm[last] = np.ptp(section.points_mm[:, 1])
+            aside_mm = section.points_mm[:, 1]
+            behind_mm[last] = aside_mm.max() - aside_mm.min()
         outline_mm = sections.toes_outline_mm
-        if is_whole(outline_mm):
-            assert outline_mm is not None
-            middle_mm = record.flare.centre_line * record.extent_mm
-            plan = toe_walls.last_plan(outline_mm, middle_mm)
-            ends_mm[last], seat_mm[last] = plan.edges_mm[[0, -1], 0], plan.seat_mm
-            edges_mm[last] = plan.edges_mm[:, 1:].T
+        if outline_mm is not None and is_whole(outline_mm):
+            whole.append(last)
+            outlines_mm.append(outline_mm)
+            middles_mm.append(record.flare.centre_line * record.extent_mm)
+    if whole:
+        walls = toe_walls.last_walls(np.stack(outlines_mm), middles_mm)
+        ends_mm[whole], seat_mm[whole] = walls.edges_mm[:, [0, -1], 0], walls.seat_mm
+        edges_mm[whole] = np.moveaxis(walls.edges_mm[:, :, 1:], 2, 1)
     return ToesColumns(state, behind_mm, ends_mm, seat_mm, edges_mm)
 
 

@@ -22,7 +22,7 @@ def blob(array: Floats) -> bytes:
     >>> blob(np.array([1.0])).hex()
     '000000000000f03f'
     """
-    return np.ascontiguousarray(array, dtype="<f8").tobytes()
+    return np.asarray(array, dtype="<f8").tobytes()
 
 
 def array_of(data: bytes, *shape: int) -> Floats:

@@ -12,9 +12,9 @@ from __future__ import annotations
 import dataclasses
 import json
 import math
-from collections.abc import Callable, Mapping
+from collections.abc import Callable
 from dataclasses import dataclass
-from functools import cached_property, reduce
+from functools import cached_property
 from operator import attrgetter, itemgetter
 from pathlib import PurePath
 from typing import Any, Literal, TypeVar, cast
@@ -102,18 +102,20 @@ class Column:
 
     def value_in(self, record: object) -> Any:
         """What is stored of a record."""
-        try:
-            value: Any = self._getter(record)
-        except AttributeError:  # a part that is None, or a mapping
-            value = self._found_in(record)
+        value = self._getter(record)
         return None if value is None else self.kind.to_sql(value)
 
-    def _found_in(self, record: object) -> Any:
-        return reduce(_member, self.path.split("."), record)
-
     @cached_property
-    def _getter(self) -> Callable[[object], Any]:
-        return attrgetter(self.path)
+    def _getter(self) -> Callable[[Any], Any]:
+        """What reads the value: an attribute, or an item of the mapping that the path goes through."""
+        mapping = next((name for name in ("curvature.", "sections.") if name in self.path), None)
+        if mapping is None:
+            return attrgetter(self.path)
+        owner, _, rest = self.path.partition(mapping)
+        items, (key, *field) = attrgetter(f"{owner}{mapping[:-1]}"), rest.split(".")
+        if not field:
+            return lambda record: items(record).get(key)
+        return lambda record: getattr(items(record).get(key), field[0], None)
 
     def reader(self) -> Reader[Any]:
         """A function from a row to what the value is in a record."""
@@ -126,12 +128,6 @@ class Column:
         """What the value must be, in words; None if it is plausible."""
         rule = self.rule or self.kind.rule
         return None if (value is None and self.nullable) or rule.holds(value) else rule.words
-
-
-def _member(whole: Any, name: str) -> Any:
-    if whole is None:
-        return None
-    return whole.get(name) if isinstance(whole, Mapping) else getattr(whole, name)
 
 
 @dataclass(frozen=True)

@@ -42,8 +42,28 @@ def digest(content: dict[str, Row | list[Row]]) -> str:
     False
     """
     text = json.dumps(content, sort_keys=True, separators=(",", ":"), default=_blob)
-    return hashlib.sha256(text.encode("ascii")).hexdigest()
+    return text_digest(text)
+
+
+def text_digest(text: str) -> str:
+    """SHA-256 of canonical JSON that is made already."""
+    return _sha256(text.encode("ascii"))
+
+
+def blob_text(value: bytes) -> str:
+    """A blob in canonical JSON.
+
+    Examples
+    --------
+    >>> digest({"row": {"data": b"a"}}) == text_digest(f'{{"row":{{"data":{blob_text(b"a")}}}}}')
+    True
+    """
+    return f'{{"sha256":"{_sha256(value)}"}}'
 
 
 def _blob(value: bytes) -> dict[str, str]:
-    return {"sha256": hashlib.sha256(value).hexdigest()}
+    return {"sha256": _sha256(value)}
+
+
+def _sha256(data: bytes) -> str:
+    return hashlib.sha256(data, usedforsecurity=False).hexdigest()

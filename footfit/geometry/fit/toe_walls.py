@@ -104,18 +104,44 @@ def foot_plan(outline_mm: Floats, middle_mm: Floats) -> ToesPlan:
 
 
 def last_plan(outline_mm: Floats, middle_mm: Floats) -> ToesPlan:
-    """The toes of a last in its canonical frame, at even stations.
+    """The toes of a last in its canonical frame, at even stations: see `last_walls`."""
+    plan = last_walls(outline_mm[None], [middle_mm])
+    return ToesPlan(plan.edges_mm[0], plan.seat_mm[0])
+
+
+def last_walls(outlines_mm: Floats, middles_mm: Sequence[Floats]) -> Walls:
+    """The toes of n lasts, each in its canonical frame, at even stations.
 
     The outline of a last lies along the principal axis of its flat bottom. It is turned back so
-    that at the tread its middle is the centre line's, whose frame is canonical.
+    that at the tread its middle is the centre line's, whose frame is canonical. The numbers of a
+    last do not depend on how many there are.
+
+    Parameters
+    ----------
+    outlines_mm : (n, k, 3)
+    middles_mm : n times (s, 2)
     """
-    edges_mm = _closed(outline_mm)
-    front_mm = edges_mm[-1, 0]
-    x = np.linspace(*PLACEMENT.tread, PLACEMENT.sections) * front_mm
-    turn = np.mean((np.interp(x, *middle_mm.T) - _middles(edges_mm, x)) / x)
-    along = np.linspace(edges_mm[0, 0], front_mm, TOE_BOX.stations)
-    sides = [np.interp(along, edges_mm[:, 0], edges_mm[:, i]) + turn * along for i in (1, 2)]
-    return ToesPlan(np.column_stack([along, *sides]), _seat(middle_mm, front_mm))
+    edges_mm = _closed(outlines_mm)
+    fronts_mm = edges_mm[:, -1, 0]
+    tread, seat = (
+        np.linspace(*part, PLACEMENT.sections) * fronts_mm[:, None]
+        for part in (PLACEMENT.tread, PLACEMENT.seat)
+    )
+    halves_mm = edges_mm[:, :, 1:].mean(axis=2)
+    along = np.linspace(edges_mm[:, 0, 0], fronts_mm, TOE_BOX.stations, axis=1)
+    there, here, resting = np.empty((3, *tread.shape))
+    plans = np.empty((*along.shape, 3))
+    plans[:, :, 0] = along
+    for last, middle_mm in enumerate(middles_mm):
+        x = edges_mm[last, :, 0]
+        there[last] = np.interp(tread[last], *middle_mm.T)
+        here[last] = np.interp(tread[last], x, halves_mm[last])
+        resting[last] = np.interp(seat[last], *middle_mm.T)
+        for side in (1, 2):
+            plans[last, :, side] = np.interp(along[last], x, edges_mm[last, :, side])
+    turn = ((there - here) / tread).mean(axis=1)
+    plans[:, :, 1:] += (turn[:, None] * along)[:, :, None]
+    return Walls(plans, np.stack([seat.mean(axis=1), resting.mean(axis=1)], axis=1))
 
 
 def walls(lasts: Sequence[ToesPlan]) -> Walls:
@@ -146,9 +172,9 @@ def toes_in_lasts(foot: ToesPlan, lasts: Walls, toe_room_mm: Floats, scale: Floa
 
 
 def _closed(outline_mm: Floats) -> Floats:
-    """Edges (k, 3) with one more row at the front, which lies half a mm ahead."""
-    front_mm = outline_mm[-1, 0] / NAMED_SECTIONS.toes_to
-    return np.concatenate([outline_mm, [[front_mm, *outline_mm[-1, 1:]]]])
+    """Edges (..., k, 3) with one more row at the front, which lies half a mm ahead."""
+    ahead_mm = outline_mm[..., -1:, :] / [NAMED_SECTIONS.toes_to, 1.0, 1.0]
+    return np.concatenate([outline_mm, ahead_mm], axis=-2)
 
 
 def _middles(edges_mm: Floats, x: Floats) -> Floats:
