@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import time
 from collections.abc import Iterable, Iterator, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import NamedTuple
 
 from footfit.catalogue.blocks.record_columns import LABELS, columns_of
@@ -26,7 +26,7 @@ from footfit.results.columns.vocabulary import Vocabulary
 class GroupSettings:
     """When a group of lasts is committed: after so many, or so long after its first came."""
 
-    most_lasts: int = 256
+    most_lasts: int = 512
     longest_s: float = 0.2
 
 
@@ -122,8 +122,8 @@ def write_group(connection: Driver, group: Sequence[NewLast]) -> LastColumns:
     tables: dict[str, list[Values]] = {name: [] for name in WRITTEN}
     for key, last in zip(keys, group, strict=True):
         require_storable(last.record.labels.name)
-        record = replace(last.record, paper_transform=expressed(last.record, reference[1]))
-        for name, rows in sealed_rows(key, record, last[1:]).items():
+        transform = expressed(last.record, reference[1])
+        for name, rows in sealed_rows(key, last.record, transform, last[1:]).items():
             tables[name] += rows
     for name, columns in WRITTEN.items():
         _insert(connection, name, columns, tables[name])

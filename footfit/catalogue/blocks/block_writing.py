@@ -100,9 +100,10 @@ def _renewed(
 ) -> LastColumns:
     """The lasts of a block, with those that changed from their rows."""
     words, keys = Vocabulary() if fresh is None else fresh.words, _keys(connection, block)
-    parts = [_kept(connection, block, keys, changed, words)]
-    if fresh is not None:
-        parts.append(fresh.taken(np.flatnonzero(np.isin(fresh.keys, keys))))
+    parts = [] if fresh is None else [fresh.taken(np.flatnonzero(np.isin(fresh.keys, keys)))]
+    if parts and len(parts[0]) == len(keys):
+        return parts[0]
+    parts.append(_kept(connection, block, keys, changed, words))
     there = {key for part in parts for key in part.keys.tolist()}
     parts.append(_of_rows(connection, [key for key in keys if key not in there], words))
     together = joined(parts)

@@ -13,6 +13,8 @@ import numpy as np
 from footfit.geometry.flare.definition import FlareDefinition
 from footfit.geometry.numeric.arrays import Floats
 
+_LITTLE = np.dtype("<f8")
+
 
 def blob(array: Floats) -> bytes:
     """The bytes of an array.
@@ -22,7 +24,7 @@ def blob(array: Floats) -> bytes:
     >>> blob(np.array([1.0])).hex()
     '000000000000f03f'
     """
-    return np.asarray(array, dtype="<f8").tobytes()
+    return np.asarray(array, dtype=_LITTLE).tobytes()
 
 
 def array_of(data: bytes, *shape: int) -> Floats:

@@ -102,12 +102,12 @@ class Column:
 
     def value_in(self, record: object) -> Any:
         """What is stored of a record."""
-        value = self._getter(record)
+        value = self.getter(record)
         return None if value is None else self.kind.to_sql(value)
 
     @cached_property
-    def _getter(self) -> Callable[[Any], Any]:
-        """What reads the value: an attribute, or an item of the mapping that the path goes through."""
+    def getter(self) -> Callable[[Any], Any]:
+        """What reads the value of a record, also where the path goes through a mapping."""
         mapping = next((name for name in ("curvature.", "sections.") if name in self.path), None)
         if mapping is None:
             return attrgetter(self.path)

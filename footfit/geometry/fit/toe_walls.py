@@ -123,22 +123,21 @@ def last_walls(outlines_mm: Floats, middles_mm: Sequence[Floats]) -> Walls:
     """
     edges_mm = _closed(outlines_mm)
     fronts_mm = edges_mm[:, -1, 0]
-    tread, seat = (
-        np.linspace(*part, PLACEMENT.sections) * fronts_mm[:, None]
-        for part in (PLACEMENT.tread, PLACEMENT.seat)
-    )
+    parts = [np.linspace(*part, PLACEMENT.sections) for part in (PLACEMENT.tread, PLACEMENT.seat)]
+    both = np.concatenate(parts) * fronts_mm[:, None]
+    tread, seat = both[:, : PLACEMENT.sections], both[:, PLACEMENT.sections :]
     halves_mm = edges_mm[:, :, 1:].mean(axis=2)
     along = np.linspace(edges_mm[:, 0, 0], fronts_mm, TOE_BOX.stations, axis=1)
-    there, here, resting = np.empty((3, *tread.shape))
+    middles, here = np.empty_like(both), np.empty_like(tread)
     plans = np.empty((*along.shape, 3))
     plans[:, :, 0] = along
     for last, middle_mm in enumerate(middles_mm):
         x = edges_mm[last, :, 0]
-        there[last] = np.interp(tread[last], *middle_mm.T)
+        middles[last] = np.interp(both[last], *middle_mm.T)
         here[last] = np.interp(tread[last], x, halves_mm[last])
-        resting[last] = np.interp(seat[last], *middle_mm.T)
         for side in (1, 2):
             plans[last, :, side] = np.interp(along[last], x, edges_mm[last, :, side])
+    there, resting = middles[:, : PLACEMENT.sections], middles[:, PLACEMENT.sections :]
     turn = ((there - here) / tread).mean(axis=1)
     plans[:, :, 1:] += (turn[:, None] * along)[:, :, None]
     return Walls(plans, np.stack([seat.mean(axis=1), resting.mean(axis=1)], axis=1))
