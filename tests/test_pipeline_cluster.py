@@ -19,7 +19,8 @@ from footfit.pipeline.batch import cluster as clusters
 from footfit.pipeline.batch.cluster import Cluster, answer_on_worker, require_same_version
 from footfit.pipeline.batch.runs import outcomes
 from footfit.pipeline.batch.sources import ReadingOptions, Source, mesh_sources
-from footfit.pipeline.library.ingest import entries, ingest
+from footfit.pipeline.library.entries import entries
+from footfit.pipeline.library.ingest import ingest
 from footfit.results import LastLabels
 from footfit.version import __version__
 from tests.clusters import LocalCluster, failing, local_cluster, path_and_size

@@ -9,7 +9,8 @@ import pytest
 
 from footfit.errors import BadOption, NameTaken
 from footfit.pipeline.batch.sources import ReadingOptions, Source
-from footfit.pipeline.library.ingest import Entry, Holdings, entries, unused_rows
+from footfit.pipeline.library.entries import Entry, entries, unused_rows
+from footfit.pipeline.library.holdings import Holdings
 from footfit.pipeline.library.manifest import manifest_rows
 from footfit.results import LastLabels
 from tests.records import last

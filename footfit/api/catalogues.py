@@ -38,7 +38,8 @@ from footfit.pipeline.library import lasts
 if TYPE_CHECKING:
     from footfit.catalogue.group_commit import NewLast
     from footfit.pipeline.fit.match import Question
-    from footfit.pipeline.library.ingest import Entry, HoldSignals, KeepMesh
+    from footfit.pipeline.library.entries import Entry
+    from footfit.pipeline.library.ingest import HoldSignals, KeepMesh
     from footfit.pipeline.shelf.shelf import Shelf
     from footfit.results.last_making.section_table import SectionTable
 
@@ -217,7 +218,7 @@ class Catalogue(CatalogueFile):
         BadOption, BadManifest
             There is nothing to ingest, one name for several files, or the manifest is not valid.
         """
-        from footfit.pipeline.library.ingest import entries
+        from footfit.pipeline.library.entries import entries
         from footfit.pipeline.library.manifest import read_manifest
 
         rows = [] if manifest is None else read_manifest(Path(manifest))
@@ -266,7 +267,7 @@ class Catalogue(CatalogueFile):
         """Store lasts that are measured already; yield each name after the commit that holds it.
 
         A `NewLast` has what belongs to a record beside it: its mesh copy, its sections, its
-        parentage. Lasts that come within 0.2 s, at most 256, share a commit. A missing catalogue
+        parentage. Lasts that come within 0.2 s, at most 512, share a commit. A missing catalogue
         is made.
 
         Raises

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING
 
 from footfit.catalogue.blocks.block_writing import fill_blocks, refresh_blocks
 from footfit.catalogue.blocks.search_file import drop_search_file
@@ -52,6 +53,7 @@ from footfit.catalogue.server.any_location import (
     open_location_for_writing,
 )
 from footfit.catalogue.server.server_opening import Writing
+from footfit.errors import CatalogueUnusable, FootfitError
 from footfit.locations import LocationName, location_of
 from footfit.results import (
     LastRecord,
@@ -62,6 +64,9 @@ from footfit.results import (
     RenameOutcome,
     ShapeSections,
 )
+
+if TYPE_CHECKING:
+    import sqlalchemy as sa
 
 
 @contextmanager
@@ -106,6 +111,18 @@ def open_catalogue(
             drop_search_file(location)
 
 
+def _add(connection: sa.Connection, last: NewLast, *, replace: bool) -> None:
+    """Store a last inside a transaction; raises as `Catalogue.add`."""
+    driver = driver_of(connection)
+    place = place_of(driver, last.record, replace=replace)
+    key = write_last(connection, last.record, place.parent_id, place.key)
+    write_sealed(connection, key, MESH_COPY, last.copy)
+    write_sealed(connection, key, SECTION, last.sections)
+    write_parentage(connection, key, last.parentage, keep=place.same_file)
+    express(connection, key)
+    refresh_blocks(driver, [key])
+
+
 @dataclass
 class Catalogue(CatalogueReader):
     """An open catalogue. Each reading method sees one snapshot; each writing one does all or
@@ -136,21 +153,16 @@ class Catalogue(CatalogueReader):
         UnknownLast, BadOption
             Its parent is not in the catalogue; its name cannot be stored.
         """
+        last = NewLast(record, copy, sections, parentage)
         with self.file.atomic() as connection:
-            place = place_of(driver_of(connection), record, replace=replace)
-            key = write_last(connection, record, place.parent_id, place.key)
-            write_sealed(connection, key, MESH_COPY, copy)
-            write_sealed(connection, key, SECTION, sections)
-            write_parentage(connection, key, parentage, keep=place.same_file)
-            express(connection, key)
-            refresh_blocks(driver_of(connection), [key])
+            _add(connection, last, replace=replace)
 
     def add_many(
         self, lasts: Iterable[LastRecord | NewLast], *, replace: bool = False
     ) -> Iterator[str]:
         """Store many lasts, several in one commit; yield each name after the commit that holds it.
 
-        A commit holds the lasts that come within 0.2 s, at most 256. Otherwise it is as if each
+        A commit holds the lasts that come within 0.2 s, at most 512. Otherwise it is as if each
         last were added alone: if one cannot be stored, those before it are, and those after it are
         not.
 
@@ -161,29 +173,34 @@ class Catalogue(CatalogueReader):
         """
         known = KnownLasts()
         for group in groups(lasts):
-            left = group
-            while left:
-                if self._stored_together(left, known):
-                    yield from (last.record.labels.name for last in left)
-                    break
-                self.add(*left[0], replace=replace)
-                known.add(left[:1])
-                yield left[0].record.labels.name
-                left = left[1:]
+            together = self.add_together(group, known, replace=replace)
+            for last in group:
+                if not together:
+                    self.add(*last, replace=replace)
+                yield last.record.labels.name
 
-    def _stored_together(self, group: Sequence[NewLast], known: KnownLasts) -> bool:
-        """Whether a group was stored in one commit: it is, if all of its lasts are new ones and
-        the catalogue has a reference.
+    def add_together(
+        self, group: Sequence[NewLast], known: KnownLasts, *, replace: bool = False
+    ) -> bool:
+        """Store lasts in one commit, as if each were added alone; whether they are stored.
+
+        If one of them cannot be stored, none is: `add` says of each what is wrong with it.
+        ``known`` is the same for all groups of a batch, in which nothing but lasts is added.
         """
-        if len(group) < 2:
+        try:
+            with self.file.atomic() as connection:
+                driver = driver_of(connection)
+                known.refresh(driver)
+                if known.are_new(group):
+                    fresh = write_group(driver, group)
+                    refresh_blocks(driver, fresh.keys.tolist(), fresh)
+                else:
+                    for last in group:
+                        _add(connection, last, replace=replace)
+        except CatalogueUnusable:
+            raise
+        except FootfitError:
             return False
-        with self.file.atomic() as connection:
-            driver = driver_of(connection)
-            known.refresh(driver)
-            if not known.names or not known.are_new(group):
-                return False
-            fresh = write_group(driver, group)
-            refresh_blocks(driver, fresh.keys.tolist(), fresh)
         known.add(group)
         return True
 

@@ -75,7 +75,7 @@ def ingest_last(
     from footfit.pipeline.batch.runs import common_code
     from footfit.pipeline.batch.sources import ReadingOptions
     from footfit.pipeline.library import manifest as manifests
-    from footfit.pipeline.library.ingest import entries, unused_rows
+    from footfit.pipeline.library.entries import entries, unused_rows
     from footfit.results import LastLabels
 
     given: dict[str, Any] = {

@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
+import time
 from collections import deque
 from collections.abc import Callable, Iterable, Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import partial
 from typing import TYPE_CHECKING, Generic, Protocol, TypeAlias, TypeVar
 
@@ -67,42 +68,83 @@ def outcomes(
     ClusterUnusable
         The executor's cluster cannot be used any more.
     """
-    if not isinstance(jobs, int):
-        yield from _ordered(work, items, jobs, known)
-    elif jobs == HERE or len(items) < 2:
-        for item in items:
-            yield _outcome(item, partial(_limited, work, item, limits, known))
-    else:
-        from footfit.pipeline.batch.workers import WorkerPool
-
-        pool = WorkerPool(min(jobs, len(items)), limits)
-        try:
-            yield from _ordered(work, items, pool, known)
-        finally:
-            pool.shutdown(cancel_futures=True)
+    for group in outcome_groups(work, items, jobs, limits, known):
+        yield from group
 
 
-def _ordered(
+def outcome_groups(
     work: Callable[[S], T],
-    items: Iterable[S],
-    executor: Executor,
-    known: Callable[[S], T | None],
-) -> Iterator[Outcome[S, T]]:
-    """The outcomes in order; a few items are in flight at a time, however many there are."""
-    waiting = iter(items)
-    flying: deque[tuple[S, Future[T]]] = deque()
+    items: Sequence[S],
+    jobs: Jobs = HERE,
+    limits: WorkLimits = WORK_LIMITS,
+    known: Callable[[S], T | None] = lambda _: None,
+    *,
+    most: int = 1,
+    longest_s: float = 0.0,
+) -> Iterator[list[Outcome[S, T]]]:
+    """The `outcomes`, those together that are ready when the first of them is asked for.
+
+    A group has at most ``most`` outcomes, and is gathered for at most ``longest_s``. No group waits
+    for an outcome that is not ready.
+    """
+    if isinstance(jobs, int) and (jobs == HERE or len(items) < 2):
+        for item in items:
+            yield [_outcome(item, partial(_limited, work, item, limits, known))]
+        return
+    from footfit.pipeline.batch.workers import WorkerPool
+
+    executor = WorkerPool(min(jobs, len(items)), limits) if isinstance(jobs, int) else jobs
+    flight = _Flight(work, iter(items), executor, known)
     try:
-        while True:
-            for item in waiting:
-                flying.append((item, _future(work, item, executor, known)))
-                if len(flying) >= AHEAD_PER_JOB * _width(executor):
-                    break
-            if not flying:
-                return
-            item, future = flying.popleft()
-            yield _outcome(item, future.result)
+        while flight.refilled():
+            group, ends_s = [flight.taken()], time.monotonic() + longest_s
+            while len(group) < most and flight.has_ready() and time.monotonic() < ends_s:
+                group.append(flight.taken())
+                flight.refilled()
+            yield group
     finally:
-        for _, future in flying:
+        flight.cancel()
+        if executor is not jobs:
+            executor.shutdown(cancel_futures=True)
+
+
+@dataclass(slots=True)
+class _Flight(Generic[S, T]):
+    """The items that an executor has, in order: a few at a time, however many there are."""
+
+    work: Callable[[S], T]
+    waiting: Iterator[S]
+    executor: Executor
+    known: Callable[[S], T | None]
+    flying: deque[tuple[S, Future[T]]] = field(default_factory=deque)
+
+    def refilled(self) -> bool:
+        """Begin items until there are enough; whether there is one at all."""
+        while len(self.flying) < AHEAD_PER_JOB * _width(self.executor):
+            item = next(self.waiting, None)
+            if item is None:
+                break
+            self.flying.append((item, _future(self.work, item, self.executor, self.known)))
+        return bool(self.flying)
+
+    def taken(self) -> Outcome[S, T]:
+        """The outcome of the next item, as soon as there is one."""
+        item, future = self.flying.popleft()
+        return _outcome(item, future.result)
+
+    def has_ready(self) -> bool:
+        """Whether the next item has an outcome already, which does not end the batch."""
+        if not self.flying or not self.flying[0][1].done():
+            return False
+        future = self.flying[0][1]
+        error = None if future.cancelled() else future.exception()
+        return error is None or (
+            isinstance(error, FootfitError) and not isinstance(error, ClusterUnusable)
+        )
+
+    def cancel(self) -> None:
+        """Cancel what is not done."""
+        for _, future in self.flying:
             future.cancel()
 
 
