@@ -13,7 +13,7 @@ from pathlib import Path
 import pytest
 
 from tests.torture import crowd, full, kills, power, signals, syscalls, upgrades
-from tests.torture.scripts import EDIT, INGEST, MIGRATE, Script
+from tests.torture.scripts import EDIT, INGEST, MIGRATE, READY, Script
 from tests.torture.tally import memory
 
 SEED = 2
@@ -30,7 +30,9 @@ def folder() -> Iterator[Path]:
 needs_strace = pytest.mark.skipif(power.strace_missing() is not None, reason="strace is not here")
 
 
-@pytest.mark.parametrize(("script", "count"), [(INGEST, 25), (EDIT, 10), (MIGRATE, 15)], ids=str)
+@pytest.mark.parametrize(
+    ("script", "count"), [(INGEST, 25), (EDIT, 10), (MIGRATE, 15), (READY, 15)], ids=str
+)
 def test_kill_9_loses_nothing_acknowledged(folder: Path, script: Script, count: int) -> None:
     tally = kills.kill_trials(folder, script, count, SEED)
     assert tally.bad == []
@@ -44,7 +46,9 @@ def test_kill_9_of_the_command_and_its_workers(folder: Path) -> None:
 
 
 @needs_strace
-@pytest.mark.parametrize(("script", "count"), [(INGEST, 20), (EDIT, 20), (MIGRATE, 10)], ids=str)
+@pytest.mark.parametrize(
+    ("script", "count"), [(INGEST, 20), (EDIT, 20), (MIGRATE, 10), (READY, 20)], ids=str
+)
 def test_a_power_cut_leaves_before_or_after(folder: Path, script: Script, count: int) -> None:
     tally = power.cut_trials(folder, script, count, SEED)
     assert tally.bad == []
@@ -59,7 +63,7 @@ def test_without_syncs_a_power_cut_is_seen_to_harm(folder: Path) -> None:
 
 
 @needs_strace
-@pytest.mark.parametrize(("script", "every"), [(INGEST, 90), (EDIT, 140)], ids=str)
+@pytest.mark.parametrize(("script", "every"), [(INGEST, 90), (EDIT, 140), (READY, 90)], ids=str)
 def test_a_failing_call_is_said_and_harms_nothing(folder: Path, script: Script, every: int) -> None:
     tally = syscalls.failing_trials(folder, script, every, SEED)
     assert tally.bad == []

@@ -14,15 +14,19 @@ from contextlib import closing, suppress
 from dataclasses import dataclass, replace
 from functools import lru_cache
 from pathlib import Path
+from unittest.mock import patch
 
 from footfit.catalogue.file.migrate import Schema
-from footfit.catalogue.group_commit import NewLast
+from footfit.catalogue.group_commit import GroupSettings, NewLast
 from footfit.catalogue.store import open_catalogue
-from footfit.errors import NoCatalogue
+from footfit.errors import FootfitError, NoCatalogue, UnreadableFile
 from footfit.meshes.copies.compact_copy import compact_copy
+from footfit.pipeline.library import ingest
 from footfit.pipeline.library.backup import back_up, restore
+from footfit.pipeline.library.entries import Entry
 from footfit.results import LastRecord, MeshCopy
 from tests import answers, fits, records
+from tests.ready_lasts import ReadyLasts, entry_of
 from tests.torture.migrations import OLD_FILE, later_schema
 
 MAIN = "lasts.footfit"
@@ -153,6 +157,28 @@ def grouping(folder: Path, done: int, groups: int = 5) -> Iterator[None]:
             yield
 
 
+def ingesting(folder: Path, done: int, count: int = 16) -> Iterator[None]:
+    """An ingest whose lasts are ready at once, so that three share a commit; each line is a step.
+
+    Among them are a bad file, a name that is taken in its own group, and a last that is stored.
+    """
+    lasts = [records.last(f"last-{seed}", seed) for seed in range(100, 100 + count)]
+    files: list[tuple[Entry, LastRecord | FootfitError]] = [
+        (entry_of(last, seed), last) for seed, last in enumerate(lasts, 100)
+    ]
+    files[4:4] = [
+        (entry_of(records.last("bad", 90), 90), UnreadableFile("is no mesh")),
+        (entry_of(records.last("last-103", 91), 91), records.last("last-103", 91)),
+        (entry_of(records.last("last-0", 0), 0), records.last("last-0", 0)),
+    ]
+    batch = [entry for entry, _ in files]
+    with patch.object(ingest, "GROUP", GroupSettings(most_lasts=3, longest_s=60.0)):
+        outcomes = ingest.ingest(batch, folder / MAIN, jobs=ReadyLasts(files))
+        for line, _outcome in enumerate(outcomes, 1):
+            if line > done:
+                yield
+
+
 def editing(folder: Path, done: int) -> Iterator[None]:
     """Every writing verb once, each in an opening of its own: the commands."""
     for step in EDITS[done:]:
@@ -246,5 +272,6 @@ EDIT = Script("edit, backup, restore", editing, _filled)
 MIGRATE = Script("migrate", migrating, _old_file)
 RECORD = Script("record fits", recording, _filled)
 GROUP = Script("group commit", grouping, _filled)
-ALL = (INGEST, EDIT, MIGRATE, RECORD, GROUP)
+READY = Script("ingest in groups", ingesting, _filled)
+ALL = (INGEST, EDIT, MIGRATE, RECORD, GROUP, READY)
 SCRIPTS = {script.name.split(",")[0]: script for script in ALL}
