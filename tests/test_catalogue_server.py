@@ -317,9 +317,11 @@ def test_a_server_that_goes_away_in_the_middle(own_server: Server) -> None:
     url = own_server.database()
     command = [sys.executable, "-m", "footfit", "ingest-last", *LASTS, "--json"]
     command += ["--catalogue", url]
-    running = subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, cwd=ROOT)
+    running = subprocess.Popen(
+        command, bufsize=0, stdout=subprocess.PIPE, stderr=subprocess.PIPE, cwd=ROOT
+    )
     assert running.stdout is not None
-    first = running.stdout.readline()
+    first = running.stdout.readline()  # without a buffer, which would keep other lines
     own_server.stop(at_once=True)
     rest, errors = running.communicate(timeout=60)
     assert running.returncode == 6

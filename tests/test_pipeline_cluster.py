@@ -9,6 +9,7 @@ import subprocess
 import sys
 from collections.abc import Iterator
 from pathlib import Path
+from typing import Any
 
 import pytest
 
@@ -28,6 +29,8 @@ from tests.clusters import LocalCluster, failing, local_cluster, path_and_size
 from tests.conftest import SAMPLES, Footfit
 
 LASTS = [str(path) for path in sorted((SAMPLES / "lasts").glob("*.*"))[:4]]
+PIPES: dict[str, Any] = {"stdout": subprocess.PIPE, "stderr": subprocess.PIPE}
+"""With ``bufsize=0``: a buffer would keep the lines that come with the first one."""
 NOBODY = "tcp://127.0.0.1:9"
 """Nothing listens at this port: it is the one of a service that discards what it gets."""
 
@@ -90,7 +93,7 @@ def test_ctrl_c_leaves_what_was_acknowledged(cluster: LocalCluster, tmp_path: Pa
     heard = f"import signal, runpy; signal.signal({int(signal.SIGINT)}, signal.default_int_handler)"
     heard += "; runpy.run_module('footfit', run_name='__main__', alter_sys=True)"
     command[1:3] = ["-c", heard]  # a job in the background starts with SIGINT ignored
-    running = subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE)
+    running = subprocess.Popen(command, bufsize=0, **PIPES)
     assert running.stdout is not None
     first = running.stdout.readline()
     running.send_signal(signal.SIGINT)
@@ -126,7 +129,7 @@ def test_a_scheduler_that_goes_away_ends_the_batch_in_one_line(
     with local_cluster(tmp_path, workers=1) as cluster:
         command = [sys.executable, "-m", "footfit", "ingest-last", *LASTS, "--json"]
         command += ["--catalogue", str(path), "--scheduler", cluster.address]
-        running = subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE)
+        running = subprocess.Popen(command, bufsize=0, **PIPES)
         assert running.stdout is not None
         first = running.stdout.readline()
         cluster.processes[0].kill()
