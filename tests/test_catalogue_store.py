@@ -228,6 +228,41 @@ def test_the_same_lasts_in_the_same_order_are_the_same_catalogue(tmp_path: Path)
     assert one == two
 
 
+def test_odd_values_are_sealed_alike_together_and_alone(tmp_path: Path) -> None:
+    """What the database gives back otherwise than it was sent, and what JSON writes otherwise."""
+    odd = [
+        Measured(-0.0, -0.0, None, -0.0, -0.0),
+        Measured(np.nan, np.nan, None, np.nan, np.nan),
+        Measured(np.inf, 0.1, None, np.inf),
+        Measured(np.float64(1e22), 1e-7, None, np.float32(0.1)),
+        Measured(None, None, 'a "reason" \u00e9 \U0001f45f\n'),
+        Measured(1, 2, None, 3, 4),
+        Measured(5.0, None, None, None, 1.0),
+    ]
+    lasts = []
+    for seed in range(9):
+        last = records.last(f"Ren\u00e9 {seed}", seed, side=SIDES[seed % 2], style="\U0001f45f")
+        turned = odd[seed % len(odd) :] + odd[: seed % len(odd)]
+        measures = tuple(Measure(f"m{i}", value, f"by {i}") for i, value in enumerate(turned))
+        info = replace(last.info, watertight=np.bool_(seed % 2), faces=np.int64(seed + 1))
+        flare = replace(last.flare, angle_deg=np.nan if seed % 3 else -0.0)
+        lasts.append(replace(last, measures=measures, info=info, flare=flare))
+    dumps = []
+    for name in ("many", "single"):
+        with open_catalogue(tmp_path / name, write=True) as catalogue:
+            if name == "many":
+                assert len(list(catalogue.add_many(lasts[:1]))) == 1
+                assert len(list(catalogue.add_many(lasts[1:]))) == len(lasts) - 1
+            else:
+                for last in lasts:
+                    catalogue.add(last)
+            codes = {finding.code for finding in catalogue.findings() if finding.damage}
+            assert codes == {"range"}  # of the infinite values: no hash is wrong
+        with closing(sqlite3.connect(tmp_path / name)) as connection:
+            dumps.append(list(connection.iterdump()))
+    assert dumps[0] == dumps[1]
+
+
 def test_replacing_keeps_what_points_to_a_last(catalogue: Catalogue) -> None:
     catalogue.add(records.last("graded", 9, parent="last-1", family="derby"))
     catalogue.add(records.last("last-1", 10, side="left"), records.mesh_copy(10), replace=True)
