@@ -85,7 +85,8 @@ def measure_columns(tables: Sequence[Sequence[Measure]], words: Vocabulary) -> M
             if measured.value is not None:
                 value[at, last] = measured.value
                 sd[at, last] = measured.sd or 0.0
-    return MeasureColumns(names, value + 0.0, sd, word)
+    lacking = np.isnan(value) | np.isnan(sd)  # the database has null for NaN
+    return MeasureColumns(names, value + 0.0, np.where(lacking, 0.0, sd), word)
 
 
 def _numbers(values: object) -> np.ndarray:
