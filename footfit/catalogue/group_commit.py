@@ -15,8 +15,8 @@ from footfit.catalogue.file.dialect import Driver, change_mark
 from footfit.catalogue.rows.last_names import caseless
 from footfit.catalogue.rows.reference_last import expressed, stored_reference
 from footfit.catalogue.rows.requirements import require_storable
-from footfit.catalogue.rows.sealed_rows import WRITTEN, Values, sealed_rows
 from footfit.catalogue.rows.verified_rows import shown_name
+from footfit.catalogue.sealed_rows import WRITTEN, Values, sealed_rows
 from footfit.results import LastRecord, MeshCopy, Parentage, ShapeSections
 from footfit.results.columns.last_columns import NOT_KEPT, LastColumns
 from footfit.results.columns.vocabulary import Vocabulary
