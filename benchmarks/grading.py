@@ -98,12 +98,13 @@ class Graded:
 
 
 def trials(count: int, seed: int) -> Iterator[Trial]:
-    """Every hold with every family, over the heels, the steps and the rules."""
+    """Lasts of the families in turn, over the holds, the heels, the steps and the rules."""
     rng = np.random.default_rng(seed)
     styles = [style for style in STYLES if style not in ("child", "boot")]
     families = ("own", "second") if stance.second_family() else ("own",)
     for number in range(count):
-        hold, family = HOLDS[number // len(families) % len(HOLDS)], families[number % len(families)]
+        hold = HOLDS[number % len(HOLDS)]
+        family = families[(number + number // len(HOLDS)) % len(families)]
         band, style = HEELS_MM[number % len(HEELS_MM)], styles[number % len(styles)]
         mesh = own_mesh(rng, style, band) if family == "own" else second_mesh(rng, band)
         rule = list(RULES)[number % len(RULES)]

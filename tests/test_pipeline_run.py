@@ -21,6 +21,7 @@ from footfit.pipeline.graded_runs.run_sizes import size_in_name, width_numbers
 from footfit.pipeline.last_making.tolerances import TOLERANCE_MM, tolerances
 from footfit.report.terminal.last_making_tables import check_run_table
 from footfit.report.terminal.scan_tables import terminal_text
+from footfit.report.wording.run_words import break_words
 from footfit.results import Measure, Measured, RunLast
 from tests import records
 from tests.conftest import Footfit
@@ -209,6 +210,10 @@ def test_files_and_families_are_checked(footfit: Footfit, tmp_path: Path) -> Non
     ]
     unknown = footfit("check-run", "nothing", "--catalogue", catalogue)
     assert unknown.code == 4
+    assert "no last and no family is named 'nothing'" in unknown.err
+    missing = footfit("check-run", folder / "derby-99.stl", "--catalogue", catalogue)
+    assert missing.code == 3
+    assert "there is no such file" in missing.err
 
 
 def test_the_table_shows_every_increment_and_marks_what_breaks() -> None:
@@ -218,10 +223,40 @@ def test_the_table_shows_every_increment_and_marks_what_breaks() -> None:
     for step in checked.steps:
         mark = "!" if step.broken else ""
         assert f"{signed(step.increment_mm)}{mark}" in text
-    for step in checked.broken:
-        assert step.words in text
     assert "arithmetic, compared with the run itself" in text
-    assert "'derby-40F' (40) is wrong by itself" in text
+    assert "'derby-40F' (size 40) is wrong by itself, beside its neighbours: ball girth" in text
+
+
+def test_a_last_that_is_wrong_in_many_measures_has_one_line() -> None:
+    """One wrong last of a run in two widths breaks the steps before, behind and beside it."""
+    narrow, wide = run(230.0, 235.0, 240.0, 245.0), run(235.0, 240.0, 245.0, 250.0)
+    lasts = [replace(each, last=f"{each.last}F", width="F") for each in narrow]
+    lasts += [replace(each, last=f"{each.last}G", width="G") for each in wide]
+    lasts = [
+        replace(each, measures_mm={**each.measures_mm, "ball_width": each.measures_mm[GIRTH] / 2})
+        for each in lasts
+    ]
+    more_mm = {GIRTH: 8.0, "ball_width": 6.0}
+    wrong = {name: lasts[5].measures_mm[name] + mm for name, mm in more_mm.items()}
+    lasts[5] = replace(lasts[5], measures_mm={**lasts[5].measures_mm, **wrong})
+    checked = run_check(lasts, TOLERANCE_MM)
+    assert len(checked.broken) == 6
+    assert checked.jumps == ()
+    words = "'derby-39G' (size 39) is wrong by itself, beside its neighbours"
+    assert list(break_words(checked)) == [f"{words}: ball girth least +8.0 mm, ball width +6.0 mm"]
+    assert checked.worst_words.startswith("'derby-39G' (39) is wrong by itself")
+
+
+def test_a_step_that_is_wrong_in_many_measures_has_one_line() -> None:
+    lasts = run(230.0, 235.0, 244.0, 249.0, 254.0)
+    lasts = [
+        replace(each, measures_mm={**each.measures_mm, "ball_width": each.measures_mm[GIRTH] / 2})
+        for each in lasts
+    ]
+    words = "from size 39 to 40, beside what is expected"
+    assert list(break_words(run_check(lasts, TOLERANCE_MM))) == [
+        f"{words}: ball girth least +4.0 mm, ball width +2.0 mm"
+    ]
 
 
 def test_a_last_without_a_measure_is_left_out_of_its_check(tmp_path: Path) -> None:

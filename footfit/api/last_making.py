@@ -148,13 +148,14 @@ def check_run(
     from footfit.pipeline.graded_runs.run_increments import run_check
     from footfit.pipeline.last_making.tolerances import tolerances
     from footfit.pipeline.library.manifest import read_manifest
+    from footfit.pipeline.library.named_lasts import names_a_last
 
     given: list[Any] = run if isinstance(run, list) else [run]
     names = [os.fspath(each) for each in given]
     tolerance_mm = tolerances(tolerance)
     stated = None if rule is None else grading_rule(rule)
     rows = [] if manifest is None else read_manifest(Path(manifest))
-    stored = [name for name in names if is_no_path(name)]
+    stored = [name for name in names if is_no_path(name) and names_a_last(name)]
     if stored and catalogue is None:
         raise BadOption("is no file: name the catalogue that has it", stored[0])
     lasts: tuple[results.RunLast, ...] = ()

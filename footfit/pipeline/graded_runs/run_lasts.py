@@ -7,8 +7,9 @@ from dataclasses import replace
 from functools import partial
 from pathlib import Path
 
+from footfit.catalogue.rows.last_names import meant_name, nearest_name
 from footfit.catalogue.store import open_catalogue
-from footfit.errors import BadOption
+from footfit.errors import BadOption, UnknownLast
 from footfit.locations import Location
 from footfit.pipeline.batch.runs import HERE, outcomes
 from footfit.pipeline.batch.sources import ReadingOptions, Source
@@ -49,13 +50,20 @@ def named_lasts(catalogue: Location, names: Sequence[str]) -> tuple[RunLast, ...
     Raises
     ------
     UnknownLast, BadOption
-        There is no last of a name; its size is not known.
+        There is no last of a name, which no family has either; its size is not known.
     NoCatalogue, CatalogueUnusable
         There is no catalogue, or it cannot be read.
     """
     if not names:
         return ()
     with open_catalogue(catalogue) as opened:
+        known = opened.names()
+        for name in names:
+            if meant_name(known, name) is None:
+                near = nearest_name(known, name)
+                nearest = "" if near is None else f" (the nearest last is {near!r})"
+                words = f"no last and no family is named {name!r}{nearest}"
+                raise UnknownLast(f"{words}; see footfit list-lasts")
         return tuple(stored_last(opened.record(name)) for name in names)
 
 

@@ -105,10 +105,8 @@ def _run_findings(name: str, checked: RunCheck) -> Iterator[LastFinding]:
             measure=worst.measure, off_mm=worst.off_mm, tolerance_mm=allowed[last, worst.measure],
         )  # fmt: skip
     jumps: dict[tuple[str, str], dict[str, RunStep]] = defaultdict(dict)
-    for step in checked.broken:
-        told = (off_lasts.get(last, {}) for last in (step.first, step.second))
-        if not any(step.measure in measures for measures in told):
-            jumps[step.first, step.second][step.measure] = step
+    for step in checked.jumps:
+        jumps[step.first, step.second][step.measure] = step
     for (first, second), steps in jumps.items():
         step = max(steps.values(), key=lambda each: _times(each.off_mm, each.tolerance_mm))
         words = f"the run jumps: {step.words}{_more(set(steps) - {step.measure})}"

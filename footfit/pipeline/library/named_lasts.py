@@ -76,6 +76,17 @@ def is_bare(argument: str) -> bool:
     return Path(argument).name == argument and Path(argument).suffix.lower() not in MESH_SUFFIXES
 
 
+def names_a_last(argument: str) -> bool:
+    """Whether an argument that is no path can be a name: it is bare, and no pattern.
+
+    Examples
+    --------
+    >>> names_a_last("derby"), names_a_last("run/derby-*.stl"), names_a_last("derby-40.stl")
+    (True, False, False)
+    """
+    return is_bare(argument) and not GLOB_CHARACTERS & set(argument)
+
+
 def named_sources(arguments: Sequence[str], catalogue: Location) -> dict[str, Source]:
     """A source for each argument that is no file: it may be a last of the catalogue.
 
@@ -167,9 +178,10 @@ def _prepared(record: LastRecord, copy: MeshCopy) -> PreparedScan:
 
 def _notices(record: LastRecord, copy: MeshCopy) -> list[Notice]:
     """Where the shape comes from, and that its measures are older if they are."""
+    near = "less than 0.01 mm" if copy.error_mm < 0.005 else f"at most {copy.error_mm:.2f} mm"
     words = (
         "this is the last of the catalogue: its measures were taken from the scan, and its mesh is"
-        f" the stored copy, at most {copy.error_mm:.2f} mm from the scan"
+        f" the stored copy, {near} from the scan"
     )
     older = "it was measured by other definitions; type: footfit upgrade-catalogue"
     notices = [Notice("stored_copy", words)]

@@ -8,6 +8,7 @@ from rich.text import Text
 from footfit.number_words import plain, signed
 from footfit.report.terminal.scan_tables import lined_table
 from footfit.report.wording.difference_words import (
+    SECTION_GIRTHS,
     laid_words,
     last_names,
     surface_difference_words,
@@ -34,6 +35,7 @@ def compare_lasts_table(difference: LastDifference) -> RenderableType:
         _zones_table(difference),
         Text("Sections at the same places of both bottoms, second minus first in mm"),
         _sections_table(difference),
+        Text(SECTION_GIRTHS, "dim"),
         Text("-: not measurable there; --json says why.", "dim"),
     )
 

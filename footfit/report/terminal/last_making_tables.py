@@ -8,6 +8,7 @@ from rich.text import Text
 from footfit import results
 from footfit.number_words import plain, signed
 from footfit.report.terminal.scan_tables import cell, lined_table
+from footfit.report.wording.run_words import break_words
 from footfit.report.wording.text import visible
 
 OFF = "!"
@@ -62,8 +63,7 @@ def check_run_table(checked: results.RunCheck) -> RenderableType:
     parts: list[RenderableType] = [_lasts_words(checked)]
     for kind, at in dict.fromkeys((step.kind, step.at) for step in checked.steps):
         parts.append(_steps_table(checked, kind, at))
-    parts += [Text(f"{OFF} {visible(step.words)}", "bold red") for step in checked.broken]
-    parts += [Text(visible(each.words), "yellow") for each in checked.off_lasts]
+    parts += [Text(f"{OFF} {visible(words)}", "bold red") for words in break_words(checked)]
     limits = ", ".join(f"{kind} {plain(mm)} mm" for kind, mm in checked.tolerance_mm.items())
     state = f"{len(checked.broken)} of {len(checked.steps)} increments are out of tolerance"
     return Group(*parts, Text(f"{state} ({limits})", "dim"))

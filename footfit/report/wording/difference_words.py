@@ -16,6 +16,12 @@ ZONE_WORDS = {
 }
 """Where each zone of the surface is."""
 
+SECTION_GIRTHS = (
+    "A section stands upright. The girths among the measures are of other planes: those named least"
+    " are of the plane in which the tape is shortest."
+)
+"""Why the girth of a section is not the measure of that place."""
+
 
 def last_names(difference: LastDifference) -> tuple[str, str]:
     """What the two lasts are called."""

@@ -169,9 +169,25 @@ class RunCheck(Document):
         )
 
     @property
+    def jumps(self) -> tuple[RunStep, ...]:
+        """The steps that break the increments and touch no last that is wrong by itself."""
+        off = {(each.last, each.measure) for each in self.off_lasts}
+        return tuple(
+            step
+            for step in self.broken
+            if not {(step.first, step.measure), (step.second, step.measure)} & off
+        )
+
+    @property
     def worst_words(self) -> str:
-        """The worst break in words."""
-        return self.broken[0].words if self.broken else ""
+        """The worst break in words: a last that is wrong by itself, else a step."""
+        if not self.broken:
+            return ""
+        worst = self.broken[0]
+        ends = worst.first, worst.second
+        wrong = (each for each in self.off_lasts if each.measure == worst.measure)
+        words = (each.words for each in wrong if each.last in ends)
+        return next(words, worst.words)
 
     def _keys(self) -> Json:
         return {
