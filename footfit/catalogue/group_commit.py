@@ -77,15 +77,11 @@ class KnownLasts:
         self.contents = {str(content) for _, content in pairs}
 
     def are_new(self, group: Sequence[NewLast]) -> bool:
-        """Whether every last of a group is a new one without a parent: its name and its file.
-
-        The first last of a catalogue is not: it becomes the reference.
-        """
+        """Whether every last of a group is a new one without a parent: its name and its file."""
         names = {caseless(last.record.labels.name) for last in group}
         contents = {last.record.info.sha256 for last in group}
         return (
-            bool(self.names)
-            and len(names) == len(contents) == len(group)
+            len(names) == len(contents) == len(group)
             and not names & self.names
             and not contents & self.contents
             and all(last.record.labels.parent is None for last in group)

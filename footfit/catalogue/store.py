@@ -191,12 +191,14 @@ class Catalogue(CatalogueReader):
             with self.file.atomic() as connection:
                 driver = driver_of(connection)
                 known.refresh(driver)
+                apart = len(group)
                 if known.are_new(group):
-                    fresh = write_group(driver, group)
+                    apart = 0 if known.names else 1  # the first of a catalogue is its reference
+                for last in group[:apart]:
+                    _add(connection, last, replace=replace)
+                if group[apart:]:
+                    fresh = write_group(driver, group[apart:])
                     refresh_blocks(driver, fresh.keys.tolist(), fresh)
-                else:
-                    for last in group:
-                        _add(connection, last, replace=replace)
         except CatalogueUnusable:
             raise
         except FootfitError:

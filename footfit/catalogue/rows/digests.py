@@ -7,9 +7,9 @@ reads. Its mesh copy has another one, so that matching reads no mesh.
 
 from __future__ import annotations
 
-import hashlib
 import json
 from collections.abc import Collection
+from hashlib import sha256
 from typing import Any
 
 Row = dict[str, Any]
@@ -58,7 +58,7 @@ def blob_text(value: bytes) -> str:
     >>> digest({"row": {"data": b"a"}}) == text_digest(f'{{"row":{{"data":{blob_text(b"a")}}}}}')
     True
     """
-    return f'{{"sha256":"{_sha256(value)}"}}'
+    return f'{{"sha256":"{sha256(value, usedforsecurity=False).hexdigest()}"}}'
 
 
 def _blob(value: bytes) -> dict[str, str]:
@@ -66,4 +66,4 @@ def _blob(value: bytes) -> dict[str, str]:
 
 
 def _sha256(data: bytes) -> str:
-    return hashlib.sha256(data, usedforsecurity=False).hexdigest()
+    return sha256(data, usedforsecurity=False).hexdigest()
