@@ -13,6 +13,7 @@ from __future__ import annotations
 import argparse
 import math
 import os
+import shutil
 import sqlite3
 import statistics
 import subprocess
@@ -21,15 +22,20 @@ import tempfile
 import time
 from collections.abc import Callable, Sequence
 from contextlib import closing
+from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
 
+import footfit
 from benchmarks.big_catalogues import make_catalogue, measured_lasts, perturbed_lasts
+from benchmarks.search_peers import PEERS, installed, vectors_of, write_profiles
 from benchmarks.tables import markdown, put
+from footfit.catalogue.blocks.search_file import search_path
 from footfit.catalogue.file.engine import SETTINGS
 from footfit.catalogue.group_commit import NewLast
 from footfit.catalogue.store import open_catalogue
+from footfit.geometry.flare.definition import CHANNELS
 
 ROOT = Path(__file__).resolve().parents[1]
 FOOT = ROOT / "sample_data" / "feet" / "mh008_R.stl"
@@ -43,6 +49,7 @@ usage = resource.getrusage(resource.RUSAGE_CHILDREN)
 print(code, usage.ru_utime + usage.ru_stime, usage.ru_maxrss / 1024)
 """
 """Processor seconds and peak MB of a process, from a small parent."""
+PEERS_MODULE, EXACT = ("-m", "benchmarks.search_peers"), "exact"
 SEARCH = """
 import sys, time
 from pathlib import Path
@@ -63,31 +70,6 @@ for _ in range(4):
 print(times[0], min(times[2:]), *answer.names[:5])
 """
 """The search by flare over blocks: cold with the reading of the lasts, then warm."""
-PEER = """
-import sys, time
-import numpy as np
-import footfit
-from footfit.geometry.flare.definition import CHANNELS
-from footfit.geometry.flare.profile_distance import distance_parts, total_distance
-foot = footfit.flare(sys.argv[2])
-stations = len(foot.flare.stations)
-times = []
-for _ in range(4):
-    start = time.process_time()
-    if not times:
-        flat = np.memmap(sys.argv[1], dtype="<f8", mode="r")
-        curves = flat.reshape(-1, len(CHANNELS), stations)
-    distance = np.empty(len(curves))
-    for at in range(0, len(curves), 4096):
-        part = curves[at : at + 4096]
-        each = [part[:, channel] for channel in range(len(CHANNELS))]
-        distance[at : at + 4096] = total_distance(distance_parts(foot.flare, each))
-    best = np.argpartition(distance, 5)[:5]
-    best = best[np.argsort(distance[best])]
-    times.append(time.process_time() - start)
-print(times[0], min(times[2:]), *best.tolist())
-"""
-"""Memory-mapped brute force over the same profiles: every distance, then the five least."""
 
 
 def process(*command: str) -> tuple[float, float]:
@@ -110,40 +92,62 @@ def match_row(path: Path, least: Path, runs: int) -> tuple[float, float, float]:
     return seconds, ratio, max(own[1] for own, _ in pairs)
 
 
-def searched(script: str, *arguments: str) -> tuple[float, float, list[str]]:
+def searched(*command: str) -> tuple[float, float, list[str]]:
     """Cold and warm seconds of a search in a process of its own, and what it found."""
     done = subprocess.run(
-        [sys.executable, "-c", script, *arguments],
+        [sys.executable, *command],
         capture_output=True,
         text=True,
         check=True,
+        cwd=ROOT,
         env={**os.environ, "OMP_NUM_THREADS": "1", "OPENBLAS_NUM_THREADS": "1"},
     )
     cold, warm, *found = done.stdout.split()
     return float(cold), float(warm), found
 
 
-def search_row(path: Path, folder: Path, runs: int) -> tuple[float, float, float]:
-    """The seconds of a search by flare, and its ratios to brute force, cold and warm."""
-    flat, names = folder / "profiles.f8", []
-    with open_catalogue(path) as catalogue, flat.open("wb") as file:
-        for _, part in catalogue.block_lasts().chunks(("plan", "bottom")):
-            assert part.flare is not None
-            assert part.flare.plan is not None
-            assert part.flare.bottom is not None
-            both = np.concatenate([part.flare.plan[:, None], part.flare.bottom], axis=1)
-            file.write(np.ascontiguousarray(both, "<f8").tobytes())
-            names += part.names
-    cold, warm, seconds = [], [], []
-    for _ in range(runs):
-        ours, peer = searched(SEARCH, str(path), str(FOOT)), searched(PEER, str(flat), str(FOOT))
-        if ours[2] != [names[int(row)] for row in peer[2]]:
+@dataclass(frozen=True, slots=True)
+class Searched:
+    """The seconds of the searches by flare in one catalogue: the medians of some runs.
+
+    ``first`` is a search after a change, which also makes the search file. ``cold`` and ``warm``
+    have the ratios to brute force, of whole runs in turn; ``peers`` the cold and warm seconds of
+    each peer.
+    """
+
+    first_s: float
+    cold_s: float
+    warm_s: float
+    cold: float
+    warm: float
+    peers: dict[str, tuple[float, float]]
+
+
+def search_row(path: Path, folder: Path, runs: int) -> Searched:
+    """The searches by flare in a catalogue, in turn with all peers that are installed."""
+    foot = footfit.flare(FOOT).flare
+    names = write_profiles(path, folder, foot.stations)
+    width = vectors_of(np.zeros((1, len(CHANNELS), len(foot.stations))), foot.stations).shape[1]
+    peers = installed()
+    for name in peers:
+        process(sys.executable, *PEERS_MODULE, "make", name, str(folder), str(width))
+    search_path(path).unlink(missing_ok=True)
+    first_s = searched("-c", SEARCH, str(path), str(FOOT))[0]
+    seconds: dict[str, list[tuple[float, float]]] = {name: [] for name in ("footfit", *peers)}
+    for run in range(runs + 1):
+        ours = searched("-c", SEARCH, str(path), str(FOOT))
+        answers = {
+            name: searched(*PEERS_MODULE, "ask", name, str(folder), str(FOOT)) for name in peers
+        }
+        if ours[2] != [names[int(row)] for row in answers[EXACT][2]]:
             raise RuntimeError(f"{path}: the search and brute force do not agree")
-        cold.append(ours[0] / peer[0])
-        warm.append(ours[1] / peer[1])
-        seconds.append(ours[0])
-    flat.unlink()
-    return statistics.median(seconds), statistics.median(cold), statistics.median(warm)
+        for name, (cold_s, warm_s, _) in {"footfit": ours, **answers}.items():
+            seconds[name] += [(cold_s, warm_s)] * (run > 0)  # the first run fills the disk's cache
+    shutil.rmtree(folder)
+    ours, exact = np.array(seconds["footfit"]), np.array(seconds[EXACT])
+    medians = {name: tuple(np.median(each, axis=0)) for name, each in seconds.items()}
+    ratio = np.median(ours / exact, axis=0)
+    return Searched(first_s, *medians.pop("footfit"), *ratio, medians)
 
 
 def stored(measured: Sequence[NewLast], count: int, folder: Path) -> tuple[float, float]:
@@ -221,24 +225,25 @@ def growth(sizes: Sequence[int], runs: int, folder: Path, scratch: Path) -> str:
     for size, path in paths.items():
         if not path.exists():
             make_catalogue(path, measured, size, SEED)
-    rows, matches, searches, stores = [], [], [], []
+    rows, searches, matches, stores = [], [], [], []
     for size, path in paths.items():
         match_s, ratio, megabytes = match_row(path, paths[sizes[0]], runs)
-        search_s, cold, warm = search_row(path, scratch, runs)
+        searches.append(search_row(path, Path(tempfile.mkdtemp(dir=scratch)), runs))
         matches.append(match_s)
-        searches.append(search_s)
         storing = "-"
         if size <= MOST_STORED:
             store_s, store_ratio = stored(measured, size, scratch)
             stores.append(store_s)
             storing = f"{store_s:.2f} s, {store_ratio:.1f}"
+        found = searches[-1]
         rows.append(
             [
                 f"{size:,}",
                 f"{match_s:.2f} s, {ratio:.2f}",
                 f"{megabytes:.0f} MB",
-                f"{search_s:.3f} s, {cold:.2f}",
-                f"{warm:.2f}",
+                f"{found.cold_s:.3f} s, {found.cold:.2f}",
+                f"{found.warm_s:.3f} s, {found.warm:.2f}",
+                f"{found.first_s:.2f} s",
                 storing,
             ]
         )
@@ -249,14 +254,28 @@ def growth(sizes: Sequence[int], runs: int, folder: Path, scratch: Path) -> str:
         "its peak memory",
         "search by flare, cold, times memory-mapped brute force",
         "warm, times the same",
+        "the first search after a change",
         "storing measured lasts, times writing the same rows in one transaction",
     ]
     fitted = (
         f"Fitted exponents (time grows as lasts to this power): `match`"
-        f" {exponent(sizes, matches):.2f}, search {exponent(sizes, searches):.2f}, storing"
+        f" {exponent(sizes, matches):.2f}, search cold"
+        f" {exponent(sizes, [each.cold_s for each in searches]):.2f}, warm"
+        f" {exponent(sizes, [each.warm_s for each in searches]):.2f}, storing"
         f" {exponent(sizes[: len(stores)], stores):.2f}."
     )
-    return f"{markdown(head, rows)}\n{fitted}\n"
+    return f"{markdown(head, rows)}\n{fitted}\n\n{peer_table(sizes, searches)}"
+
+
+def peer_table(sizes: Sequence[int], searches: Sequence[Searched]) -> str:
+    """The seconds of each peer by size, cold and warm, and those of footfit."""
+    head = ["cold and warm, in seconds", *(f"{size:,} lasts" for size in sizes)]
+    rows = [["footfit, with names and ties"]]
+    rows[0] += [f"{each.cold_s:.3f}, {each.warm_s:.3f}" for each in searches]
+    for name in searches[0].peers:
+        pairs = [each.peers[name] for each in searches]
+        rows.append([PEERS[name].title, *(f"{cold:.3f}, {warm:.3f}" for cold, warm in pairs)])
+    return markdown(head, rows)
 
 
 if __name__ == "__main__":
