@@ -48,7 +48,7 @@ def _small_blocks(request: pytest.FixtureRequest) -> Iterator[None]:
     patch.setattr(block_reading, "CHUNK_BLOCKS", 2)
     if request.param == "search file":
         patch.setattr(block_reading, "LEAST_LASTS", 1)
-        patch.setattr(block_reading, "PICKED", 3)
+        patch.setattr(near_lasts, "PICKED", 3)
     patch.setattr(near_lasts, "FIRST_PICKED", 2)
     for name in ("FIRST_LAID", "FIRST_LOOK", "LAY_MORE", "LOOK_FURTHER"):
         patch.setattr(ranking, name, 2)

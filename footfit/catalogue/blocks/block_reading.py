@@ -32,7 +32,7 @@ from footfit.catalogue.blocks.row_columns import columns_of_rows, last_of_rows
 from footfit.catalogue.blocks.same_lasts import same_lasts
 from footfit.catalogue.blocks.search_file import (
     LEAST_LASTS,
-    BadSearchFile,
+    OtherCatalogue,
     SearchFile,
     mark_of,
     open_search_file,
@@ -46,7 +46,6 @@ from footfit.catalogue.rows.verified_rows import (
     stored_lasts,
 )
 from footfit.catalogue.server.any_location import open_location_for_reading, stamp_of
-from footfit.geometry.flare.profile_sketch import Sketches
 from footfit.geometry.numeric.arrays import Bools, Ints
 from footfit.locations import Location
 from footfit.results import LastRecord
@@ -59,16 +58,10 @@ from footfit.results.columns.vocabulary import Vocabulary
 
 CHUNK_BLOCKS = 16
 """So many blocks are looked at together: 4,096 lasts take some MB."""
-PICKED = 4096
-"""So many lasts are looked at together, if they are picked from among many."""
 KEPT_BYTES = 4_000_000
 """What is read of blocks stays in memory up to this size for each part; if it is asked for again,
 as for the next customer, whatever its size.
 """
-
-
-class OtherCatalogue(Exception):
-    """The catalogue was changed since its lasts were read; they must be read again."""
 
 
 class BadBlocks(Exception):
@@ -135,40 +128,8 @@ class BlockLasts:
             last = min(first + CHUNK_BLOCKS, len(self.blocks))
             yield int(self.starts[first]), self._read(connection, first, last, parts)
 
-    @property
-    def by_label(self) -> Ints | None:
-        """The rows in the order of labels, then of extents, if that is known."""
-        return None if self.search is None else self.search.by_label
-
-    def sketches(self) -> Sketches | None:
-        """A sketch of the flare of each last, from the search file; None if there is none."""
-        if self.search is None:
-            return None
-        with _wrong_search_file():
-            return self.search.sketches()
-
-    def picked(self, chosen: Ints, parts: Sequence[str]) -> Iterator[LastColumns]:
-        """Many lasts with these parts, some thousand at a time; raises as `chunks`."""
-        rest = [part for part in parts if part not in (PLAN, BOTTOM)]
-        if self.search is None or rest:
-            yield self.taken(chosen, parts)
-            return
-        with self._snapshot(()), _wrong_search_file():
-            for first in range(0, len(chosen), PICKED):
-                some = chosen[first : first + PICKED]
-                yield replace(self.base.taken(some), flare=self.search.profiles(some))
-
     def taken(self, chosen: Ints, parts: Sequence[str]) -> LastColumns:
         """Some lasts with these parts, in the order of ``chosen``; raises as `chunks`."""
-        if self.search is None or not {PLAN, BOTTOM} <= set(parts):
-            return self._taken_of_blocks(chosen, parts)
-        rest = [part for part in parts if part not in (PLAN, BOTTOM)]
-        lasts = self._taken_of_blocks(chosen, rest) if rest else self.base.taken(chosen)
-        with self._snapshot(()), _wrong_search_file():
-            return replace(lasts, flare=self.search.profiles(chosen))
-
-    def _taken_of_blocks(self, chosen: Ints, parts: Sequence[str]) -> LastColumns:
-        """Some lasts with these parts, from their blocks."""
         order = np.argsort(chosen, kind="stable")
         wanted = chosen[order]
         of_block = np.searchsorted(self.starts, wanted, side="right") - 1
@@ -253,9 +214,8 @@ class BlockLasts:
         if kept == SPOILT:
             rows_say = replace(rows_say, toes=None)
         if row < self.starts[-1] and not same_lasts(mine, rows_say):
-            with _wrong_search_file():
-                if self.search is not None:
-                    self.search.refuse()
+            if self.search is not None:
+                self.search.refuse()
             raise BadBlocks([block_of(key)])
         known = row in self.spoilt or row >= self.starts[-1]
         return ShownLast(record, spoilt=kept == SPOILT and not known)
@@ -273,15 +233,6 @@ class BlockLasts:
                 yield connection
         finally:
             file.close()
-
-
-@contextmanager
-def _wrong_search_file() -> Iterator[None]:
-    """Read the catalogue again, without its search file, if that is damaged."""
-    try:
-        yield
-    except BadSearchFile as error:
-        raise OtherCatalogue from error
 
 
 STORED = "block, layout, data, hash"

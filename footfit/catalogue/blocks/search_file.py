@@ -23,11 +23,11 @@ from footfit.catalogue.file.descriptors import DESCRIPTORS
 from footfit.catalogue.file.dialect import Driver
 from footfit.geometry.flare.bottom_curves import extended_stations
 from footfit.geometry.flare.definition import CHANNELS, FlareDefinition
-from footfit.geometry.flare.profile_distance import DISTANCE
+from footfit.geometry.flare.profile_distance import DISTANCE, inside
 from footfit.geometry.flare.profile_sketch import SKETCH, Sketches, sketches
 from footfit.geometry.numeric.arrays import Floats, Ints
 from footfit.locations import Location
-from footfit.results.columns.last_columns import ARRAYS, LastColumns, ProfileColumns
+from footfit.results.columns.last_columns import ARRAYS, LastColumns
 from footfit.results.columns.packed_names import PackedNames, packed
 from footfit.results.columns.vocabulary import Vocabulary
 from footfit.whole_files import partial_beside
@@ -35,7 +35,7 @@ from footfit.whole_files import partial_beside
 SUFFIX = ".search"
 LEAST_LASTS = 16_384
 """A smaller catalogue has no search file: its blocks are read in less than a tenth of a second."""
-LAYOUT = f"search/1 {SKETCH} {DISTANCE}"
+LAYOUT = f"search/2 {SKETCH} {DISTANCE}"
 """What a search file of this footfit is."""
 MAGIC = b"footfit search\0\0"
 START, ALIGNED = len(MAGIC) + 32, 64
@@ -49,8 +49,12 @@ NOT_TRUSTED: set[str] = set()
 """The marks of search files that this process found damaged."""
 
 
-class BadSearchFile(Exception):
-    """The search file is not what was written; it is not used again."""
+class OtherCatalogue(Exception):
+    """The catalogue was changed since its lasts were read; they must be read again."""
+
+
+class BadSearchFile(OtherCatalogue):
+    """The search file is not what was written: it is not used again by this process."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -78,13 +82,13 @@ class SearchFile:
             self._verified.add("sketches")
         return self._sketches
 
-    def profiles(self, rows: Ints) -> ProfileColumns:
-        """The flare profiles of some lasts; raises BadSearchFile."""
+    def curves(self, rows: Ints) -> Floats:
+        """The flare profiles of some lasts (k, channels, stations), of the stations that count;
+        NaN where there is none. Raises BadSearchFile.
+        """
         there = self._profiles[rows]
         self._require(bool((there[:, -1] == _row_hashes(there, rows)).all()))
-        curves = _curves(there)
-        known = (there[:, -2, None] >> np.arange(len(CHANNELS), dtype=np.uint64)) & np.uint64(1)
-        return ProfileColumns(known.astype(bool), curves[:, 0], curves[:, 1:])
+        return _curves(there)
 
     def _require(self, sound: bool) -> None:
         if not sound:
@@ -189,7 +193,7 @@ def _bytes(row: Sequence[Any]) -> int:
 
 def _curves(profiles: NDArray[np.uint64]) -> Floats:
     """The curves (k, channels, stations) of rows of profiles; a view."""
-    return profiles[:, :-2].view(np.float64).reshape(len(profiles), len(CHANNELS), -1)
+    return profiles[:, :-1].view(np.float64).reshape(len(profiles), len(CHANNELS), -1)
 
 
 def _hash(array: NDArray[Any]) -> str:
@@ -237,9 +241,9 @@ def _write(
     chunks: Iterable[tuple[int, LastColumns]],
 ) -> None:
     base, blocks, starts = lasts
-    stations = extended_stations(FlareDefinition())[1:-1]
+    part = inside(extended_stations(FlareDefinition())[1:-1])
     drawn = np.empty((len(base), SKETCH.width), dtype=np.float32)
-    profile = (len(base), len(CHANNELS) * len(stations) + 2)
+    profile = (len(base), len(CHANNELS) * (part.stop - part.start) + 1)
     text, ends = packed(base.names)
     arrays: dict[str, NDArray[Any]] = {name: getattr(base, name) for name in ARRAYS}
     arrays |= {"blocks": blocks, "starts": starts, "names": text, "name_ends": ends}
@@ -256,8 +260,8 @@ def _write(
         at += _bytes(row)
     file.seek(table["profiles"][2])
     for first, chunk in chunks:
-        rows = _profile_rows(chunk, np.arange(first, first + len(chunk)), profile[1])
-        drawn[first : first + len(chunk)] = sketches(_curves(rows), stations)
+        rows = _profile_rows(chunk, part, np.arange(first, first + len(chunk)), profile[1])
+        drawn[first : first + len(chunk)] = sketches(_curves(rows))
         file.write(rows.data)
     for name, array in arrays.items():
         file.seek(table[name][2])
@@ -269,8 +273,8 @@ def _write(
     file.truncate(at)
 
 
-def _profile_rows(chunk: LastColumns, places: Ints, width: int) -> NDArray[np.uint64]:
-    """Profiles as rows of words: curves, which channels there are, and a hash.
+def _profile_rows(chunk: LastColumns, part: slice, places: Ints, width: int) -> NDArray[np.uint64]:
+    """Profiles as rows of words: the curves at the stations that count, and a hash.
 
     Lasts with other stations than this footfit's are not ranked: they have no curves.
     """
@@ -279,11 +283,9 @@ def _profile_rows(chunk: LastColumns, places: Ints, width: int) -> NDArray[np.ui
     assert chunk.flare.bottom is not None
     rows = np.empty((len(chunk), width), dtype=np.uint64)
     curves = _curves(rows)
-    stations = curves.shape[-1]
-    if chunk.flare.plan.shape[-1] >= stations:
-        curves[:, 0] = chunk.flare.plan[:, :stations]
-        curves[:, 1:] = chunk.flare.bottom[:, :, :stations]
-    curves[chunk.stations != stations] = np.nan
-    rows[:, -2] = (chunk.flare.known << np.arange(len(CHANNELS))).sum(axis=1)
+    curves[:] = np.nan
+    current = chunk.stations == FlareDefinition().stations
+    curves[current, 0] = chunk.flare.plan[current, part]
+    curves[current, 1:] = chunk.flare.bottom[current, :, part]
     rows[:, -1] = _row_hashes(rows, places)
     return rows

@@ -92,13 +92,19 @@ def distance_parts(profile: FlareProfile, curves: Sequence[Floats]) -> Floats:
     both profiles have share the weight of the others.
     """
     part = inside(profile.stations)
+    return parts_of_inside(profile, [curve[:, part] for curve in curves])
+
+
+def parts_of_inside(profile: FlareProfile, curves: Sequence[Floats]) -> Floats:
+    """As `distance_parts`, of curves that have only the stations that count."""
+    part = inside(profile.stations)
     squared = np.empty((len(curves[0]), len(CHANNELS)))
     for channel, name in enumerate(CHANNELS):
         here = profile.curvature.get(name)
         if here is None:
             squared[:, channel] = np.nan
             continue
-        difference = curves[channel][:, part] - here[part]
+        difference = curves[channel] - here[part]
         squared[:, channel] = np.square(difference, out=difference).mean(axis=1)
     squared /= np.square(DISTANCE.sd)
     weights = np.where(np.isfinite(squared), np.array(DISTANCE.weights), 0.0)

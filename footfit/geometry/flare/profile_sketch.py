@@ -41,14 +41,14 @@ class SketchSettings:
 SKETCH = SketchSettings()
 
 
-def sketches(curves: Floats, stations: Floats) -> Sketches:
-    """The sketches (k, width) of profiles, whose channels are (k, channels, stations).
+def sketches(curves: Floats) -> Sketches:
+    """The sketches (k, width) of profiles (k, channels, stations), at the stations that count.
 
     A sketch is the channel's first cosines and the length of what they leave, in units in which
     the squared distance of two profiles is D^2. Last comes the square of all, less its rounding.
     The sketch of a profile that lacks a channel is NaN: nothing bounds its distance.
     """
-    numbers = _coordinates(curves, stations).astype(np.float32)
+    numbers = _coordinates(curves).astype(np.float32)
     square = np.square(numbers.astype(np.float64)).sum(axis=1) * (1.0 - SKETCH.rounding)
     return np.column_stack([numbers, square.astype(np.float32)])
 
@@ -63,7 +63,8 @@ def least_squares(feet: Sequence[FlareProfile], many: Sketches) -> NDArray[np.fl
         curves = [foot.curvature.get(name) for name in CHANNELS]
         if any(curve is None or not np.isfinite(curve).all() for curve in curves):
             return None
-        own.append(_coordinates(np.array([curves], dtype=np.float64), foot.stations)[0])
+        whole = np.array([curves], dtype=np.float64)
+        own.append(_coordinates(whole[:, :, inside(foot.stations)])[0])
     square = np.mean([np.square(numbers).sum() for numbers in own])
     factors = np.append(-2.0 * np.mean(own, axis=0), 1.0).astype(np.float32)
     bounds: NDArray[np.float32] = many @ factors
@@ -71,14 +72,13 @@ def least_squares(feet: Sequence[FlareProfile], many: Sketches) -> NDArray[np.fl
     return bounds
 
 
-def _coordinates(curves: Floats, stations: Floats) -> Floats:
+def _coordinates(curves: Floats) -> Floats:
     """Profiles (k, channels, stations) as points (k, width - 1) that are never further apart."""
-    part = inside(stations)
-    count = part.stop - part.start
+    count = curves.shape[2]
     scale = np.sqrt(np.array(DISTANCE.weights) / count) / np.array(DISTANCE.sd)
     points = []
     for channel, waves in enumerate(SKETCH.waves):
-        curve = scale[channel] * curves[:, channel, part]
+        curve = scale[channel] * curves[:, channel]
         cosines = curve @ _cosines(count, waves)
         rest = np.square(curve).sum(axis=1) - np.square(cosines).sum(axis=1)
         points += [cosines, np.sqrt(np.maximum(rest, 0.0))[:, None]]

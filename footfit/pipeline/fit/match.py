@@ -9,7 +9,8 @@ import numpy as np
 
 from footfit import results
 from footfit.catalogue.blocks.block_bytes import BOTTOM, PLAN
-from footfit.catalogue.blocks.block_reading import BadBlocks, OtherCatalogue
+from footfit.catalogue.blocks.block_reading import BadBlocks
+from footfit.catalogue.blocks.search_file import OtherCatalogue
 from footfit.errors import BadOption, HalfScan, NoCandidate
 from footfit.geometry.fit.sizes import label_in
 from footfit.locations import Location

@@ -12,7 +12,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from footfit.catalogue.blocks.block_bytes import TOES
+from footfit.catalogue.blocks.block_bytes import BOTTOM, MEASURES, PLAN, TOES
 from footfit.geometry.numeric.arrays import Bools, Floats, Ints
 from footfit.pipeline.fit.heels import Heels, full_change, heel_change, joined_heels
 from footfit.pipeline.fit.judging.clearances import joined_clearances
@@ -38,8 +38,8 @@ from footfit.pipeline.fit.scoring import (
 from footfit.pipeline.fit.worn_shifts import with_total
 from footfit.pipeline.fit.zones import TOES as TOES_ZONE
 from footfit.pipeline.fit.zones import ZONES
-from footfit.pipeline.shelf.near_lasts import Shape, all_distances, least_of
-from footfit.pipeline.shelf.nearness import feet_distance, flare_distances
+from footfit.pipeline.shelf.near_lasts import nearest_by_flare
+from footfit.pipeline.shelf.nearness import feet_distance, flare_distances, shape_distance
 from footfit.pipeline.shelf.shelf import KeptSections, Lasts, of_own_side, record_lasts
 from footfit.results import FlareDifference, FootFit, LastRecord, Profiled, ToeBox, ZoneFit
 from footfit.results.columns.last_columns import SIDES, LastColumns, joined
@@ -163,10 +163,10 @@ def _by_distance(distance: Floats, group: Ints, names: Sequence[str]) -> Ints:
 
 def _ranked_by_distance(asked: Asked, lasts: Lasts, chosen: Bools, top: int) -> Ranking:
     """The order by flare or shape. Only the lasts that are shown are judged."""
-    shape = Shape(asked.feet, asked.longer, asked.by == "shape")
-    rows = np.flatnonzero(chosen)
-    least = least_of(shape, lasts, chosen, top, TIED_WITHIN) if 0 < top < len(rows) else None
-    near, distance = least or (rows, all_distances(shape, lasts, chosen))
+    rows, least = np.flatnonzero(chosen), None
+    if asked.by == "flare" and lasts.search is not None and 0 < top < len(rows):
+        least = nearest_by_flare(asked.feet, lasts.search, chosen, top, TIED_WITHIN)
+    near, distance = least or (rows, _all_distances(asked, lasts, chosen))
     best, tier, wanted = near, [0], FIRST_LOOK
     while len(tier) == len(best) < len(near) or wanted == FIRST_LOOK:
         wanted = len(near) if least or not top else wanted * LOOK_FURTHER
@@ -180,6 +180,23 @@ def _ranked_by_distance(asked: Asked, lasts: Lasts, chosen: Bools, top: int) -> 
     judged = replace(judged, distance=distance[shown], spread=rescan_spread(len(shown)))
     ordered = tuple(lasts.base.taken(best[order[: len(tier)]]).names)
     return Ranking(judged, Gated(len(rows), len(rows)), ordered, tuple(tier))
+
+
+def _all_distances(asked: Asked, lasts: Lasts, chosen: Bools) -> Floats:
+    """The distance (n,) by flare or shape of each last that is ``chosen`` (n,)."""
+    by_shape = asked.by == "shape"
+    distance = np.full(len(chosen), np.nan)
+    for start, chunk in lasts.chunks((MEASURES, PLAN, BOTTOM) if by_shape else (PLAN, BOTTOM)):
+        some = np.arange(len(chunk))
+        if (chunk.stations != len(asked.feet[0].flare.stations)).any():  # of outdated profiles
+            some = np.flatnonzero(chosen[start : start + len(chunk)])
+            chunk = chunk.taken(some)
+        distance[start + some] = (
+            shape_distance(asked.feet, asked.longer, chunk)
+            if by_shape
+            else feet_distance(asked.feet, chunk)
+        )
+    return distance
 
 
 def _best(distance: Floats, rows: Ints, wanted: int) -> Ints:

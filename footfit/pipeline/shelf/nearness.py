@@ -10,6 +10,7 @@ from footfit.geometry.flare.definition import CHANNELS, FlareProfile
 from footfit.geometry.flare.profile_distance import (
     ProfileDistances,
     distance_parts,
+    parts_of_inside,
     require_same_stations,
     total_distance,
 )
@@ -50,17 +51,18 @@ def feet_distance(feet: Sequence[Profiled], lasts: LastColumns) -> Floats:
     return np.asarray(np.sqrt(np.mean(np.square(each), axis=0)))
 
 
+def curves_distance(feet: Sequence[Profiled], curves: Floats) -> Floats:
+    """As `feet_distance`, of profiles (n, channels, stations) at the stations that count."""
+    channels = [curves[:, channel] for channel in range(curves.shape[1])]
+    each = [total_distance(parts_of_inside(foot.flare, channels)) for foot in feet]
+    return np.asarray(np.sqrt(np.mean(np.square(each), axis=0)))
+
+
 def shape_distance(feet: Sequence[Profiled], longer: int, lasts: LastColumns) -> Floats:
     """How far n lasts are from a shape by flare and by size."""
     profile = feet_distance(feet, lasts)
     nearness: Floats = np.sqrt(np.square(profile) + size_squares(feet[longer], lasts))
     return nearness
-
-
-def extent_squares(mesh: Profiled, lasts: LastColumns) -> Floats:
-    """The extents' difference, (n,), in squared standard deviations."""
-    longer_mm = lasts.extent_mm - mesh.aligned.alignment.extent_mm
-    return np.asarray(np.square(longer_mm) / (2.0 * LENGTH_SD_MM**2))
 
 
 def size_squares(mesh: Profiled, lasts: LastColumns) -> Floats:
@@ -87,4 +89,5 @@ def size_squares(mesh: Profiled, lasts: LastColumns) -> Floats:
         total += np.where(shared, square, 0.0)
         count += shared
     mean = total / np.maximum(count, 1.0)
-    return np.asarray(extent_squares(mesh, lasts) + INDEPENDENT * mean)
+    longer_mm = lasts.extent_mm - mesh.aligned.alignment.extent_mm
+    return np.asarray(np.square(longer_mm) / (2.0 * LENGTH_SD_MM**2) + INDEPENDENT * mean)

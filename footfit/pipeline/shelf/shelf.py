@@ -10,9 +10,9 @@ import numpy as np
 
 from footfit.catalogue.blocks.block_reading import ShownLast
 from footfit.catalogue.blocks.record_columns import Kept, columns_of
+from footfit.catalogue.blocks.search_file import SearchFile
 from footfit.catalogue.store import Catalogue, open_catalogue
 from footfit.errors import CatalogueDamaged, UnknownLast
-from footfit.geometry.flare.profile_sketch import Sketches
 from footfit.geometry.numeric.arrays import Bools, Floats, Ints
 from footfit.locations import Location
 from footfit.pipeline.library.lasts import damaged_last
@@ -33,20 +33,14 @@ class Lasts(Protocol):
         """What is always read."""
 
     @property
-    def by_label(self) -> Ints | None:
-        """The rows in the order of labels, then of extents, if that is known."""
+    def search(self) -> SearchFile | None:
+        """What a large catalogue keeps for a search by flare."""
 
     def chunks(self, parts: Sequence[str], /) -> Iterator[tuple[int, LastColumns]]:
         """All lasts with these parts, in their order: each time the first row, and its lasts."""
 
     def taken(self, chosen: Ints, parts: Sequence[str], /) -> LastColumns:
         """Some lasts with these parts, in the order of ``chosen``."""
-
-    def picked(self, chosen: Ints, parts: Sequence[str], /) -> Iterator[LastColumns]:
-        """Many lasts with these parts, in the order of ``chosen``, some thousand at a time."""
-
-    def sketches(self) -> Sketches | None:
-        """A sketch of the flare of each last, if they are kept."""
 
     def shown(self, chosen: Sequence[int], /) -> list[ShownLast]:
         """The records of a few lasts."""
@@ -61,7 +55,7 @@ class RecordLasts:
 
     records: tuple[LastRecord, ...]
     base: LastColumns
-    by_label: Ints | None = None
+    search: None = None
 
     def chunks(self, _: Sequence[str]) -> Iterator[tuple[int, LastColumns]]:
         """All lasts at once."""
@@ -71,13 +65,6 @@ class RecordLasts:
     def taken(self, chosen: Ints, _: Sequence[str]) -> LastColumns:
         """Some lasts."""
         return self.base.taken(chosen)
-
-    def picked(self, chosen: Ints, parts: Sequence[str]) -> Iterator[LastColumns]:
-        """Many lasts, at once."""
-        yield self.taken(chosen, parts)
-
-    def sketches(self) -> None:
-        """No sketches: the records are in memory."""
 
     def shown(self, chosen: Sequence[int]) -> list[ShownLast]:
         """The records of a few lasts."""
@@ -210,9 +197,8 @@ def of_own_side(shelf_lasts: Lasts, among: Bools, side: int) -> Bools:
     others = others[twinned[lasts.label[others]]]
     if not len(others):
         return chosen
-    order = shelf_lasts.by_label
-    if order is None:
-        order = np.lexsort((lasts.extent_mm, lasts.label))
+    search = shelf_lasts.search
+    order = search.by_label if search else np.lexsort((lasts.extent_mm, lasts.label))
     chosen[others[_nearest_mm(lasts, order, own, others) < TWIN_LENGTH_MM]] = False
     return chosen
 
