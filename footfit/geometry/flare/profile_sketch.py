@@ -26,10 +26,10 @@ class SketchSettings:
 
     Curves are smooth: a few cosines hold most of a channel's difference (docs/speed.md). A product
     of `width` terms in float32 is wrong by less than ``rounding`` times the sum of both squares:
-    `width` units in the last place are 4e-6.
+    twice `width` roundings of 2^-24 are 6e-6.
     """
 
-    waves: tuple[int, ...] = (12, 4, 4, 4, 4)
+    waves: tuple[int, ...] = (12, 8, 8, 8, 8)
     rounding: float = 1e-5
 
     @property

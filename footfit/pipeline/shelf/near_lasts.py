@@ -43,7 +43,7 @@ def nearest_by_flare(
     limit = (float(np.sort(distance[first])[top - 1]) + reach) * (1.0 + MARGIN) + MARGIN
     rows = rows[~(least > limit**2)]  # what has no bound is looked at; NaN leaves out nothing
     _measure(feet, search, rows, distance)
-    return rows, distance
+    return rows[~(distance[rows] > limit)], distance
 
 
 def _measure(feet: Sequence[Profiled], search: SearchFile, rows: Ints, distance: Floats) -> None:

@@ -34,7 +34,9 @@ class PackedNames(Sequence[str]):
     def __getitem__(self, place: int | slice) -> str | PackedNames:
         if isinstance(place, slice):
             return PackedNames(self.text, self.ends, self.rows[place])
-        return next(iter(self.taken(self.rows[[place]], of_all=True)))
+        row = int(self.rows[place])
+        start = int(self.ends[row - 1]) if row else 0
+        return str(self.text.data[start : int(self.ends[row])], "utf-8", ERRORS)
 
     def __iter__(self) -> Iterator[str]:
         ends = self.ends[self.rows].tolist()
@@ -48,9 +50,9 @@ class PackedNames(Sequence[str]):
 
     __hash__ = None  # type: ignore[assignment]
 
-    def taken(self, rows: Ints, *, of_all: bool = False) -> PackedNames:
-        """Some of these names, or of all names, in the order of ``rows``."""
-        return PackedNames(self.text, self.ends, rows if of_all else self.rows[rows])
+    def taken(self, rows: Ints) -> PackedNames:
+        """Some of these names, in the order of ``rows``."""
+        return PackedNames(self.text, self.ends, self.rows[rows])
 
 
 def packed(names: Sequence[str]) -> tuple[NDArray[np.uint8], Ints]:
