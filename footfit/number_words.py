@@ -73,5 +73,5 @@ def first_names(names: Sequence[str], named: int) -> str:
     >>> first_names(("a", "b"), 3), first_names(("a", "b", "c", "d", "e"), 3)
     ('a, b', 'a, b, c and 2 more')
     """
-    more = f" and {len(names) - named} more" if len(names) > named else ""
+    more = f" and {len(names) - named:,} more" if len(names) > named else ""
     return f"{', '.join(names[:named])}{more}"

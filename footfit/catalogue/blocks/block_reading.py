@@ -305,13 +305,13 @@ def _beside_blocks(
     """The rows of the lasts that no block has. A block that has other lasts than there are rows
     is taken from ``found``.
     """
-    keys = [key for (key,) in connection.execute("SELECT id FROM last NOT INDEXED")]
+    keys = {key for (key,) in connection.execute("SELECT id FROM last NOT INDEXED")}
     for block, lasts in list(found.items()):
-        if not set(lasts.keys.tolist()) <= set(keys):
+        if not keys.issuperset(lasts.keys.tolist()):
             del found[block]
             bad.add(block)
     known = {key for lasts in found.values() for key in lasts.keys.tolist()}
-    return [stored for key in keys if key not in known for stored in stored_lasts(connection, key)]
+    return [stored for key in sorted(keys - known) for stored in stored_lasts(connection, key)]
 
 
 def _bare(lasts: LastColumns) -> LastColumns:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from footfit.number_words import RATIO_KEPT, plain
+from footfit.number_words import RATIO_KEPT, first_names, plain
 from footfit.results.population.coverage_answer import Coverage
 from footfit.results.population.served_feet import NextLast
 from footfit.results.population.shares import Share
@@ -14,6 +14,9 @@ GREEDY_WORDS = (
 PRIVACY_WORDS = (
     "Feet are named as they were given, and nowhere else: footfit stores and sends nothing."
 )
+
+NAMED_TO_GO = 8
+"""So many of the lasts that could go are named."""
 
 
 def percent_words(value: float | None, digits: int = 1) -> str:
@@ -64,12 +67,11 @@ def go_words(answer: Coverage) -> str:
     names = answer.could_go
     if not names:
         return "No last could go: each one serves a foot that no other last serves."
-    shown = ", ".join(names[:8]) + (f" and {len(names) - 8:,} more" if len(names) > 8 else "")
     kept = "every foot that has an acceptable last keeps one"
     lost = answer.served.good.count - answer.good_if_gone
     cost = f", but {feet_words(lost)} would have no good last any more" if lost else ""
     count = "1 last" if len(names) == 1 else f"{len(names):,} lasts"
-    return f"{count} could go together: {kept}{cost}. {shown}."
+    return f"{count} could go together: {kept}{cost}. {first_names(names, NAMED_TO_GO)}."
 
 
 def next_words(last: NextLast) -> str:
