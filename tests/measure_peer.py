@@ -419,7 +419,8 @@ def standing_measures(shape: Drafted) -> dict[str, float]:
 def _bottom_length(middle: np.ndarray, points: np.ndarray) -> float:
     """Along the middle (k, 2) between the feather edges of the low points (n, 3).
 
-    An edge is where a line touches that is half-way between the bottom and the wall.
+    An edge is where a line touches that is half-way between the bottom and the wall, moved along
+    the wall down to the bottom's line.
     """
     points = points[:, [0, 2]]
     total = float(np.linalg.norm(np.diff(middle, axis=0), axis=1).sum())
@@ -437,7 +438,7 @@ def _bottom_length(middle: np.ndarray, points: np.ndarray) -> float:
         half = np.arctan2(*(wall + ahead * np.array([own[1], -own[0]]))[::-1])
         angles = half + np.radians(np.linspace(-5.0, 5.0, 11))
         touched = near[(near @ [np.cos(angles), np.sin(angles)]).argmax(axis=0)]
-        total += float((touched.mean(axis=0) - end[-1]) @ own)
+        total += float((touched.mean(axis=0) - end[-1]) @ wall / (own @ wall))
     return total
 
 

@@ -211,7 +211,8 @@ def _beyond(shape: Shape, line: SideLine, end: int, wall: Floats) -> float:
         reach = tip(shape.vertices_mm, near, normal @ stands[[0, 2], :3], shape.length_mm).reach
         heights.append(reach + float(normal @ (stands[[0, 2], 3] - ends[0])))
     change = (heights[2] - heights[0]) / (2.0 * np.sin(turn))
-    return float((heights[1] * half + change * down) @ out)
+    touching = heights[1] * half + change * down
+    return float((touching @ wall) / (out @ wall))  # along the wall down to the bottom's line
 
 
 def tread_from(shape: Shape) -> MeasureValue:
