@@ -14,32 +14,26 @@ import argparse
 import math
 import os
 import shutil
-import sqlite3
 import statistics
 import subprocess
 import sys
 import tempfile
-import time
-from collections.abc import Callable, Sequence
-from contextlib import closing
+from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
 
 import footfit
-from benchmarks.big_catalogues import make_catalogue, measured_lasts, perturbed_lasts
+from benchmarks.big_catalogues import make_catalogue, measured_lasts
 from benchmarks.search_peers import PEERS, installed, vectors_of, write_profiles
+from benchmarks.storing import SEED, storing
 from benchmarks.tables import markdown, put
 from footfit.catalogue.blocks.search_file import search_path
-from footfit.catalogue.file.engine import SETTINGS
-from footfit.catalogue.group_commit import NewLast
-from footfit.catalogue.store import open_catalogue
 from footfit.geometry.flare.definition import CHANNELS
 
 ROOT = Path(__file__).resolve().parents[1]
 FOOT = ROOT / "sample_data" / "feet" / "mh008_R.stl"
-SEED = 20261128
 MOST_STORED = 10_000
 """The peer of storing keeps all rows in memory."""
 PROCESS = """
@@ -150,50 +144,6 @@ def search_row(path: Path, folder: Path, runs: int) -> Searched:
     return Searched(first_s, *medians.pop("footfit"), *ratio, medians)
 
 
-def stored(measured: Sequence[NewLast], count: int, folder: Path) -> tuple[float, float]:
-    """Seconds of storing measured lasts, and the ratio to writing the same bytes."""
-    lasts = list(perturbed_lasts(measured, count, SEED))
-    path, copy = folder / "stored.footfit", folder / "copy.footfit"
-    for each in (path, copy):
-        each.unlink(missing_ok=True)
-    with open_catalogue(path, write=True) as catalogue:
-        seconds = _wall_s(lambda: sum(1 for _ in catalogue.add_many(lasts)))
-    lasts.clear()
-    tables = _tables(path)
-    with open_catalogue(copy, write=True):
-        pass
-    peer = _wall_s(lambda: _write(copy, tables))
-    for each in (path, copy):
-        each.unlink()
-    return seconds, seconds / peer
-
-
-def _tables(path: Path) -> list[tuple[str, int, list[tuple[object, ...]]]]:
-    """Every row of every table, and the number of its columns."""
-    with closing(sqlite3.connect(path)) as connection:
-        select = "SELECT name FROM sqlite_schema WHERE type = 'table'"
-        names = [str(name) for (name,) in connection.execute(select) if name != "alembic_version"]
-        rows = [(name, connection.execute(f"SELECT * FROM {name}").fetchall()) for name in names]
-    return [(name, len(found[0]), found) for name, found in rows if found]
-
-
-def _write(path: Path, tables: list[tuple[str, int, list[tuple[object, ...]]]]) -> None:
-    """Write rows into the same tables, with the same settings, in one transaction."""
-    with closing(sqlite3.connect(path)) as connection, connection:
-        for pragma in SETTINGS.for_writers:
-            connection.execute(pragma)
-        for name, columns, rows in tables:
-            places = ", ".join("?" * columns)
-            connection.executemany(f"INSERT INTO {name} VALUES ({places})", rows)
-
-
-def _wall_s(work: Callable[[], object]) -> float:
-    """Seconds by the clock: storing waits for the disk."""
-    start = time.perf_counter()
-    work()
-    return time.perf_counter() - start
-
-
 def exponent(sizes: Sequence[int], seconds: Sequence[float]) -> float:
     """The power of the number of lasts that the time grows with: a fitted slope of logarithms."""
     if len(sizes) < 2:
@@ -230,11 +180,11 @@ def growth(sizes: Sequence[int], runs: int, folder: Path, scratch: Path) -> str:
         match_s, ratio, megabytes = match_row(path, paths[sizes[0]], runs)
         searches.append(search_row(path, Path(tempfile.mkdtemp(dir=scratch)), runs))
         matches.append(match_s)
-        storing = "-"
+        stored = "-"
         if size <= MOST_STORED:
-            store_s, store_ratio = stored(measured, size, scratch)
+            store_s, store_ratio, *_ = storing(measured, size, scratch, min(runs, 3))
             stores.append(store_s)
-            storing = f"{store_s:.2f} s, {store_ratio:.1f}"
+            stored = f"{store_s:.2f} s, {store_ratio:.1f}"
         found = searches[-1]
         rows.append(
             [
@@ -244,7 +194,7 @@ def growth(sizes: Sequence[int], runs: int, folder: Path, scratch: Path) -> str:
                 f"{found.cold_s:.3f} s, {found.cold:.2f}",
                 f"{found.warm_s:.3f} s, {found.warm:.2f}",
                 f"{found.first_s:.2f} s",
-                storing,
+                stored,
             ]
         )
         print(" | ".join(rows[-1]), flush=True)
