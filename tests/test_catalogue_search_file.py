@@ -23,6 +23,7 @@ from footfit.geometry.flare.definition import CHANNELS, FlareDefinition, FlarePr
 from footfit.geometry.flare.profile_distance import inside, profile_distances
 from footfit.geometry.flare.profile_sketch import least_squares, sketches
 from footfit.pipeline.fit.match import Question, matched
+from footfit.pipeline.library.backup import back_up, restore
 from footfit.pipeline.shelf import near_lasts
 from footfit.pipeline.shelf.candidates import choice
 from footfit.results import Profiled
@@ -171,6 +172,20 @@ def test_a_change_of_the_catalogue_makes_the_file_stale(catalogue: Path, foot: P
     assert first not in [row[0] for row in names(catalogue, foot)]
     assert search_path(catalogue).read_bytes() != old
     assert is_used(catalogue)
+
+
+def test_a_restore_leaves_no_search_file_of_what_was_there(
+    catalogue: Path, foot: Profiled, tmp_path: Path
+) -> None:
+    sound = names(catalogue, foot)
+    back_up(catalogue, tmp_path / "backup.footfit")
+    with open_catalogue(catalogue, write=True) as opened:
+        opened.rename(opened.names()[0], "of another time")
+    names(catalogue, foot)
+    assert search_path(catalogue).exists()
+    restore(catalogue, tmp_path / "backup.footfit")
+    assert not search_path(catalogue).exists()
+    assert names(catalogue, foot) == sound
 
 
 def test_the_file_of_another_catalogue_is_not_used(

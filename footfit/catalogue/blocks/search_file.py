@@ -33,8 +33,8 @@ from footfit.results.columns.vocabulary import Vocabulary
 from footfit.whole_files import partial_beside
 
 SUFFIX = ".search"
-LEAST_LASTS = 16_384
-"""A smaller catalogue has no search file: its blocks are read in less than a tenth of a second."""
+LEAST_LASTS = 4_096
+"""A smaller catalogue has no search file: its blocks are read in some hundredths of a second."""
 LAYOUT = f"search/2 {SKETCH} {DISTANCE}"
 """What a search file of this footfit is."""
 MAGIC = b"footfit search\0\0"

@@ -8,6 +8,7 @@ from pathlib import Path
 from footfit.catalogue.file.copying import partial_beside
 from footfit.catalogue.file.engine import SETTINGS
 from footfit.catalogue.file.migrate import copy_path
+from footfit.catalogue.blocks.search_file import drop_search_file
 from footfit.catalogue.file.restoring import put_in_place
 from footfit.catalogue.server.catalogue_server import NO_FILE
 from footfit.catalogue.store import open_catalogue
@@ -70,6 +71,7 @@ def restore(path: Location, backup: Path) -> RestoreOutcome:
             _bring_up_to_date(whole)
             outcome = _require_sound_copy(whole, backup, NOT_RESTORED)
             kept = put_in_place(whole, path, SETTINGS.busy_timeout_s)
+            drop_search_file(path)
     except NoCatalogue as error:
         raise UnreadableFile("there is no backup here; check the name", str(backup)) from error
     return RestoreOutcome(
