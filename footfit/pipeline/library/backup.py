@@ -5,10 +5,10 @@ from __future__ import annotations
 import dataclasses
 from pathlib import Path
 
+from footfit.catalogue.blocks.search_file import drop_search_file
 from footfit.catalogue.file.copying import partial_beside
 from footfit.catalogue.file.engine import SETTINGS
 from footfit.catalogue.file.migrate import copy_path
-from footfit.catalogue.blocks.search_file import drop_search_file
 from footfit.catalogue.file.restoring import put_in_place
 from footfit.catalogue.server.catalogue_server import NO_FILE
 from footfit.catalogue.store import open_catalogue
