@@ -24,7 +24,7 @@ def blob(array: Floats) -> bytes:
     >>> blob(np.array([1.0])).hex()
     '000000000000f03f'
     """
-    return np.asarray(array, dtype=_LITTLE).tobytes()
+    return (array if array.dtype == _LITTLE else np.asarray(array, dtype=_LITTLE)).tobytes()
 
 
 def array_of(data: bytes, *shape: int) -> Floats:

@@ -21,7 +21,7 @@ def composed(name: str) -> str:
     >>> composed("Rene\u0301") == "Ren\u00e9"
     True
     """
-    return unicodedata.normalize("NFC", name)
+    return name if name.isascii() else unicodedata.normalize("NFC", name)
 
 
 def caseless(name: str) -> str:
@@ -32,6 +32,8 @@ def caseless(name: str) -> str:
     >>> caseless("DERBY-40"), caseless("RENE\u0301") == caseless("ren\u00e9")
     ('derby-40', True)
     """
+    if name.isascii():
+        return name.lower()
     return composed(unicodedata.normalize("NFD", name).casefold())
 
 
