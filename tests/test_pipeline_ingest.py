@@ -14,6 +14,7 @@ import pytest
 
 from footfit.catalogue.store import Catalogue, open_catalogue
 from footfit.errors import BadOption, CatalogueLocked, EmptyMesh, FootfitError, NameTaken
+from footfit.locations import location_of
 from footfit.pipeline.batch.sources import ReadingOptions, Source
 from footfit.pipeline.library.entries import Entry, entries, unused_rows
 from footfit.pipeline.library.holdings import Holdings
@@ -128,11 +129,12 @@ def files(*lasts: tuple[str, int] | FootfitError) -> list[tuple[Entry, LastRecor
 
 
 def ingested(
-    path: Path, *lasts: tuple[str, int] | FootfitError, **options: Any
+    place: Path | str, *lasts: tuple[str, int] | FootfitError, **options: Any
 ) -> list[tuple[str | None, str, str | None]]:
     """What an ingest says of files whose lasts are ready at once: name or path, status, failure."""
     answers = files(*lasts)
-    outcomes = ingest([entry for entry, _ in answers], path, jobs=ReadyLasts(answers), **options)
+    batch, location = [entry for entry, _ in answers], location_of(place)
+    outcomes = ingest(batch, location, jobs=ReadyLasts(answers), **options)
     return [
         (done.last or done.path, done.status, None if done.failure is None else str(done.failure))
         for done in outcomes
@@ -167,11 +169,12 @@ def test_lasts_that_are_ready_together_share_a_commit(tmp_path: Path, commits: l
     assert len(commits) == 8
 
 
-def test_what_is_refused_takes_no_other_last_with_it(tmp_path: Path, commits: list[int]) -> None:
+def test_what_is_refused_takes_no_other_last_with_it(location: str, commits: list[int]) -> None:
     """A bad file, a name and a scan that come twice in one group, and two that are stored."""
-    path = tmp_path / "lasts"
-    ingested(path, ("a", 1), ("b", 2))
-    said = ingested(path, ("c", 3), EmptyMesh("is empty"), ("C", 4), ("d", 3), ("a", 5), ("e", 6))
+    ingested(location, ("a", 1), ("b", 2))
+    said = ingested(
+        location, ("c", 3), EmptyMesh("is empty"), ("C", 4), ("d", 3), ("a", 5), ("e", 6)
+    )
     assert [status for _, status, _ in said] == ["added", *["refused"] * 4, "added"]
     assert "is empty" in str(said[1][2])
     assert "'c', a name that differs only in case" in str(said[2][2])
@@ -180,30 +183,29 @@ def test_what_is_refused_takes_no_other_last_with_it(tmp_path: Path, commits: li
     assert commits == [2, 2]
 
 
-def test_a_name_that_cannot_be_stored_is_refused_alone(tmp_path: Path, commits: list[int]) -> None:
-    said = ingested(tmp_path / "lasts", ("a", 1), ("b\udcff", 2), ("c", 3))
+def test_a_name_that_cannot_be_stored_is_refused_alone(location: str, commits: list[int]) -> None:
+    said = ingested(location, ("a", 1), ("b\udcff", 2), ("c", 3))
     assert [status for _, status, _ in said] == ["added", "refused", "added"]
     assert "cannot be stored as a name" in str(said[1][2])
     assert commits == [0]
-    with open_catalogue(tmp_path / "lasts") as catalogue:
+    with open_catalogue(location) as catalogue:
         assert catalogue.names() == ("a", "c")
         assert catalogue.findings() == []
 
 
-def test_lasts_that_another_program_stores_meanwhile(tmp_path: Path, commits: list[int]) -> None:
+def test_lasts_that_another_program_stores_meanwhile(location: str, commits: list[int]) -> None:
     """The same last is unchanged, another one of its name is refused, and the others are stored."""
-    path = tmp_path / "lasts"
-    ingested(path, ("a", 1))
+    ingested(location, ("a", 1))
     meanwhile = [last("b", 2), last("c", 30)]
 
     @contextmanager
     def held() -> Iterator[None]:
-        with open_catalogue(path, write=True) as other:
+        with open_catalogue(location, write=True) as other:
             while meanwhile:
                 other.add(meanwhile.pop())
         yield
 
-    said = ingested(path, ("b", 2), ("c", 3), ("d", 4), hold_signals=held)
+    said = ingested(location, ("b", 2), ("c", 3), ("d", 4), hold_signals=held)
     assert [status for _, status, _ in said] == ["unchanged", "refused", "added"]
     assert "'c' is in the catalogue" in str(said[1][2])
     assert commits == [1, 0]
