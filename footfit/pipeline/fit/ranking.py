@@ -25,7 +25,7 @@ from footfit.pipeline.fit.judging.judged_lasts import (
     refusals_of,
     rooms_of,
 )
-from footfit.pipeline.fit.judging.toe_box import toe_box, toes_can_reject
+from footfit.pipeline.fit.judging.toe_box import OF_TOES, toe_box, toes_can_reject
 from footfit.pipeline.fit.scoring import (
     NOT_JUDGED,
     REJECT,
@@ -227,7 +227,8 @@ def _gate(asked: Asked, lasts: Lasts, chosen: Bools, *, rejects: bool) -> tuple[
             len(some), known, refusals_of(asked, room, level, known & (worst == REJECT)), room
         )
         kept = np.flatnonzero(known if rejects else known & (worst < REJECT))
-        slim = replace(part, flare=None).taken(kept)
+        assert part.measures is not None
+        slim = replace(part, flare=None, measures=part.measures.only(OF_TOES)).taken(kept)
         parts.append((start + some[kept], slim, heels.taken(kept), room.taken(kept)))
     rows = np.concatenate([rows for rows, *_ in parts])
     part = joined([part for _, part, *_ in parts])

@@ -51,6 +51,12 @@ class MeasureColumns:
         nothing = np.full(count, np.nan)
         return MeasureColumn(nothing, np.zeros(count), np.full(count, NO_WORD))
 
+    def only(self, names: Sequence[str]) -> MeasureColumns:
+        """Some of the measures; of one that no last has, nothing."""
+        columns = [self.column(name) for name in sorted(names)]
+        arrays = ([getattr(c, name) for c in columns] for name in ("value", "sd", "word"))
+        return MeasureColumns(tuple(sorted(names)), *map(np.array, arrays))
+
     def used(self) -> MeasureColumns:
         """Those that any of the lasts has."""
         there = np.flatnonzero((self.word != NO_WORD).any(axis=1))

@@ -37,6 +37,8 @@ TOGETHER = 16
 """So many lasts are laid around a foot's toes at once: more would need more memory than a core has
 near it.
 """
+OF_TOES = ("length", TOE_HEIGHT)
+"""The measures of lasts that a toe box reads."""
 
 
 @dataclass(frozen=True, slots=True)
