@@ -15,8 +15,9 @@ from typing import Any
 
 import pytest
 
-from footfit.pipeline.batch.runs import HERE, outcomes
+from footfit.pipeline.batch.runs import HERE, outcome_groups
 from footfit.pipeline.library import ingest
+from footfit.pipeline.library.entries import Entry
 from tests.conftest import SAMPLES, Footfit
 
 ROOT = Path(__file__).resolve().parents[1]
@@ -97,14 +98,14 @@ def test_a_file_that_takes_too_long_is_named_and_the_rest_is_stored(
     slow = sorted(tmp_path.iterdir())[1].name
     usual = ingest.new_last
 
-    def new_last(entry: ingest.Entry, **options: Any) -> ingest.NewLast:
+    def new_last(entry: Entry, **options: Any) -> ingest.NewLast:
         if entry.path and entry.path.endswith(slow):
             signal.raise_signal(signal.SIGALRM)
         return usual(entry, **options)
 
     monkeypatch.setattr(ingest, "new_last", new_last)
-    in_this_process = lambda work, items, _jobs, **more: outcomes(work, items, HERE, **more)  # noqa: E731
-    monkeypatch.setattr(ingest, "outcomes", in_this_process)
+    in_this_process = lambda work, items, _, **more: outcome_groups(work, items, HERE, **more)  # noqa: E731
+    monkeypatch.setattr(ingest, "outcome_groups", in_this_process)
     got = footfit("ingest-last", tmp_path, "--catalogue", tmp_path / "c", "--json")
     status = {Path(line["path"]).name: line["status"] for line in got.lines if "status" in line}
     assert status.pop(slow) == "refused"
