@@ -66,7 +66,9 @@ class CanonicalFrame:
     back_height: float
 
 
-def canonical_frame(sample: SurfaceSample, length: float, *, last: bool = False) -> CanonicalFrame:
+def canonical_frame(
+    sample: SurfaceSample, length: float, *, last: bool = False, level: bool = True
+) -> CanonicalFrame:
     """The canonical frame of a sample in an approximate canonical pose.
 
     Parameters
@@ -77,12 +79,15 @@ def canonical_frame(sample: SurfaceSample, length: float, *, last: bool = False)
         Its approximate length, in the sample's unit.
     last : bool
         Whether it is a last, which rests on its seat and its tread if its heel is raised.
+    level : bool
+        Whether a last is turned level across its tread in the end. A frame that is found from this
+        one begins with the sole plane again, so it should not be.
     """
     standing_plane = _last_plane if last else _sole_plane
     rotation, plane, share = _settled(sample, length, standing_plane)
     tilt_deg = float(np.degrees(angle_between(rotation[2], LEVEL.normal)))
     turned = turned_sample(sample, rotation)
-    if last:
+    if last and level:
         turn, plane = _level_across(turned, plane.offset, length)
         rotation, turned = turn @ rotation, turned_sample(turned, turn)
     back_height = FRAME.length_height + share * (FRAME.heeled_back - FRAME.length_height)
@@ -145,8 +150,7 @@ def _level_across(sample: SurfaceSample, ground: float, length: float) -> tuple[
     normal = np.array([0.0, -across, 1.0])
     level = levelling(normal / np.linalg.norm(normal))
     touching = area_quantile(bottom.points @ level[2], bottom.areas, RESTING.contact_share)
-    axis = plan_axis(sample.points @ level.T, sample.areas, touching, length)
-    return about_z(axis) @ level, Plane(LEVEL.normal, touching)
+    return level, Plane(LEVEL.normal, touching)
 
 
 def _settled(

@@ -143,9 +143,8 @@ def slope_across(bottom: SurfaceSample, height: Floats, length: float) -> float:
     down = np.square(np.square(bottom.normals[:, 2])) * bottom.areas
     near = down * np.exp(-((height / (RESTING.near * length)) ** 2))
     front = x > area_quantile(x, bottom.areas, RESTING.contact_share) + RESTING.waist * length
-    touching = [
-        float(near[half] @ x[half] / max(near[half].sum(), 1e-9)) for half in (~front, front)
-    ]
+    moment = near * x
+    touching = [float(moment[half].sum() / max(near[half].sum(), 1e-9)) for half in (~front, front)]
     first, last = touching[1] + np.multiply(RESTING.tread, length)
     level = (x < touching[0]) | ((x > first) & (x < last))
     (x, y, z), tread = bottom.points[level].T, front[level]

@@ -227,8 +227,10 @@ class _Frame:
         if len(sample.areas) > FRAMING.many_points:
             sample = gathered_sample(sample, FRAMING.gathered_edge * rough.length)
         rotation, shift, surface, length = np.eye(3), np.zeros(3), sample, rough.length
-        for _ in range(FRAMING.rounds):  # until the pose that it came from is forgotten
-            fine = canonical_frame(surface, length, last=rough.kind == "last")
+        is_last = rough.kind == "last"
+        for number in range(FRAMING.rounds):  # until the pose that it came from is forgotten
+            level = number == FRAMING.rounds - 1
+            fine = canonical_frame(surface, length, last=is_last, level=level)
             rotation, shift = fine.rotation @ rotation, fine.rotation @ shift + fine.shift
             turned = turned_sample(sample, rotation)
             surface, length = replace(turned, points=turned.points + shift), fine.length
