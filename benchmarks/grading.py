@@ -32,6 +32,8 @@ from footfit.errors import FootfitError
 from footfit.geometry.measures.landmarks import Shape
 from footfit.geometry.numeric.arrays import Floats, Ints
 from footfit.meshes.write import encoded_mesh
+from footfit.pipeline.batch.sources import ReadingOptions, Source
+from footfit.pipeline.scan.reading import prepared_source
 from footfit.results import GradedLast
 from tests.tape_peer import least_girths
 from tools.last_specs import STYLES, wide
@@ -141,11 +143,13 @@ def laid_on_mm(moved: Floats, still: Floats) -> Floats:
 
 
 def shape_of(last: GradedLast) -> Shape:
-    """The shape in a written file, in the base's frame."""
-    places, faces = np.unique(corners_mm(last.data), axis=0, return_inverse=True)
+    """The last in a written file, as it lies by itself: the tape's places depend on that."""
     labels = last.labels
-    stands = stance.StanceLabels(labels.heel_height_mm, labels.toe_spring_mm, 0.0)
-    return Shape(places, faces.reshape(-1, 3), "last", stands)
+    heel_mm, spring_mm = labels.heel_height_mm, labels.toe_spring_mm
+    stands = ReadingOptions(
+        units="mm", side="right", heel_height_mm=heel_mm, toe_spring_mm=spring_mm
+    )
+    return replace(prepared_source(Source(None, last.data, "stl"), stands).shape, kind="last")
 
 
 def middle_rows(corners: Floats) -> Ints:

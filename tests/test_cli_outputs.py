@@ -9,7 +9,7 @@ from pathlib import Path
 
 import pytest
 
-from footfit.cli.outputs import OutputFile, Outputs, refuse_existing, write_output
+from footfit.cli.outputs import OutputFile, Outputs, refuse_existing, write_output, write_outputs
 from footfit.errors import BadOption, OutputExists
 from footfit.whole_files import give_name, partial_beside
 from tests.conftest import Footfit
@@ -44,6 +44,27 @@ def test_an_existing_file_needs_force(tmp_path: Path) -> None:
     write_output(path, "yours", force=True)
     assert path.read_text() == "yours"
     assert list(tmp_path.iterdir()) == [path]
+
+
+def test_several_files_are_written_all_or_none(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    first, second = tmp_path / "a.stl", tmp_path / "b.stl"
+    calls: list[int] = []
+
+    def full(descriptor: int) -> None:
+        calls.append(descriptor)
+        if len(calls) > 1:
+            raise OSError(errno.ENOSPC, "No space left on device")
+
+    monkeypatch.setattr(os, "fsync", full)
+    with pytest.raises(BadOption, match="cannot be written") as refused:
+        write_outputs({first: b"a", second: b"b"}, force=False)
+    assert "b.stl" in str(refused.value)
+    assert list(tmp_path.iterdir()) == []
+    monkeypatch.undo()
+    write_outputs({first: b"a", second: b"b"}, force=False)
+    assert sorted(tmp_path.iterdir()) == [first, second]
 
 
 def test_a_file_that_comes_while_ours_is_written_is_kept(

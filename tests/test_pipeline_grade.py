@@ -14,7 +14,7 @@ from scipy.spatial import cKDTree
 
 import footfit
 from footfit.catalogue.store import open_catalogue
-from footfit.errors import BadOption, NameTaken, OutOfReach
+from footfit.errors import BadOption, NameTaken, OutOfReach, UnreadableFile
 from footfit.geometry.deform.chart import chart_of
 from footfit.geometry.fit.sizes import SYSTEMS
 from footfit.geometry.measures.landmarks import Shape
@@ -200,6 +200,14 @@ def test_a_run_reaches_its_plan_and_is_stored_with_its_parentage(
     again = footfit(*command, "--catalogue", catalogue, "--store")
     assert again.code == 2
     assert "--force" in again.err
+    base = folder / "derby-eu42-G.stl"
+    kept, known = base.read_bytes(), ("--base-size", "42", "--size-system", "eu")
+    own = footfit("grade-last", base, "--sizes", "42", *known, "--family", "derby", "-o", folder)
+    assert own.code == 2
+    sizes = ("--sizes", "42", "--base-width", "G", "--family", "derby")
+    own = footfit("grade-last", base, *known, *sizes, "-o", folder, "--force")
+    assert (own.code, "is the base itself" in own.err) == (2, True), own.err
+    assert base.read_bytes() == kept
 
 
 def test_what_cannot_be_planned_is_refused_in_words(tmp_path: Path) -> None:
@@ -216,9 +224,22 @@ def test_what_cannot_be_planned_is_refused_in_words(tmp_path: Path) -> None:
     ):
         with pytest.raises(BadOption, match=words):
             footfit.grade(mesh, "42", **options)
-    for sizes in ("46:38", "38:46:0", "large", "1:900"):
-        with pytest.raises(BadOption, match=r"--sizes|at most"):
+    for sizes, words in (
+        ("46:38", "FROM first"),
+        ("41.5:41", "FROM first"),
+        ("38:46:0", "a step of more than 0"),
+        ("38:46:-1", "a step of more than 0"),
+        ("large", "not 'large'"),
+        ("1:900", "more than 200 sizes"),
+        ("10:11", "32 sizes from the base's 42"),
+        ("", "not ''"),
+    ):
+        with pytest.raises(BadOption, match=words):
             plan(sizes=sizes)
+    with pytest.raises(BadOption, match="names no width"):
+        plan(widths=" , ")
+    with pytest.raises(UnreadableFile, match="no such file"):
+        footfit.grade(tmp_path / "lost.stl", "42", catalogue=tmp_path / "none.footfit", **known)
     with pytest.raises(BadOption, match="--store needs a base"):
         footfit.grade(mesh, "43", catalogue=tmp_path / "none.footfit", store=True, **known)
     shape, base_mm = standing_base(60.0)

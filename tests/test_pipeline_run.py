@@ -147,6 +147,8 @@ def test_a_wrong_rule_is_refused_in_words(more: str, words: str, tmp_path: Path)
     path.write_text(RULE.replace('"eu"', '"moon"'))
     with pytest.raises(BadProfile, match="size systems are"):
         grading_rule(str(path))
+    with pytest.raises(BadProfile, match="names a width twice"):
+        rule_of(RULE.replace('["eu"]', '["eu"]\nwidths = ["E", "F", "e"]'))
 
 
 def test_a_rule_counts_the_sizes_of_its_systems() -> None:

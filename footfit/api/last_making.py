@@ -83,12 +83,13 @@ def grader_of(
     from footfit.pipeline.graded_runs.grade_run import family_of, grader
     from footfit.pipeline.graded_runs.grading_rules import grading_rule, known_system
     from footfit.pipeline.last_making.base_last import scanned_base, stored_base
+    from footfit.pipeline.library.named_lasts import names_a_last
 
     name = os.fspath(last)
     stands = stance_keywords(options)
     if not is_no_path(name):
         base = scanned_base(Source(name), reading_options(stands))
-    elif catalogue is None:
+    elif catalogue is None or not names_a_last(name):
         raise UnreadableFile("there is no such file", name)
     elif stands:
         words = "is a last of the catalogue, which stands as it was stored: leave out the options"

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Sequence, Sized
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence, Sized
+from contextlib import ExitStack, contextmanager
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -173,10 +174,10 @@ class Outputs:
                 target = file.target(self.stems[number] if self.stems else "")
                 kind = file_kind(target, file.kinds) if file.kinds else ""
                 contents.append((target, file.content(result, kind)))
-        for path, content in contents:
+        for path, _ in contents:
             if not path.parent.exists():
                 make_folder(path.parent)
-            write_output(path, content, force=self.force)
+        write_outputs(dict(contents), force=self.force)
         return [path for path, _ in contents]
 
     def write_csv(self, results: Iterable[Any]) -> list[Path]:
@@ -261,11 +262,34 @@ def write_output(path: Path, data: bytes | str, *, force: bool) -> None:
     OutputExists, BadOption
         As `refuse_existing`; also if the system refuses to write.
     """
-    refuse_existing(path, force=force)
+    write_outputs({path: data}, force=force)
+
+
+def write_outputs(contents: Mapping[Path, bytes | str], *, force: bool) -> None:
+    """Write all files, or none: each gets its name when all are on the disk.
+
+    Raises
+    ------
+    OutputExists, BadOption
+        As `write_output`.
+    """
+    with ExitStack() as partials:
+        complete: dict[Path, Path] = {}
+        for path, data in contents.items():
+            refuse_existing(path, force=force)
+            with _refused_by_system(path):
+                complete[path] = partials.enter_context(partial_beside(path))
+                complete[path].write_bytes(data.encode("utf-8") if isinstance(data, str) else data)
+                sync(complete[path])
+        for path, partial in complete.items():
+            with _refused_by_system(path):
+                give_name(partial, path, replace=force)
+
+
+@contextmanager
+def _refused_by_system(path: Path) -> Iterator[None]:
+    """Say what the system refused, and of which file."""
     try:
-        with partial_beside(path) as partial:
-            partial.write_bytes(data.encode("utf-8") if isinstance(data, str) else data)
-            sync(partial)
-            give_name(partial, path, replace=force)
+        yield
     except OSError as error:
         raise BadOption(f"cannot be written: {error.strerror}", str(path)) from error

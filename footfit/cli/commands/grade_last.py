@@ -74,7 +74,7 @@ def grade_last(
         make_folder,
         refuse_existing,
         say_written,
-        write_output,
+        write_outputs,
     )
     from footfit.cli.progress import progress
     from footfit.errors import BadOption
@@ -110,15 +110,16 @@ def grade_last(
         files = {name: output / safe_file_name(name, ".stl") for name in grading.names()}
         for path in (*files.values(), output / MANIFEST) if output.is_dir() else ():
             refuse_existing(path, force=force)
+            if path.exists() and Path(last).exists() and path.samefile(last):
+                raise BadOption("is the base itself: name another folder", str(path))
         if store:
             require_storable_run(lasts.path(), grading, replace_stored=force)
         made = [replace(each, output=str(files[each.last])) for each in grading.lasts()]
     run = replace(grading.run(made), folder=str(output))
     make_folder(output)
-    for each in run.lasts:
-        write_output(files[each.last], each.data, force=force)
-    manifest = RunManifest(run.lasts, run.side)
-    write_output(output / MANIFEST, csv_text(RunManifest, [manifest]), force=force)
+    manifest = csv_text(RunManifest, [RunManifest(run.lasts, run.side)])
+    meshes = {files[each.last]: each.data for each in run.lasts}
+    write_outputs({**meshes, output / MANIFEST: manifest}, force=force)
     if store:
         run = store_run(lasts.path(), grading, run, replace_stored=force)
     say_written([output / MANIFEST], quiet=mode.quiet)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import re
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -23,6 +24,8 @@ from footfit.results.last_making.graded_run import By
 from footfit.results.last_making.grading_rule import GradingRule
 
 MOST_LASTS = 200
+MOST_SIZES = 30
+"""So far a run reaches from its base; adults' lasts of all sizes lie within 15."""
 HEEL, SPRING, GIRTH = "heel_height", "toe_spring_tip", "ball_girth_least"
 HALF_WAY = (INSTEP, WAIST)
 """Girths at shares of the arc: if the shank alone takes up the length, these are other places."""
@@ -81,8 +84,8 @@ def grade_plan(
     Raises
     ------
     BadOption
-        The size or the width of the base is not known, a text is not understood, or there are too
-        many lasts.
+        The size or the width of the base is not known, a text is not understood, there are too many
+        lasts, or one is too far from the base.
     """
     base_size, base_width = base
     if base_size is None or label_number(base_size) is None:
@@ -97,6 +100,11 @@ def grade_plan(
     )
     if len(fittings) > MOST_LASTS:
         raise BadOption(f"a run has at most {MOST_LASTS} lasts, and these are {len(fittings)}")
+    far = max(fittings, key=lambda each: abs(each.sizes))
+    if abs(far.sizes) > MOST_SIZES:
+        words = f"size {far.size} is {abs(far.sizes):.0f} sizes from the base's {base_size}"
+        hint = f"take sizes of {system.name} nearer to it, or another --size-system"
+        raise BadOption(f"{words}, and a run reaches {MOST_SIZES} at most: {hint}")
     held = _held(hold)
     return GradePlan(rule, system, Fitting(base_size, base_width, 0.0, 0.0), fittings, held)
 
@@ -128,11 +136,13 @@ def _sizes(text: str, step: float, system: SizeSystem) -> list[str]:
             raise BadOption(f"--sizes takes FROM:TO or FROM:TO:STEP, not {part.strip()!r}")
         by = _step(ends[2]) if len(ends) == 3 else step
         start, end = (_number(each, system) for each in ends[:2])
-        count = int((end - start) / by + 1e-6) if by > 0.0 else -1
-        if not 0 <= count <= MOST_LASTS:
-            raise BadOption(
-                f"--sizes {part.strip()!r} holds no sizes: give FROM:TO with FROM first"
-            )
+        count = math.floor((end - start) / by + 1e-6)
+        if count < 0:
+            words = f"--sizes {part.strip()!r} holds no sizes: give FROM:TO with FROM first"
+            raise BadOption(words)
+        if count >= MOST_LASTS:
+            words = f"--sizes {part.strip()!r} holds more than {MOST_LASTS} sizes: give fewer"
+            raise BadOption(words)
         child = "C" if ends[0].lower().endswith(("c", "k", "y")) else ""
         added = (system.child_add or 0.0) if child else 0.0
         labels += [f"{size_label(start + at * by + added)}{child}" for at in range(count + 1)]
@@ -140,11 +150,14 @@ def _sizes(text: str, step: float, system: SizeSystem) -> list[str]:
 
 
 def _step(text: str) -> float:
-    """A step between sizes, such as 0.5 or 1/3; 0 if it is none."""
+    """A step between sizes, such as 0.5 or 1/3; raises BadOption if it is none."""
     try:
-        return float(Fraction(text.replace(",", ".")))
+        step = float(Fraction(text.replace(",", ".")))
     except (ValueError, ZeroDivisionError):
-        return 0.0
+        step = 0.0
+    if step <= 0.0:
+        raise BadOption(f"--sizes takes a step of more than 0, such as 0.5 or 1/3, not {text!r}")
+    return step
 
 
 def size_label(number: float) -> str:
@@ -166,8 +179,11 @@ def _widths(text: str | None, base: str | None, rule: GradingRule) -> dict[str |
     """How many widths each asked one is from the base's; the base's alone if none is asked for."""
     if text is None:
         return {base: 0.0}
-    asked = [part.strip() for part in re.split("[;,]", text) if part.strip()]
-    if base is None or not asked:
+    parts = (part.strip() for part in re.split("[;,]", text))
+    asked = list(dict.fromkeys(part for part in parts if part))
+    if not asked:
+        raise BadOption("--widths names no width: give some, such as E,F,G")
+    if base is None:
         raise BadOption("the width of the base is not known: add --base-width, such as F")
     listed = {width.casefold() for width in rule.widths}
     if listed and (other := [name for name in (*asked, base) if name.casefold() not in listed]):
@@ -175,7 +191,7 @@ def _widths(text: str | None, base: str | None, rule: GradingRule) -> dict[str |
             f"the rule {rule.name!r} has the widths {', '.join(rule.widths)}, and not {other[0]}"
         )
         raise BadOption(f"{words}: take one of them, or another rule")
-    numbers = width_numbers([*asked, base], rule.widths)
+    numbers = width_numbers(list(dict.fromkeys([*asked, base])), rule.widths)
     if not rule.width and any(numbers[width] != numbers[base] for width in asked):
         raise BadOption(f"the rule {rule.name!r} has no [width] table: leave out --widths")
     return {width: (numbers[width] - numbers[base]) / rule.width_step for width in asked}

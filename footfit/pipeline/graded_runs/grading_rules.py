@@ -124,6 +124,9 @@ def _rule(table: Mapping[str, Any]) -> GradingRule:
     width = _increments(table.get("width", {}), law, "width")
     if LENGTH in width:
         raise BadProfile(f"[width.{LENGTH}] must go: a width step changes no length")
+    widths = _texts(table.get("widths", []), "widths")
+    if len({width.casefold() for width in widths}) < len(widths):
+        raise BadProfile("widths names a width twice")
     rule = GradingRule(
         name=words(table.get("name"), "name"),
         version=whole_number(table.get("version", 1), "version"),
@@ -134,7 +137,7 @@ def _rule(table: Mapping[str, Any]) -> GradingRule:
         width=width,
         size_step=number(table.get("size_step", 1.0), "size_step", 0.1, 100.0),
         width_step=number(table.get("width_step", 1.0), "width_step", 0.1, 100.0),
-        widths=_texts(table.get("widths", []), "widths"),
+        widths=widths,
     )
     return replace(rule, sha256=values_sha256(asdict(rule)))
 
