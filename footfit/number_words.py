@@ -65,6 +65,18 @@ def some_digits(value: float, digits: int = 1) -> str:
     return plain(value, next(enough, MOST_DIGITS))
 
 
+def bound_words(most_mm: float) -> str:
+    """How far something is at most; what two decimals would show as 0 is named as less.
+
+    Examples
+    --------
+    >>> bound_words(0.384), bound_words(0.002)
+    ('at most 0.38 mm', 'less than 0.01 mm')
+    """
+    known = rounded(most_mm, 2) > 0
+    return f"at most {plain(most_mm, 2)} mm" if known else "less than 0.01 mm"
+
+
 def first_names(names: Sequence[str], named: int) -> str:
     """The first few names, and how many more there are.
 

@@ -32,6 +32,16 @@ def test_a_glob_is_expanded_where_the_shell_did_not(tmp_path: Path) -> None:
     assert names(mesh_sources([str(tmp_path / "l*.stl")]), tmp_path) == ["l1.stl", "l2.stl"]
 
 
+def test_a_glob_may_begin_in_the_folder_above(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    for name in ("run/a.stl", "here/b.stl"):
+        (tmp_path / name).parent.mkdir()
+        (tmp_path / name).touch()
+    monkeypatch.chdir(tmp_path / "here")
+    assert [source.path for source in mesh_sources(["../run/*.stl"])] == ["../run/a.stl"]
+
+
 def test_a_file_whose_name_is_a_glob_is_that_file(tmp_path: Path) -> None:
     touched(tmp_path, "foot[1].stl")
     assert names(mesh_sources([str(tmp_path / "foot[1].stl")]), tmp_path) == ["foot[1].stl"]

@@ -199,6 +199,11 @@ def _expanded(argument: str, *, alone: bool) -> list[str]:
     return paths or [argument]
 
 
+def _is_hidden(part: str) -> bool:
+    """Whether a part of a path is hidden; the folder above, .., is not."""
+    return part.startswith(".") and part != ".."
+
+
 def _files_below(argument: str) -> list[Path] | None:
     """The regular files of a folder or a glob, no hidden ones; None for anything else."""
     path = Path(argument)
@@ -213,8 +218,7 @@ def _files_below(argument: str) -> list[Path] | None:
         return [
             each
             for each in paths
-            if not any(part.startswith(".") for part in each.relative_to(folder).parts)
-            and each.is_file()
+            if not any(map(_is_hidden, each.relative_to(folder).parts)) and each.is_file()
         ]
     except (OSError, ValueError):  # the name is too long, the folder is closed to us, or "**x"
         return None

@@ -71,7 +71,8 @@ def run_check(
         side.
     """
     if len(lasts) < (2 if rule else LEAST_LASTS):
-        words = f"a run needs {LEAST_LASTS} sizes or more, and there are {len(lasts)} lasts"
+        count = "is 1 last" if len(lasts) == 1 else f"are {len(lasts)} lasts"
+        words = f"a run needs {LEAST_LASTS} sizes or more, and there {count}"
         raise BadOption(f"{words}: name more, or compare two with --rule")
     _refuse_twins(lasts)
     step = _least_step(lasts) if rule is None else rule.size_step

@@ -15,6 +15,7 @@ from footfit.errors import CatalogueUnusable, FootfitError, NoCatalogue, Unreada
 from footfit.geometry.measures.landmarks import Shape
 from footfit.locations import Location
 from footfit.meshes.copies.compact_copy import expanded_mesh
+from footfit.number_words import bound_words
 from footfit.pipeline.batch.sources import GLOB_CHARACTERS, MESH_SUFFIXES, Source, is_no_path
 from footfit.pipeline.library.lasts import has_other_measures
 from footfit.pipeline.scan.align import aligned_scan
@@ -178,10 +179,9 @@ def _prepared(record: LastRecord, copy: MeshCopy) -> PreparedScan:
 
 def _notices(record: LastRecord, copy: MeshCopy) -> list[Notice]:
     """Where the shape comes from, and that its measures are older if they are."""
-    near = "less than 0.01 mm" if copy.error_mm < 0.005 else f"at most {copy.error_mm:.2f} mm"
     words = (
         "this is the last of the catalogue: its measures were taken from the scan, and its mesh is"
-        f" the stored copy, {near} from the scan"
+        f" the stored copy, {bound_words(copy.error_mm)} from the scan"
     )
     older = "it was measured by other definitions; type: footfit upgrade-catalogue"
     notices = [Notice("stored_copy", words)]

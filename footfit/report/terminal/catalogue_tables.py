@@ -10,7 +10,7 @@ from rich.text import Text
 
 from footfit import results
 from footfit.geometry.fit.sizes import LabelCheck, label_words
-from footfit.number_words import first_names, plain, signed
+from footfit.number_words import bound_words, first_names, plain, signed
 from footfit.report.terminal.scan_tables import (
     cell,
     eigenvalue_words,
@@ -228,7 +228,7 @@ def _paper_words(last: results.StoredLast) -> str:
 def catalogue_info_table(info: results.CatalogueFacts) -> RenderableType:
     """Where the catalogue is, what it holds, and that it keeps no feet."""
     error = info.worst_copy_error_mm
-    worst = "" if error is None else f", at most {plain(error, 2)} mm from the file's mesh"
+    worst = "" if error is None else f", {bound_words(error)} from the file's mesh"
     size = plain(info.mesh_copy_bytes / MEGABYTE)
     return facts(
         ("catalogue", cell(info.path)),
@@ -299,8 +299,8 @@ def export_last_line(outcome: results.ExportOutcome) -> Text:
     line = Text("exported  ").append(visible(outcome.last), "bold")
     line.append(f" to {visible(outcome.output)}")
     if outcome.faces is not None and outcome.error_mm is not None:
-        error = plain(outcome.error_mm, 2)
-        line.append(f"  {outcome.faces:,} faces, at most {error} mm from the file's mesh")
+        near = bound_words(outcome.error_mm)
+        line.append(f"  {outcome.faces:,} faces, {near} from the file's mesh")
     if outcome.sections is not None and outcome.outlines is not None:
         line.append(f"\nsections  {visible(outcome.sections)}, {visible(outcome.outlines)}")
     return line
