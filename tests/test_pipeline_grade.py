@@ -14,7 +14,7 @@ from scipy.spatial import cKDTree
 
 import footfit
 from footfit.catalogue.store import open_catalogue
-from footfit.errors import BadOption, NameTaken, OutOfReach, UnreadableFile
+from footfit.errors import BadOption, NameTaken, OtherKind, OutOfReach, UnreadableFile
 from footfit.geometry.deform.chart import chart_of
 from footfit.geometry.fit.sizes import SYSTEMS
 from footfit.geometry.measures.landmarks import Shape
@@ -240,6 +240,9 @@ def test_what_cannot_be_planned_is_refused_in_words(tmp_path: Path) -> None:
         plan(widths=" , ")
     with pytest.raises(UnreadableFile, match="no such file"):
         footfit.grade(tmp_path / "lost.stl", "42", catalogue=tmp_path / "none.footfit", **known)
+    foot = Path(__file__).parents[1] / "sample_data" / "feet" / "mh008_R.stl"
+    with pytest.raises(OtherKind, match="a foot's, not a last's"):
+        footfit.grade(foot, "42", **known)
     with pytest.raises(BadOption, match="--store needs a base"):
         footfit.grade(mesh, "43", catalogue=tmp_path / "none.footfit", store=True, **known)
     shape, base_mm = standing_base(60.0)

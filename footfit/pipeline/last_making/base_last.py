@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 
 from footfit.catalogue.store import open_catalogue
-from footfit.errors import FootfitError
+from footfit.errors import FootfitError, OtherKind
 from footfit.geometry.measures.landmarks import Shape
 from footfit.locations import Location
 from footfit.pipeline.batch.sources import ReadingOptions, Source
@@ -97,8 +97,13 @@ def scanned_base(source: Source, reading: ReadingOptions) -> BaseLast:
 
     Raises
     ------
+    OtherKind
+        By its shape it is a foot.
     InputError, GeometryRefused
         As in reading, aligning and profiling any last.
     """
     last = scanned_last(source, reading, "base")
+    if last.record.pose.kind == "foot":
+        words = "its shape is a foot's, not a last's: name a last, from which the others are made"
+        raise OtherKind(words, source.path)
     return BaseLast(last.record, last.shape, kept_sections(last.shape), BaseMesh("file", 0.0))
