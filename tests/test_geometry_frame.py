@@ -14,7 +14,10 @@ from footfit.geometry.pose.frame import about_z, canonical_frame, levelling, pla
 from tests import distortions, shapes
 from tests.bounds import ROUNDING
 from tools.last_specs import HEEL_BANDS_MM, wide
-from tools.lasts import LastSpec, last_mesh
+from tools.lasts import LastSpec, last_mesh, standing
+from tools.resting import at_rest, pitched
+
+SLANT = 0.3  # 17 degrees
 
 
 @pytest.fixture(scope="module")
@@ -97,6 +100,23 @@ def test_a_last_is_level_across_its_tread_at_every_heel(style, heel_mm):
     frame = canonical_frame(quadrature(vertices, faces, 0.03 * 270.0), spec.length_mm, last=True)
     roll_deg = np.degrees(np.arctan2(frame.rotation[2, 1], frame.rotation[2, 2]))
     assert abs(roll_deg) < 0.7  # measured 0.36: the plan axis of the resting last is turned
+
+
+@pytest.mark.parametrize("heel_mm", HEEL_BANDS_MM)
+def test_a_break_that_runs_aslant_does_not_roll_a_last(heel_mm):
+    """The inner ball joint lies in front of the outer one: real shanks bend along that line."""
+    spec = wide(np.random.default_rng(3), "shoe", heel_mm, rings=80, segments=60, side="right")
+    pose = standing(spec)
+    vertices = pitched(last_mesh(spec)[0], np.radians(pose.pitch_deg))
+    x, z = pose.middle_mm.T
+    along = vertices[:, 0] - vertices[:, 0].min() + x[0]
+    ahead = SLANT * vertices[:, 1] * np.clip((along / spec.length_mm - 0.3) / 0.2, 0.0, 1.0)
+    vertices[:, 2] += np.interp(along - ahead, x, z) - np.interp(along, x, z)
+    resting, _ = at_rest(vertices)
+    sample = quadrature(resting, last_mesh(spec)[1], 0.03 * spec.length_mm)
+    frame = canonical_frame(sample, spec.length_mm, last=True)
+    roll_deg = np.degrees(np.arctan2(frame.rotation[2, 1], frame.rotation[2, 2]))
+    assert abs(roll_deg) < 2.5  # measured 1.75; it rolled by 8 to 10 before
 
 
 def test_a_mirrored_shape_has_the_mirrored_frame(last):
