@@ -174,12 +174,13 @@ def judged(pair: Pair, custom: CustomLast) -> dict[str, float]:
 def _moved_by_equal_targets(pair: Pair) -> float:
     """How far the base moves if the foot asks for what it has."""
     from footfit.pipeline.last_making.custom.custom_field import custom_shape, first_field
+    from footfit.pipeline.last_making.custom.custom_reading import Carried
 
     aims = tuple(
         replace(aim, target=aim.base) for aim in custom_aims(pair.foot, pair.base, pair.question)
     )
     start = first_field(pair.base, 0.0, bottom_kept=False)
-    moved = custom_shape(pair.base, aims, start, np.zeros(len(aims))).vertices_mm
+    moved = custom_shape(pair.base, aims, start, Carried(pair.base.shape)).vertices_mm
     return float(np.abs(moved - pair.base.shape.vertices_mm).max())
 
 

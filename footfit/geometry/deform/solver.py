@@ -36,16 +36,19 @@ class SolverSettings:
     step, most : float
         Of the differences that a knob's effect is taken by, and the most that a knob is turned in
         a round, in the knob's unit.
+    shorter : float
+        A step that does not help is tried again at this share of its length.
     """
 
     bend: float = 0.01
-    size: float = 0.2
+    size: float = 0.05
     settled_mm: float = 0.05
     near_mm: float = 0.1
     rounds: int = 12
     shaping: int = 3
     step: float = 3e-3
     most: float = 0.25
+    shorter: float = 0.5
 
 
 SOLVER = SolverSettings()
@@ -57,17 +60,19 @@ SCALES = ("wider", "higher")
 class Knob:
     """One number of a field: ``pattern`` (knots,) times it is added to the curve of that name.
 
-    A knob of ``unit`` 1 costs its size; a knob in mm has a larger unit.
+    A knob of ``unit`` 1 costs its size; a knob in mm has a larger unit. The search begins with it
+    turned to ``value``.
     """
 
     curve: str
     pattern: Floats
     unit: float = 1.0
+    value: float = 0.0
 
 
 @dataclass(frozen=True, slots=True)
 class Goal:
-    """A measure's target in mm, and the probe that answers for it on the still last.
+    """A measure's target in mm, and the probe that answers for it where the search begins.
 
     A miss of ``miss_mm`` costs as much as a bend or a size of ``SolverSettings``. A goal that is
     not ``firm`` is only pulled towards its target: the search does not wait for it.
@@ -81,9 +86,13 @@ class Goal:
 
 @dataclass(frozen=True)
 class Solution:
-    """A field, where it brings the vertices (n, 3), and the measures there, (goals,)."""
+    """A field, where it brings the vertices (n, 3), and the measures there, (goals,).
+
+    ``knobs`` are turned to where the search ended.
+    """
 
     field: Field
+    knobs: tuple[Knob, ...]
     vertices_mm: Floats
     values_mm: Floats
     rounds: int
@@ -129,34 +138,41 @@ def solution(
     bends = [_bends(start, knobs, name) / settings.bend for name in SCALES]
     own_costs = np.vstack([np.diag(1.0 / (settings.size * units)), *bends])
     all_costs = own_costs if costs is None else np.vstack([own_costs, costs])
-    values = np.zeros(len(knobs))
-    best = Solution(start, start.moved_points(vertices_mm), np.empty(0), 0)
-    best = replace(best, values_mm=read(best.vertices_mm))
+    values = np.array([knob.value for knob in knobs])
+
+    def at(values: Floats, rounds: int) -> Solution:
+        field = turned_field(start, knobs, values)
+        turned = tuple(replace(k, value=v) for k, v in zip(knobs, values.tolist(), strict=True))
+        moved = field.moved_points(vertices_mm)
+        return Solution(field, turned, moved, read(moved), rounds)
+
+    best = at(values, 0)
     if _worst(best, targets, firm) <= settings.near_mm:
         return best
-    effect = _effects(start, knobs, [goal.probe for goal in goals], vertices_mm, settings)
-    rounds = 0
+    effect = _effects(best.field, knobs, [goal.probe for goal in goals], vertices_mm, settings)
+    rounds, most = 0, settings.most
     while _worst(best, targets, firm) > settings.settled_mm and rounds < settings.rounds:
         rounds += 1
-        misses, from_still = (targets - best.values_mm) / miss, values
+        misses, from_still = np.nan_to_num((targets - best.values_mm) / miss), values
         if rounds > settings.shaping:  # the shape is found: only what the firm goals still miss
             misses, from_still = np.where(firm, misses, 0.0), np.zeros(len(knobs))
         step = _step(from_still, effect / miss[:, None], misses, all_costs)
-        step *= min(1.0, settings.most / float(np.abs(step / units).max()))
-        field = turned_field(start, knobs, values + step)
-        moved = field.moved_points(vertices_mm)
-        trial = Solution(field, moved, read(moved), rounds)
-        if not np.isfinite(trial.values_mm).all():  # moved so far that a measure is gone
-            break
-        effect += np.outer(trial.values_mm - best.values_mm - effect @ step, step) / (step @ step)
+        step *= min(1.0, most / float(np.abs(step / units).max()))
+        trial = at(values + step, rounds)
+        more = np.nan_to_num(trial.values_mm - best.values_mm - effect @ step)
         if _worst(trial, targets, firm) < _worst(best, targets, firm):
-            best, values = trial, values + step
+            best, values, most = trial, values + step, settings.most
+        else:
+            most = settings.shorter * float(np.abs(step / units).max())
+        if np.isfinite(trial.values_mm[firm]).all():
+            effect += np.outer(more, step) / (step @ step)
     return replace(best, rounds=rounds)
 
 
 def _worst(solved: Solution, targets_mm: Floats, firm: Bools) -> float:
-    """How far the worst of the firm measures is from its target."""
-    return float(np.abs(targets_mm - solved.values_mm)[firm].max(initial=0.0))
+    """How far the worst of the firm measures is from its target; infinite if one is gone."""
+    off_mm = np.abs(targets_mm - solved.values_mm)[firm]
+    return float(np.where(np.isfinite(off_mm), off_mm, np.inf).max(initial=0.0))
 
 
 def _effects(

@@ -24,12 +24,14 @@ LEAST_TAPES = {
 }
 """Each girth, and the zones of a fit profile whose mean allowance it has."""
 WIDTHS = ("ball_width", "heel_width")
-PULLED = ("ball_girth", "instep_girth")
+HEEL_GIRTH = "short_heel_girth"
+PULLED = ("ball_girth", "instep_girth", HEEL_GIRTH)
 FOLLOWING = ("heel_girth_instep",)
-"""The girth that is only pulled along: the bottom, the back and the top, which are kept, nearly set
-it; and a foot that was scanned flat has another one in a heel."""
+"""The girth without a target: the bottom, the back and the top, which are kept, nearly set it; and
+a foot that was scanned flat has another one in a heel."""
 INNER_GOOD, MOST_BALL_MM = 0.7, 3.0
-"""The ball comes so far into its good range, as a share of that; it moves at most so far."""
+"""A zone that is only pulled comes so far into its good range, as a share of that; the ball moves
+at most so far at first."""
 LENGTH, BALL_LENGTH = "length", "ball_length"
 
 
@@ -51,7 +53,8 @@ class CustomAim:
     """A measure of the base and its target, in mm.
 
     ``zone`` is the zone whose allowance counts. An aim that is not ``firm`` is only pulled towards
-    its target. ``foot`` is None where no measure of the foot is compared alone.
+    its target. One that is ``pressed`` was only pulled before, and its zone was not good. ``foot``
+    is None where no measure of the foot is compared alone.
     """
 
     measure: str
@@ -61,6 +64,7 @@ class CustomAim:
     foot: float | None = None
     allowance: float | None = None
     firm: bool = True
+    pressed: bool = False
 
     @property
     def words(self) -> str:
@@ -97,14 +101,24 @@ def custom_aims(foot: Profiled, base: BaseLast, question: CustomQuestion) -> tup
     if "ball_line" in off:
         aims += _ball_line(foot, base, rules, judged.heels)
     aims += _girths(foot, base, rules, judged.heels)
-    for name in PULLED if question.bottom_kept else (*WIDTHS, *PULLED):
+    for name in (*WIDTHS, *PULLED):
         own, stored = measure_named(name).value_of(base.shape).value, base.record.value_of(name)
         if own is not None and stored is not None and name in off:
             allowance = rules[name].target + rules[name].cavity
             target = stored + off[name]
-            firm = name in WIDTHS
+            firm = name in WIDTHS and not question.bottom_kept
+            if name == HEEL_GIRTH:  # what is kept nearly sets it: only into its good range
+                target = stored - inner_good(rules[name], stored - target)
             aims.append(CustomAim(name, name, own, target, target - allowance, allowance, firm))
     return tuple(aims)
+
+
+def inner_good(rule: ZoneRule, off: float) -> float:
+    """How far a clearance is outside of the inner good range, if it is ``off`` from its target; in
+    the unit of the zone.
+    """
+    low, high = (INNER_GOOD * (end - rule.target) for end in rule.good)
+    return off - min(max(off, low), high)
 
 
 def _toe_room(base: BaseLast, more_mm: float) -> CustomAim:

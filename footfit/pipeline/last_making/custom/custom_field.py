@@ -11,7 +11,15 @@ import numpy as np
 from footfit.errors import BadOption, OutOfReach
 from footfit.geometry.deform.chart import Chart, chart_of, eased
 from footfit.geometry.deform.field import Bump, Field, least_determinant
-from footfit.geometry.deform.solver import Goal, Knob, Solution, solution
+from footfit.geometry.deform.probes import Probe
+from footfit.geometry.deform.solver import (
+    SCALES,
+    Goal,
+    Knob,
+    Solution,
+    solution,
+    turned_field,
+)
 from footfit.geometry.measures.landmarks import AXES, Shape
 from footfit.geometry.numeric.arrays import Floats
 from footfit.number_words import plain
@@ -24,11 +32,9 @@ from footfit.pipeline.last_making.custom.custom_aims import (
 )
 from footfit.pipeline.last_making.custom.custom_reading import (
     Carried,
-    probe_of,
     value_mm,
     values_mm,
 )
-from footfit.results import CustomZone, Notice
 
 
 @dataclass(frozen=True, slots=True)
@@ -47,11 +53,13 @@ class CustomSettings:
     ball, slope : tuple of float, float
         The joints lie between these. There a step of the widths' scale from knot to knot costs as
         much as this.
-    pulled_mm, line_mm, following_mm : float
-        The miss of a pulled girth, of the ball line, and of the heel's girth, that costs as much as
-        a firm one's of .01 mm.
-    met_mm : float
-        A firm aim that is missed by more cannot be reached.
+    pulled_mm, line_mm : float
+        The miss of a pulled girth, and of the ball line, that costs as much as a firm one's of .01
+        mm.
+    ball_mm : float
+        The ball moves at most so far for the ball line.
+    met_mm, length_met_mm : float
+        A girth or a width, and the length, that is missed by more cannot be reached.
     wider, higher : float
         A scale of widths, or of heights over the bottom, changes by at most this factor.
     longer, girth : float
@@ -65,8 +73,8 @@ class CustomSettings:
         The most room that is given to one place, and how far it reaches, over the arc.
     """
 
-    free: tuple[float, float] = (0.1, 0.82)
-    shank: tuple[float, float] = (0.20, 0.54)
+    free: tuple[float, float] = (0.05, 0.82)
+    shank: tuple[float, float] = (0.12, 0.60)
     bend: tuple[float, float] = (0.28, 0.54)
     forepart: tuple[float, float] = (0.66, 0.82)
     forepart_mm: float = 2.0
@@ -74,8 +82,9 @@ class CustomSettings:
     slope: float = 0.003
     pulled_mm: float = 2.0
     line_mm: float = 0.4
-    following_mm: float = 8.0
-    met_mm: float = 0.3
+    ball_mm: float = 6.0
+    met_mm: float = 0.5
+    length_met_mm: float = 0.3
     wider: float = 1.25
     higher: float = 1.4
     longer: float = 0.08
@@ -145,9 +154,10 @@ def custom_shape(
     base: BaseLast,
     aims: Sequence[CustomAim],
     start: Field,
-    shifts_mm: Floats,
+    carried: Carried,
+    knobs: Sequence[Knob] = (),
 ) -> CustomShape:
-    """The base, changed so that its firm aims are met.
+    """The base, changed so that its firm aims are met as ``carried`` reads them, or nearly so.
 
     Parameters
     ----------
@@ -155,38 +165,37 @@ def custom_shape(
     aims : sequence of CustomAim
     start : Field
         The turn of the flare.
-    shifts_mm : (aims,)
-        What is added to the targets, because the finished last reads otherwise.
-
-    Raises
-    ------
-    OutOfReach
-        A target lies beyond the limits of stretch, or the last would fold.
+    carried : Carried
+        How the changed base lies and stands.
+    knobs : sequence of Knob
+        Where the search begins; by default at ``start``.
     """
-    chart, shape = start.chart, base.shape
-    _refuse_far(aims, chart)
-    lengthen = _pattern(chart, CUSTOM.shank)
+    knobs = knobs or _knobs(start.chart, aims)
+    first = turned_field(start, knobs, np.array([knob.value for knob in knobs]))
+    moved = first.moved_points(base.shape.vertices_mm)
+    goals = [
+        _goal(aim, carried.probe(moved, aim.measure), value_mm(base.shape, aim.measure, base))
+        for aim in aims
+    ]
+    read = partial(values_mm, carried=carried, aims=aims, base=base)
+    costs = _costs(start.chart, knobs)
+    solved = solution(start, knobs, base.shape.vertices_mm, goals, read, costs)
+    least = least_determinant(solved.field, base.shape.vertices_mm)
+    return CustomShape(solved, solved.vertices_mm, least)
+
+
+def _knobs(chart: Chart, aims: Sequence[CustomAim]) -> list[Knob]:
+    """What the search may turn: scales along the arc, and the length of shank and forepart."""
     at = chart.centres()
     inner = np.flatnonzero((at > CUSTOM.free[0]) & (at < CUSTOM.free[1]))
-    knobs = [Knob(name, np.eye(len(at))[k]) for name in ("wider", "higher") for k in inner]
-    knobs.append(Knob("ahead", lengthen, FREE_MM))
-    knobs.append(Knob("ahead", _pattern(chart, CUSTOM.forepart), FREE_MM))
-    carried = Carried(shape)
-    read = partial(values_mm, carried=carried, aims=aims, base=base)
-    turned = carried.shape(start.moved_points(shape.vertices_mm))
-    goals = [
-        _goal(aim, turned, value_mm(shape, aim.measure, base), shift)
-        for aim, shift in zip(aims, shifts_mm.tolist(), strict=True)
-    ]
-    solved = solution(start, knobs, shape.vertices_mm, goals, read, _costs(chart, knobs))
-    _refuse_missed(aims, np.array([goal.target_mm for goal in goals]), solved.values_mm)
-    _refuse_stretched(aims, solved.field)
-    return CustomShape(solved, solved.vertices_mm, _volume_left(base, aims, solved.field))
+    knobs = [Knob(name, np.eye(len(at))[k]) for name in SCALES for k in inner]
+    knobs.append(Knob("ahead", _pattern(chart, CUSTOM.shank), FREE_MM))
+    if any(aim.measure == BALL_LENGTH for aim in aims):
+        knobs.append(Knob("ahead", _pattern(chart, CUSTOM.forepart), FREE_MM))
+    return knobs
 
 
-def with_room(
-    base: BaseLast, aims: Sequence[CustomAim], shape: CustomShape, bumps: Sequence[Bump]
-) -> CustomShape:
+def with_room(base: BaseLast, shape: CustomShape, bumps: Sequence[Bump]) -> CustomShape:
     """A changed base, with room for single places on top.
 
     Raises
@@ -196,30 +205,15 @@ def with_room(
     """
     field = replace(shape.solved.field, bumps=tuple(bumps))
     moved = field.moved_points(base.shape.vertices_mm)
-    return CustomShape(shape.solved, moved, _volume_left(base, aims, field))
-
-
-def _volume_left(base: BaseLast, aims: Sequence[CustomAim], field: Field) -> float:
-    """The least determinant of a field; OutOfReach if it comes too near to a fold."""
-    least = least_determinant(field, base.shape.vertices_mm)
-    if least < CUSTOM.determinant:
-        words = (
-            f"the surface would come too near to a fold ({plain(least, 2)} of its volume is left)"
-        )
-        raise OutOfReach(f"{_worst_words(aims)}: {words}")
-    return least
+    roomy = CustomShape(shape.solved, moved, least_determinant(field, base.shape.vertices_mm))
+    words = limit_words(roomy)
+    if words is not None:
+        raise OutOfReach(f"there is no place for so much room: {words}; give less --room")
+    return roomy
 
 
 def first_field(base: BaseLast, turn_deg: float, *, bottom_kept: bool) -> Field:
-    """The field that a search begins with: the turn of the flare.
-
-    Raises
-    ------
-    OutOfReach
-        The base's bottom is open, so nothing is known of how it stands.
-    """
-    if base.shape.bottom_arc is None:
-        raise OutOfReach("the base's bottom is open at the heel or the ball: take another base")
+    """The field that a search begins with: the turn of the flare."""
     chart = chart_of(base.shape)
     still = Field.still(chart, bottom_kept=bottom_kept)
     turned = np.radians(turn_deg) * _pattern(chart, CUSTOM.bend)
@@ -232,77 +226,77 @@ def _pattern(chart: Chart, window: tuple[float, float]) -> Floats:
     return eased((chart.centres() - start) / (end - start))
 
 
-def _goal(aim: CustomAim, start: Shape, own_mm: float, shift_mm: float) -> Goal:
+def _goal(aim: CustomAim, probe: Probe, own_mm: float) -> Goal:
     """What the solver brings an aim to; a length goes by the toe room.
 
-    ``start`` is the shape that the search begins with, ``own_mm`` the measure of the base.
+    ``own_mm`` is the measure of the base.
     """
-    target_mm = aim.target - aim.base + own_mm + shift_mm
-    probe = probe_of(start, aim.measure)
+    target_mm = aim.target - aim.base + own_mm
     if aim.firm:
         return Goal(target_mm, probe)
-    miss_mm = CUSTOM.following_mm if aim.measure in FOLLOWING else CUSTOM.pulled_mm
-    miss_mm = CUSTOM.line_mm if aim.measure == BALL_LENGTH else miss_mm
-    return Goal(target_mm, probe, miss_mm, firm=False)
+    miss_mm = CUSTOM.line_mm if aim.measure == BALL_LENGTH else CUSTOM.pulled_mm
+    return Goal(target_mm, probe, np.inf if aim.measure in FOLLOWING else miss_mm, firm=False)
 
 
 def _costs(chart: Chart, knobs: Sequence[Knob]) -> Floats:
     """The costs (k, knobs) of a width that changes along the ball, where it would move the joints,
-    and of the last knob: the forepart's length.
+    and of a change of length in the forepart.
     """
     at = chart.centres()
     pairs = np.flatnonzero((at[:-1] > CUSTOM.ball[0]) & (at[1:] < CUSTOM.ball[1]))
     widths = np.array([knob.pattern * (knob.curve == "wider") for knob in knobs])
     slopes = (widths[:, pairs + 1] - widths[:, pairs]).T / CUSTOM.slope
-    forepart = np.zeros(len(knobs))
-    forepart[-1] = 1.0 / CUSTOM.forepart_mm
+    aheads = np.array([knob.pattern * (knob.curve == "ahead") for knob in knobs])
+    before = int(np.argmin(np.abs(at - CUSTOM.forepart[0])))
+    forepart = (aheads[:, -1] - aheads[:, before]) / CUSTOM.forepart_mm
     return np.vstack([slopes, forepart])
 
 
-def _refuse_far(aims: Sequence[CustomAim], chart: Chart) -> None:
+def refuse_far(aims: Sequence[CustomAim], base: BaseLast) -> None:
     """Raise OutOfReach for a measure that is too far from the base's; a length comes first."""
+    arc = base.shape.bottom_arc
+    if arc is None:
+        raise OutOfReach("the base's bottom is open at the heel or the ball: take another base")
     for aim in aims:
         of_length = aim.measure == LENGTH
-        most_mm = CUSTOM.longer * chart.arc.length_mm if of_length else CUSTOM.girth * aim.base
+        most_mm = CUSTOM.longer * arc.length_mm if of_length else CUSTOM.girth * aim.base
         if aim.firm and abs(aim.target - aim.base) > most_mm:
             change = f"{plain(aim.base)} mm to {plain(aim.target)} mm"
             words = f"from {change} is more than {plain(most_mm)} mm"
             raise OutOfReach(f"the {aim.words} is out of reach of this base: {words}")
 
 
-def _refuse_missed(aims: Sequence[CustomAim], asked_mm: Floats, values_mm: Floats) -> None:
-    """Raise OutOfReach for the firm aim that is missed most, if one is; both are (aims,)."""
-    firm = np.array([aim.firm for aim in aims])
-    miss = np.where(firm, np.abs(asked_mm - values_mm), 0.0)
-    worst = int(np.argmax(miss))
-    if miss[worst] <= CUSTOM.met_mm:
-        return
-    words = (
-        f"it comes to {plain(float(values_mm[worst]))} mm, not {plain(float(asked_mm[worst]))} mm"
-    )
-    raise OutOfReach(f"the {aims[worst].words} is out of reach of this base: {words}")
+def refuse_missed(
+    aims: Sequence[CustomAim], off_mm: Floats, shape: CustomShape, turn_deg: float
+) -> None:
+    """Raise OutOfReach if the finished last goes beyond a limit of stretch or misses a firm aim.
+
+    ``off_mm`` (aims,) is how far the last reads from each target, ``turn_deg`` how far the flare
+    was turned.
+    """
+    turned = f", with the flare turned by {plain(abs(turn_deg))} deg" if turn_deg else ""
+    limit = limit_words(shape)
+    if limit is not None:
+        raise OutOfReach(f"{_worst_words(aims)}: {limit}{turned}")
+    most_mm = [CUSTOM.length_met_mm if aim.measure == LENGTH else CUSTOM.met_mm for aim in aims]
+    over = np.abs(off_mm) / most_mm * [aim.firm for aim in aims]
+    worst = int(np.argmax(over))
+    if over[worst] > 1.0:
+        aim, off = aims[worst], float(off_mm[worst])
+        words = f"the nearest is {plain(aim.target + off)} mm, not {plain(aim.target)} mm{turned}"
+        raise OutOfReach(f"the {aim.words} is out of reach of this base: {words}")
 
 
-def missed(zones: Sequence[CustomZone]) -> tuple[Notice, ...]:
-    """A warning for each target that the finished last, which is read again, misses."""
-    return tuple(
-        Notice(
-            "target_missed",
-            f"the {zone.name.replace('_', ' ')} comes to {plain(zone.reached)} mm, not"
-            f" {plain(zone.target)} mm: choose a lower --flare-follow, or another base",
-        )
-        for zone in zones
-        if abs(zone.reached - zone.target) > CUSTOM.met_mm
-    )
-
-
-def _refuse_stretched(aims: Sequence[CustomAim], field: Field) -> None:
-    """Raise OutOfReach for a change beyond the stated limits of stretch."""
+def limit_words(shape: CustomShape) -> str | None:
+    """Which limit of stretch a change goes beyond, in words; None if it keeps them all."""
+    field, left = shape.solved.field, shape.least_determinant
     scales = {"widths": (field.wider, CUSTOM.wider), "heights": (field.higher, CUSTOM.higher)}
     for name, (curve, most) in scales.items():
         if np.abs(curve).max() > np.log(most):
-            words = f"its {name} would have to change by more than {100 * (most - 1):.0f} %"
-            raise OutOfReach(f"{_worst_words(aims)}: {words}")
+            return f"its {name} would have to change by more than {100 * (most - 1):.0f} %"
+    if left < CUSTOM.determinant:
+        return f"the surface would come too near to a fold ({plain(left, 2)} of its volume is left)"
+    return None
 
 
 def _worst_words(aims: Sequence[CustomAim]) -> str:

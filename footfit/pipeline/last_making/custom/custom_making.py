@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from contextlib import nullcontext, suppress
+from contextlib import suppress
 from dataclasses import dataclass, field, replace
 
 import numpy as np
@@ -13,10 +13,7 @@ from footfit.errors import OutOfReach
 from footfit.geometry.deform.field import Field
 from footfit.geometry.measures.landmarks import Shape
 from footfit.geometry.mesh.surface import face_normals, vertex_normals
-from footfit.geometry.numeric.arrays import Floats, Ints, row_dots
-from footfit.geometry.search.pose_search import RoughPose
-from footfit.meshes.write import encoded_mesh
-from footfit.pipeline.batch.sources import ReadingOptions, Source
+from footfit.geometry.numeric.arrays import Floats, row_dots
 from footfit.pipeline.fit.zones import TOE_BOX
 from footfit.pipeline.last_making.base_last import BaseLast
 from footfit.pipeline.last_making.custom.custom_aims import (
@@ -29,26 +26,28 @@ from footfit.pipeline.last_making.custom.custom_aims import (
 )
 from footfit.pipeline.last_making.custom.custom_field import (
     CUSTOM,
-    CustomShape,
-    custom_shape,
     first_field,
-    missed,
+    refuse_far,
     room_bumps,
-    with_room,
 )
-from footfit.pipeline.last_making.custom.custom_reading import aims_read, tape_plane, value_mm
-from footfit.pipeline.scan.align import aligned_scan
-from footfit.pipeline.scan.flare import profiled_scan
+from footfit.pipeline.last_making.custom.custom_reading import tape_plane, value_mm
+from footfit.pipeline.last_making.custom.custom_tries import (
+    Attempt,
+    Given,
+    MadeLast,
+    attempt_at,
+    with_bumps,
+)
+from footfit.pipeline.last_making.custom.good_zones import (
+    PRESSED,
+    not_good,
+    pressed_aims,
+    zone_notices,
+)
 from footfit.pipeline.scan.kept_sections import kept_sections
-from footfit.pipeline.scan.measure import last_record
-from footfit.pipeline.scan.preparation import prepared_scan, right_copy
-from footfit.pipeline.scan.reading import read
-from footfit.pipeline.scan.standing import stance_labels
-from footfit.results import LastLabels, Parentage, Profiled, SideName, Target
+from footfit.results import Parentage, Profiled, SideName, Target
 from footfit.results.last_making.custom_last import CustomLast
 
-SETTLED_MM = (0.1, CUSTOM.met_mm, CUSTOM.met_mm, CUSTOM.met_mm)
-"""The finished last is made again if it reads so far from a target: by the tries before."""
 TOE_FROM = 0.93
 BACK_TO, BACK_WIDTH_MM = 0.10, 6.0
 """The back curve runs along the middle of what lies behind this share of the arc."""
@@ -66,32 +65,6 @@ class Making:
     name: str = "custom"
 
 
-@dataclass(frozen=True)
-class MadeLast:
-    """A custom last as its file has it: the record, the right shape, and the file's vertices.
-
-    ``to_file`` (4, 4) takes the shape's canonical right frame to the axes of the file.
-    """
-
-    record: results.LastRecord
-    shape: Shape
-    vertices_mm: Floats
-    faces: Ints
-    to_file: Floats
-
-
-@dataclass(frozen=True)
-class Attempt:
-    """A changed base and the last made of it, with ``room_mm`` (aims,) that single places add."""
-
-    aims: Sequence[CustomAim]
-    shape: CustomShape
-    made: MadeLast
-    room_mm: Floats
-    turn_deg: float
-    mirrored: bool
-
-
 def customised(
     foot: Profiled, base: BaseLast, making: Making, side: SideName | None = None
 ) -> CustomLast:
@@ -104,63 +77,44 @@ def customised(
     BadOption
         A place for room is not known, or its room is too large.
     """
-    aims = custom_aims(foot, base, making.question)
+    question = making.question
+    aims = custom_aims(foot, base, question)
     if not aims:
         raise OutOfReach("no measure of the foot can be compared with the base: scan it again")
-    made = _made_to(foot, base, making, aims, side)
-    zones = {zone.name: (zone.base_verdict, zone.custom_verdict) for zone in made.judged}
-    worse = [name for name in sorted(TOE_BOX) if name in zones and zones[name][0] == "good"]
-    worse = [name for name in worse if zones[name][1] != "good"]
-    if not worse or zones[LENGTH][0] != "good":
-        return made
-    # The toe box moves with the length. The base's toe room is good too, so it is kept.
-    aims = tuple(replace(a, target=a.base) if a.measure == LENGTH else a for a in aims)
-    kept = _made_to(foot, base, making, aims, side)
-    words = "the toe room stays as it is in the base: at the profile's target the toe box would fit"
-    notice = results.Notice("toe_room_kept", f"{words} worse")
-    return replace(kept, warnings=(*kept.warnings, notice))
-
-
-def _made_to(
-    foot: Profiled,
-    base: BaseLast,
-    making: Making,
-    aims: Sequence[CustomAim],
-    side: SideName | None,
-) -> CustomLast:
-    """The base, changed to these aims."""
+    refuse_far(aims, base)
+    bumps = room_bumps(base.shape, first_field(base, 0.0, bottom_kept=False).chart, making.rooms_mm)
     own: SideName = foot.aligned.alignment.side.side or "right"
-    turn_deg = _flare_turn_deg(foot, base, making)
-    start = first_field(base, turn_deg, bottom_kept=making.question.bottom_kept)
-    bumps = room_bumps(base.shape, start.chart, making.rooms_mm)
-    shifts = room = np.zeros(len(aims))
-    made_side = side or own
-    firm = np.array([aim.firm for aim in aims])
-    tries: list[tuple[float, CustomShape, MadeLast, Floats]] = []
-    for settled_mm in SETTLED_MM:
-        with suppress(OutOfReach) if tries else nullcontext():
-            shape = custom_shape(base, aims, start, shifts)
-            made = made_last(base, shape.vertices_mm, made_side, making.name)
-            reached = aims_read(made.shape, aims, base)
-            off = np.where(firm, reached - _asked(base, aims, shape), 0.0)
-            tries.append((float(np.abs(off).max()), shape, made, reached))
-            shifts = shifts - off
-        if tries[-1][0] <= settled_mm:
-            break
-    _, shape, made, reached = min(tries, key=lambda each: each[0])
+    given = Given(base, side or own, making.name, _flare_turn_deg(foot, base, making))
+    given = replace(given, bottom_kept=question.bottom_kept)
+
+    def answer(attempt: Attempt) -> CustomLast:
+        return _answer(foot, given, making, attempt)
+
+    attempt = attempt_at(given, aims)
+    made, notices = answer(attempt), []
+    verdicts = {zone.name: (zone.base_verdict, zone.custom_verdict) for zone in made.judged}
+    worse = [z for z in TOE_BOX & set(verdicts) if verdicts[z][0] == "good" != verdicts[z][1]]
+    if worse and verdicts[LENGTH][0] == "good":
+        # The toe box moves with the length. The base's toe room is good too, so it is kept.
+        aims = tuple(replace(a, target=a.base) if a.measure == LENGTH else a for a in aims)
+        attempt = attempt_at(given, aims, attempt)
+        made = answer(attempt)
+        words = "the toe room stays as it is in the base: at the profile's target the toe box"
+        notices = [results.Notice("toe_room_kept", f"{words} would fit worse")]
+    tried: tuple[CustomAim, ...] = ()
+    for names in PRESSED:
+        pressed = pressed_aims(given, attempt, made.judged, question, foot, names)
+        if not pressed or pressed == tried:
+            continue
+        tried = pressed
+        with suppress(OutOfReach):
+            other = attempt_at(given, pressed, attempt)
+            mended = answer(other)
+            if len(not_good(mended.judged)) < len(not_good(made.judged)):
+                attempt, made = other, mended
     if bumps:  # room is given on top of the targets, which are met without it
-        shape = with_room(base, aims, shape, bumps)
-        made = made_last(base, shape.vertices_mm, made_side, making.name)
-        room = np.where(firm, aims_read(made.shape, aims, base) - reached, 0.0)
-    attempt = Attempt(aims, shape, made, room, turn_deg, made_side != own)
-    return _answer(foot, base, making, attempt)
-
-
-def _asked(base: BaseLast, aims: Sequence[CustomAim], shape: CustomShape) -> Floats:
-    """What each aim should read; one that only follows, what it came to."""
-    own = aims_read(base.shape, aims, base)
-    firm = np.array([aim.target - aim.base for aim in aims]) + own
-    return np.where([aim.firm for aim in aims], firm, shape.solved.values_mm)
+        made = answer(with_bumps(given, attempt, bumps))
+    return replace(made, warnings=(*made.warnings, *notices))
 
 
 def _flare_turn_deg(foot: Profiled, base: BaseLast, making: Making) -> float:
@@ -176,44 +130,15 @@ def _flare_turn_deg(foot: Profiled, base: BaseLast, making: Making) -> float:
     return float(np.clip(turn_deg, -CUSTOM.flare_deg, CUSTOM.flare_deg))
 
 
-def made_last(base: BaseLast, vertices_mm: Floats, side: SideName, name: str) -> MadeLast:
-    """The right vertices (n, 3) of a changed base as a last of one side, read again from its file.
-
-    The pose is known, so it is not searched for. The labels of how the base stands stay.
-    """
-    vertices_mm, faces = right_copy(vertices_mm, base.shape.faces, side)
-    data = encoded_mesh(vertices_mm, faces, "stl")
-    scan = read(Source(None, data), ReadingOptions(units="mm"))
-    quality = base.record.pose
-    length_mm = base.shape.length_mm
-    pose = RoughPose(
-        np.eye(3), np.zeros(3), length_mm, quality.cost, quality.margin, "last", accepted=True
-    )
-    old = base.record.labels
-    labels = LastLabels(
-        name,
-        style=old.style,
-        family=old.family,
-        heel_height_mm=old.heel_height_mm,
-        toe_spring_mm=old.toe_spring_mm,
-        platform_mm=old.platform_mm,
-    )
-    prepared = prepared_scan(replace(scan, pose=pose), side, labels=stance_labels(labels))
-    record = last_record(profiled_scan(aligned_scan(prepared)), labels)
-    mirror = np.diag([1.0, -1.0 if side == "left" else 1.0, 1.0, 1.0])
-    to_file = np.linalg.inv(mirror @ prepared.canonical_transform)
-    return MadeLast(record, prepared.shape, vertices_mm, faces, np.asarray(to_file, np.float64))
-
-
-def _answer(foot: Profiled, base: BaseLast, making: Making, attempt: Attempt) -> CustomLast:
+def _answer(foot: Profiled, given: Given, making: Making, attempt: Attempt) -> CustomLast:
     """The result of what was made."""
-    question, profile = making.question, making.question.profile
+    question, profile, base = making.question, making.question.profile, given.base
     made, shape = attempt.made, attempt.shape
     sections = kept_sections(made.shape)
     before = fit_in(foot, base.record, base, question)
     kept_base = replace(base, sections=sections)
     after = fit_in(foot, made.record, kept_base, question)
-    zones = _zones(base, attempt)
+    judged, zones = _judged(before, after), _zones(base, attempt)
     side = made.record.side.side or "right"
     mirror = np.array([1.0, -1.0 if side == "left" else 1.0, 1.0])
     base_vertices_mm = base.shape.vertices_mm * mirror
@@ -229,19 +154,19 @@ def _answer(foot: Profiled, base: BaseLast, making: Making, attempt: Attempt) ->
         foot=info.path,
         foot_sha256=info.sha256,
         side=side,
-        mirrored=attempt.mirrored,
+        mirrored=side != (foot.aligned.alignment.side.side or "right"),
         profile=profile.name,
         profile_version=profile.version,
         profile_sha256=profile.sha256,
         heel=heel,
         zones=zones,
-        judged=_judged(before, after),
+        judged=judged,
         kept=kept,
         toe_shift_mm=toe_shift_mm,
-        flare_turn_deg=attempt.turn_deg,
+        flare_turn_deg=given.turn_deg,
         largest_move_mm=float(np.linalg.norm(shift, axis=1).max()),
         least_determinant=shape.least_determinant,
-        warnings=(*missed(zones), *_notices(base, after, bottom_kept=question.bottom_kept)),
+        warnings=(*_notices(base), *zone_notices(judged, question)),
         record=made.record,
         sections=sections,
         parentage=_parentage(foot, base, making, zones),
@@ -255,14 +180,13 @@ def _answer(foot: Profiled, base: BaseLast, making: Making, attempt: Attempt) ->
 def _zones(base: BaseLast, attempt: Attempt) -> tuple[results.CustomZone, ...]:
     """Each aim with what was reached, without the girths that are only pulled along."""
     aims, made = attempt.aims, attempt.made
-    asked = _asked(base, aims, attempt.shape) + attempt.room_mm
     zones = []
-    for aim, wanted, room in zip(aims, asked.tolist(), attempt.room_mm.tolist(), strict=True):
-        if not aim.firm and aim.measure not in FOLLOWING:
+    for aim, room in zip(aims, attempt.room_mm.tolist(), strict=True):
+        if aim.pressed or not (aim.firm or aim.measure in FOLLOWING):
             continue
         value = value_mm(made.shape, aim.measure, base)
+        grown = value - value_mm(base.shape, aim.measure, base)
         reached = made.shape.length_mm if aim.measure == LENGTH else value
-        wanted = wanted if aim.firm else value
         zones.append(
             results.CustomZone(
                 name=aim.measure,
@@ -271,7 +195,7 @@ def _zones(base: BaseLast, attempt: Attempt) -> tuple[results.CustomZone, ...]:
                 foot=aim.foot,
                 allowance=aim.allowance,
                 base=aim.base,
-                target=reached - (value - wanted),
+                target=reached - grown + aim.target - aim.base + room if aim.firm else reached,
                 reached=reached,
                 room=room if aim.firm else 0.0,
                 follows=not aim.firm,
@@ -352,23 +276,15 @@ def _not_rigid(before: Floats, after: Floats) -> Floats:
     return np.asarray(np.linalg.norm(start @ left @ right - end, axis=1))
 
 
-def _notices(
-    base: BaseLast, after: results.FootFit, *, bottom_kept: bool
-) -> tuple[results.Notice, ...]:
-    """What should be known of a custom last: its base's mesh, and zones that are not good."""
-    notices = []
-    if base.mesh.kind == "light copy":
-        words = (
-            f"the base is a light copy, up to {base.mesh.error_mm:.2f} mm from its file: ingest it"
-            " with --keep-mesh full, or run footfit where the file lies"
-        )
-        notices.append(results.Notice("light_copy", words))
-    poor = [z.label for z in after.zones if z.verdict is not None and z.verdict != "good"]
-    if poor:
-        kept = "toe, flare, top and bottom outline" if bottom_kept else "toe, flare and top"
-        words = f"not good in {', '.join(poor)}: a custom last keeps its base's {kept}"
-        notices.append(results.Notice("not_good", words))
-    return tuple(notices)
+def _notices(base: BaseLast) -> tuple[results.Notice, ...]:
+    """What should be known of the base's mesh."""
+    if base.mesh.kind != "light copy":
+        return ()
+    words = (
+        f"the base is a light copy, up to {base.mesh.error_mm:.2f} mm from its file: ingest it"
+        " with --keep-mesh full, or run footfit where the file lies"
+    )
+    return (results.Notice("light_copy", words),)
 
 
 def _parentage(

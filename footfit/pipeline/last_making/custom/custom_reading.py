@@ -8,6 +8,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from footfit.geometry.deform.probes import DIRECTIONS, Probe, girth_probe, span_probe
+from footfit.geometry.measures.heel_girths import angle_to_deg, cone_edge
 from footfit.geometry.measures.landmarks import AXES, Shape
 from footfit.geometry.measures.least_tape import (
     TAPE,
@@ -26,7 +27,12 @@ from footfit.geometry.numeric.arrays import Floats
 from footfit.pipeline.fit.judging.bottom_gains import LENGTHS, bottom_gain
 from footfit.pipeline.fit.judging.cells import ZoneShape
 from footfit.pipeline.last_making.base_last import BaseLast
-from footfit.pipeline.last_making.custom.custom_aims import BALL_LENGTH, LENGTH, CustomAim
+from footfit.pipeline.last_making.custom.custom_aims import (
+    BALL_LENGTH,
+    HEEL_GIRTH,
+    LENGTH,
+    CustomAim,
+)
 from footfit.results import Measure, Measured
 
 LEVEL = np.array([1.0, 1.0, 0.0])
@@ -83,6 +89,10 @@ def tape_plane(shape: Shape, measure: str) -> TapePlane | None:
         return TapePlane(*shape.ball_plane)
     if measure == "instep_girth":
         return TapePlane(shape.instep, AXES[1:])
+    if measure == HEEL_GIRTH:
+        rise = np.radians(angle_to_deg(shape, cone_edge(shape)))
+        forward = np.cos(rise) * AXES[0] + np.sin(rise) * AXES[2]
+        return TapePlane(shape.heel_base, np.stack([AXES[1], forward]))
     return None
 
 
@@ -171,27 +181,35 @@ def _ball_probe(shape: Shape, measure: str) -> Probe:
 
 
 class Carried:
-    """Shapes that a base becomes while its bottom's heights stay: each stands as the base does.
+    """Shapes that a base becomes while its bottom's heights stay: each lies and stands as a shape
+    does that was read.
 
-    A stance that is found anew would waver by some tenths of a degree from step to step.
+    A frame and a stance that are found anew would waver by some tenths of a degree from step to
+    step, and take longer. ``known`` is that shape, with the base's vertices (n, 3) in their order;
+    ``frame`` (4, 4) leads from the base's resting frame to its own.
     """
 
-    def __init__(self, base: Shape) -> None:
-        assert base.bottom_arc is not None
-        along, over = base.bottom_arc.shares(base.vertices_mm)
-        middle = np.abs(base.vertices_mm[:, 1] - np.median(base.vertices_mm[:, 1])) < MIDDLE_MM
+    def __init__(self, known: Shape, frame: Floats | None = None) -> None:
+        assert known.bottom_arc is not None
+        along, over = known.bottom_arc.shares(known.vertices_mm)
+        middle = np.abs(known.vertices_mm[:, 1] - np.median(known.vertices_mm[:, 1])) < MIDDLE_MM
         low = np.flatnonzero((over < LOW) & middle)
         self._rows = low[np.argsort(along[low])]
-        self._along = base.bottom_arc.stands[0, :3]
-        self._base = base
+        self._along = known.bottom_arc.stands[0, :3]
+        self._known = known
+        self._frame = np.eye(4) if frame is None else frame
+
+    def lying(self, vertices_mm: Floats) -> Floats:
+        """Vertices (n, 3) of the base's resting frame as the known shape lies."""
+        return np.asarray(vertices_mm @ self._frame[:3, :3].T + self._frame[:3, 3])
 
     def shape(self, vertices_mm: Floats) -> Shape:
-        """The base with moved vertices (n, 3)."""
-        base, rows = self._base, self._rows
-        stance = base.stance
+        """The base with moved vertices (n, 3) of its resting frame."""
+        known, rows, vertices_mm = self._known, self._rows, self.lying(vertices_mm)
+        stance = known.stance
         assert stance is not None
-        start_mm = base.vertices_mm[rows] @ self._along - stance.rear_mm
-        shift_mm = (vertices_mm[rows] - base.vertices_mm[rows]) @ self._along
+        start_mm = known.vertices_mm[rows] @ self._along - stance.rear_mm
+        shift_mm = (vertices_mm[rows] - known.vertices_mm[rows]) @ self._along
         middle_mm = stance.middle_mm.copy()
         middle_mm[:, 0] += np.interp(middle_mm[:, 0], start_mm, shift_mm)
         by_mm = float(np.interp(stance.touching_x_mm, start_mm, shift_mm))
@@ -202,9 +220,14 @@ class Carried:
             length_mm=stance.length_mm + float(shift_mm[-1]),
             middle_mm=middle_mm,
         )
-        shape = Shape(vertices_mm, base.faces, "last", base.labels)
+        shape = Shape(vertices_mm, known.faces, "last", known.labels)
         vars(shape)["stance"] = moved  # it need not be found
         return shape
+
+    def probe(self, vertices_mm: Floats, measure: str) -> Probe:
+        """What answers for a measure when moved vertices (n, 3) of the base move a little more."""
+        own = probe_of(self.shape(vertices_mm), measure)
+        return Probe(own.rows, lambda points_mm: own.value(self.lying(points_mm)))
 
 
 def values_mm(

@@ -1,0 +1,207 @@
+"""Tries at a custom last: the base is changed, written, read again, and changed again.
+
+A pose and a stance that are found in the finished last differ a little from those that the search
+carried along. So each try begins where the last one ended, and carries what was read there.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from contextlib import nullcontext, suppress
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from footfit import results
+from footfit.errors import FootfitError
+from footfit.geometry.deform.field import Bump
+from footfit.geometry.deform.solver import Knob
+from footfit.geometry.measures.landmarks import Shape
+from footfit.geometry.numeric.arrays import Floats, Ints
+from footfit.geometry.search.pose_search import RoughPose
+from footfit.meshes.write import encoded_mesh
+from footfit.pipeline.batch.sources import ReadingOptions, Source
+from footfit.pipeline.last_making.base_last import BaseLast
+from footfit.pipeline.last_making.custom.custom_aims import CustomAim
+from footfit.pipeline.last_making.custom.custom_field import (
+    CustomShape,
+    custom_shape,
+    first_field,
+    limit_words,
+    refuse_missed,
+    with_room,
+)
+from footfit.pipeline.last_making.custom.custom_reading import Carried, aims_read
+from footfit.pipeline.scan.align import aligned_scan
+from footfit.pipeline.scan.flare import profiled_scan
+from footfit.pipeline.scan.measure import last_record
+from footfit.pipeline.scan.preparation import prepared_scan, right_copy
+from footfit.pipeline.scan.reading import read
+from footfit.pipeline.scan.standing import stance_labels
+from footfit.results import LastLabels, SideName
+
+SETTLED_MM = (0.1, 0.1, 0.1, 0.3, 0.3, 0.3)
+"""The finished last is made again if it reads so far from a target: by the tries before."""
+TURN_DEG = 2.5
+"""The flare is turned in steps of at most so much; each step begins where the last one ended."""
+
+
+@dataclass(frozen=True, slots=True)
+class Given:
+    """What all tries at a custom last have: the base, the side and name of the new last, the turn
+    of the flare, and whether the bottom keeps its outline.
+    """
+
+    base: BaseLast
+    side: SideName
+    name: str
+    turn_deg: float
+    bottom_kept: bool = False
+
+
+@dataclass(frozen=True)
+class MadeLast:
+    """A custom last as its file has it: the record, the right shape, and the file's vertices.
+
+    ``frame`` (4, 4) takes right vertices of the base's frame to the shape's canonical right frame.
+    """
+
+    record: results.LastRecord
+    shape: Shape
+    vertices_mm: Floats
+    faces: Ints
+    frame: Floats
+
+    @property
+    def to_file(self) -> Floats:
+        """From the shape's canonical right frame to the axes of the file, (4, 4)."""
+        return np.asarray(mirror_of(self.record.side.side) @ np.linalg.inv(self.frame))
+
+    def carried(self, base: BaseLast, vertices_mm: Floats) -> Carried:
+        """How bases that are changed a little otherwise lie and stand; ``vertices_mm`` (n, 3) are
+        the right ones that it was made of, in the base's frame.
+        """
+        lying_mm = vertices_mm @ self.frame[:3, :3].T + self.frame[:3, 3]
+        known = Shape(lying_mm, base.shape.faces, "last", self.shape.labels)
+        vars(known)["stance"] = self.shape.stance
+        return Carried(known, self.frame)
+
+
+@dataclass(frozen=True)
+class Attempt:
+    """A changed base and the last made of it.
+
+    ``off_mm`` (aims,) is how far the last reads from each firm target, ``room_mm`` (aims,) what
+    room for single places adds to that.
+    """
+
+    aims: Sequence[CustomAim]
+    shape: CustomShape
+    made: MadeLast
+    off_mm: Floats
+    room_mm: Floats
+
+    @property
+    def worth(self) -> tuple[bool, float]:
+        """What is least for the best try: whether it breaks a limit, and its worst miss."""
+        return limit_words(self.shape) is not None, float(np.abs(self.off_mm).max())
+
+
+def attempt_at(given: Given, aims: Sequence[CustomAim], first: Attempt | None = None) -> Attempt:
+    """The best try at a custom last with these aims; it begins where ``first`` ended.
+
+    Raises
+    ------
+    OutOfReach
+        A target is missed, or lies beyond the limits of stretch.
+    """
+    base, knobs = given.base, first.shape.solved.knobs if first else ()
+    carried = first.made.carried(base, first.shape.vertices_mm) if first else Carried(base.shape)
+    steps = 1 if first else max(1, int(np.ceil(abs(given.turn_deg) / TURN_DEG)))
+    for step in range(1, steps):
+        turned = _tried(given, aims, step / steps, carried, knobs)
+        carried = turned.made.carried(base, turned.shape.vertices_mm)
+        knobs = turned.shape.solved.knobs
+    tries: list[Attempt] = []
+    for settled_mm in SETTLED_MM:
+        with suppress(FootfitError) if tries else nullcontext():
+            tried = _tried(given, aims, 1.0, carried, knobs)
+            carried = tried.made.carried(base, tried.shape.vertices_mm)
+            knobs = tried.shape.solved.knobs
+            tries.append(tried)
+        if not tries[-1].worth[0] and tries[-1].worth[1] <= settled_mm:
+            break
+    best = min(tries, key=lambda each: each.worth)
+    refuse_missed(aims, best.off_mm, best.shape, given.turn_deg)
+    return best
+
+
+def _tried(
+    given: Given,
+    aims: Sequence[CustomAim],
+    share: float,
+    carried: Carried,
+    knobs: Sequence[Knob],
+) -> Attempt:
+    """One try, with a share of the turn."""
+    start = first_field(given.base, share * given.turn_deg, bottom_kept=given.bottom_kept)
+    shape = custom_shape(given.base, aims, start, carried, knobs)
+    made = made_last(given.base, shape.vertices_mm, given.side, given.name)
+    off_mm = _off_mm(given.base, aims, made)
+    return Attempt(aims, shape, made, off_mm, np.zeros(len(aims)))
+
+
+def _off_mm(base: BaseLast, aims: Sequence[CustomAim], made: MadeLast) -> Floats:
+    """How far a finished last reads from each firm target, (aims,)."""
+    grown = aims_read(made.shape, aims, base) - aims_read(base.shape, aims, base)
+    off = grown - np.array([aim.target - aim.base for aim in aims])
+    off = np.where(np.isnan(off), np.inf, off)
+    return np.where([aim.firm for aim in aims], off, 0.0)
+
+
+def with_bumps(given: Given, attempt: Attempt, bumps: Sequence[Bump]) -> Attempt:
+    """A try with room for single places on top.
+
+    Raises
+    ------
+    OutOfReach
+        The last would fold.
+    """
+    shape = with_room(given.base, attempt.shape, bumps)
+    made = made_last(given.base, shape.vertices_mm, given.side, given.name)
+    room_mm = _off_mm(given.base, attempt.aims, made) - attempt.off_mm
+    return replace(attempt, shape=shape, made=made, room_mm=room_mm)
+
+
+def made_last(base: BaseLast, vertices_mm: Floats, side: SideName, name: str) -> MadeLast:
+    """The right vertices (n, 3) of a changed base as a last of one side, read again from its file.
+
+    The pose is known, so it is not searched for. The labels of how the base stands stay.
+    """
+    vertices_mm, faces = right_copy(vertices_mm, base.shape.faces, side)
+    data = encoded_mesh(vertices_mm, faces, "stl")
+    scan = read(Source(None, data), ReadingOptions(units="mm"))
+    quality = base.record.pose
+    length_mm = base.shape.length_mm
+    pose = RoughPose(
+        np.eye(3), np.zeros(3), length_mm, quality.cost, quality.margin, "last", accepted=True
+    )
+    old = base.record.labels
+    labels = LastLabels(
+        name,
+        style=old.style,
+        family=old.family,
+        heel_height_mm=old.heel_height_mm,
+        toe_spring_mm=old.toe_spring_mm,
+        platform_mm=old.platform_mm,
+    )
+    prepared = prepared_scan(replace(scan, pose=pose), side, labels=stance_labels(labels))
+    record = last_record(profiled_scan(aligned_scan(prepared)), labels)
+    mirror = mirror_of(side)
+    frame = mirror @ prepared.canonical_transform @ mirror
+    return MadeLast(record, prepared.shape, vertices_mm, faces, np.asarray(frame, np.float64))
+
+
+def mirror_of(side: SideName | None) -> Floats:
+    """What takes a right shape to one of a side, and back, (4, 4)."""
+    return np.diag([1.0, -1.0 if side == "left" else 1.0, 1.0, 1.0])
