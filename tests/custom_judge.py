@@ -1,6 +1,6 @@
 """A judge of custom lasts: it reads the written STL and the JSON.
 
-It shares no code with footfit.
+It shares no code with footfit. Where it needs to know how the base stands, it is told so.
 """
 
 from __future__ import annotations
@@ -49,6 +49,87 @@ def least_misses(data: bytes, document) -> dict[str, float]:
         least = min(hull_perimeter(vertices, edges, point, plane) for plane in planes)
         misses[zone["name"]] = least - zone["target"]
     return misses
+
+
+def kept_moves(before, after, faces, up) -> dict[str, float]:
+    """By how many mm the parts moved that a last maker keeps.
+
+    ``up`` is what was up when the base stood. Heel, spring and toe are 15, 7 and 7 % of its length
+    along the ground; the back curve is the rearmost place of level sections every 3 mm, and the top
+    plane what is flat on top.
+    """
+    up = np.asarray(up) / np.linalg.norm(up)
+    ahead = np.cross([0.0, 1.0, 0.0], up)
+    along, over = before @ ahead, before @ up
+    place = (along - along.min()) / np.ptp(along)
+    normals = _normals(before, faces)
+    down = np.unique(faces[normals @ up < -0.8])
+    bottom = down[over[down] < over.min() + 0.3 * np.ptp(over)]
+    risen = np.abs((after - before) @ up)
+    toe = np.flatnonzero(place > 0.93)
+    lid = faces[_lid(before, normals, faces, over, up)]
+    rear = over[place < 0.05]
+    levels = np.arange(rear.min() + 4.0, rear.max() - 4.0, 3.0)
+    back = before, faces, ahead, up
+    parts = {
+        "bottom heights": risen[bottom],
+        "heel height": risen[bottom[place[bottom] < 0.15]],
+        "toe spring": risen[bottom[place[bottom] > 0.93]],
+        "toe": _not_rigid(before[toe], after[toe]),
+        "back curve": np.abs(_back(after, faces, ahead, up, levels) - _back(*back, levels)),
+        "top plane": np.linalg.norm((after - before)[np.unique(lid)], axis=1),
+    }
+    return {name: float(moved.max(initial=0.0)) for name, moved in parts.items()}
+
+
+def _lid(points, normals, faces, over, up):
+    """Which faces lie in the plane of the top: those that look as most of what looks up there."""
+    high = over[faces].min(axis=1) > over.min() + 0.6 * np.ptp(over)
+    looks_up = np.flatnonzero(high & (normals @ up > 0.7))
+    if not len(looks_up):
+        return looks_up
+    mean = np.median(normals[looks_up], axis=0)
+    flat = looks_up[normals[looks_up] @ (mean / np.linalg.norm(mean)) > 0.9998]
+    height = points[faces].mean(axis=1) @ mean
+    return flat[np.abs(height[flat] - np.median(height[flat])) < 0.2] if len(flat) else flat
+
+
+def _not_rigid(before, after):
+    """How far points moved besides their common shift and turn."""
+    start, end = before - before.mean(axis=0), after - after.mean(axis=0)
+    left, _, right = np.linalg.svd(start.T @ end)
+    return np.linalg.norm(start @ left @ right - end, axis=1)
+
+
+def _back(points, faces, ahead, up, levels):
+    """The rearmost place of the level section at each of ``levels``."""
+    along, over = points @ ahead, points @ up
+    edges = edges_of(faces)
+    result = []
+    for level in levels:
+        height = over[edges] - level
+        cut = height[:, 0] * height[:, 1] < 0.0
+        share = height[cut, 0] / (height[cut, 0] - height[cut, 1])
+        start, end = along[edges[cut]].T
+        result.append((start + share * (end - start)).min())
+    return np.array(result)
+
+
+def reachable_girths(vertices, faces, point, normal, up, widths, heights) -> tuple[float, float]:
+    """The least and the largest girth in a plane, if all widths and all heights were scaled.
+
+    ``widths`` and ``heights`` are the least and the largest scale of each.
+    """
+    edges, middle = edges_of(faces), vertices.mean(axis=0)
+    girths = []
+    for wider, higher in zip(widths, heights, strict=True):
+        turn = np.eye(3) + (higher - 1.0) * np.outer(up, up)
+        turn += (wider - 1.0) * np.outer([0.0, 1.0, 0.0], [0.0, 1.0, 0.0])
+        scaled = (vertices - middle) @ turn + middle
+        place = (point - middle) @ turn + middle
+        plane = np.linalg.inv(turn) @ normal
+        girths.append(hull_perimeter(scaled, edges, place, plane / np.linalg.norm(plane)))
+    return girths[0], girths[1]
 
 
 def mesh_changes(before, after, faces) -> dict[str, float]:

@@ -60,7 +60,7 @@ class ChartSettings:
     faces_down: float = 0.5
     low: float = 0.35
     thin: float = 0.02
-    deep: float = 0.8
+    deep: float = 1.0
     fade: tuple[float, float] = (0.02, 0.30)
     behind: float = 0.33
     flat: float = 0.004
