@@ -40,7 +40,7 @@ from footfit.pipeline.last_making.custom.custom_tries import (
 )
 from footfit.pipeline.last_making.custom.good_zones import (
     PRESSED,
-    not_good,
+    faults,
     pressed_aims,
     zone_notices,
 )
@@ -110,7 +110,7 @@ def customised(
         with suppress(OutOfReach):
             other = attempt_at(given, pressed, attempt)
             mended = answer(other)
-            if len(not_good(mended.judged)) < len(not_good(made.judged)):
+            if faults(mended.judged) < faults(made.judged):
                 attempt, made = other, mended
     if bumps:  # room is given on top of the targets, which are met without it
         made = answer(with_bumps(given, attempt, bumps))

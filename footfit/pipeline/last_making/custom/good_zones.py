@@ -16,10 +16,12 @@ from footfit.pipeline.last_making.custom.custom_aims import (
 from footfit.pipeline.last_making.custom.custom_field import CUSTOM
 from footfit.pipeline.last_making.custom.custom_reading import value_mm
 from footfit.pipeline.last_making.custom.custom_tries import Attempt, Given
-from footfit.results import JudgedZone, Notice, Profiled
+from footfit.results import JudgedZone, Notice, Profiled, Verdict
 
 NEAR = 0.5
-"""A clearance that is farther outside of its good range, over the width of that, is not pressed."""
+"""A clearance that is farther outside of its good range, over the width of that, is not pressed;
+the ball line comes as near as the ball may move."""
+VERDICTS: tuple[Verdict, ...] = ("good", "acceptable", "poor", "reject")
 PRESSABLE = (BALL_LENGTH, *WIDTHS, *PULLED)
 PRESSED = (PRESSABLE, PRESSABLE, (BALL_LENGTH,))
 """What is pressed: all that can be; what is then no longer good; or else the ball's place alone."""
@@ -42,6 +44,12 @@ def not_good(judged: Sequence[JudgedZone]) -> list[JudgedZone]:
     return [zone for zone in judged if zone.custom_verdict not in (None, "good")]
 
 
+def faults(judged: Sequence[JudgedZone]) -> int:
+    """How bad zones are together: 1 for each that is acceptable, 2 for a poor one, 3 for more."""
+    known = [zone.custom_verdict for zone in judged if zone.custom_verdict is not None]
+    return sum(VERDICTS.index(verdict) for verdict in known)
+
+
 def pressed_aims(
     given: Given,
     attempt: Attempt,
@@ -59,7 +67,7 @@ def pressed_aims(
         if zone.custom is not None:
             rule = rules[zone.name]
             off = inner_good(rule, zone.custom - zone.target)
-            if abs(off) <= NEAR * (rule.good[1] - rule.good[0]):
+            if zone.name == "ball_line" or abs(off) <= NEAR * (rule.good[1] - rule.good[0]):
                 percent_mm = 0.01 * foot.aligned.alignment.extent_mm
                 more_mm[zone.name] = -off * (percent_mm if zone.unit == "percent" else 1.0)
     aims = [
