@@ -28,6 +28,7 @@ import footfit
 from benchmarks import stance
 from benchmarks.tables import markdown, put
 from footfit.errors import FootfitError, OutOfReach
+from footfit.geometry.deform.chart import chart_of
 from footfit.geometry.fit.foot_in_heel import SurfaceChange, foot_in_heel
 from footfit.geometry.measures.landmarks import Shape
 from footfit.pipeline.last_making.base_last import BaseLast, scanned_base
@@ -241,8 +242,9 @@ def _moved_by_equal_targets(pair: Pair) -> float:
     aims = tuple(
         replace(aim, target=aim.base) for aim in custom_aims(pair.foot, pair.base, pair.question)
     )
-    start = first_field(pair.base, 0.0, bottom_kept=False)
-    moved = custom_shape(pair.base, aims, start, Carried(pair.base.shape)).vertices_mm
+    start = first_field(chart_of(pair.base.shape), 0.0, bottom_kept=False)
+    carried = Carried(pair.base.shape, pair.base)
+    moved = custom_shape(pair.base, aims, start, carried).vertices_mm
     return float(np.abs(moved - pair.base.shape.vertices_mm).max())
 
 

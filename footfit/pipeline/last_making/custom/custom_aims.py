@@ -29,9 +29,9 @@ PULLED = ("ball_girth", "instep_girth", HEEL_GIRTH)
 FOLLOWING = ("heel_girth_instep",)
 """The girth without a target: the bottom, the back and the top, which are kept, nearly set it; and
 a foot that was scanned flat has another one in a heel."""
-INNER_GOOD, MOST_BALL_MM = 0.7, 3.0
+INNER_GOOD, MOST_BALL_MM = 0.7, 6.0
 """A zone that is only pulled comes so far into its good range, as a share of that; the ball moves
-at most so far at first."""
+at most so far."""
 LENGTH, BALL_LENGTH = "length", "ball_length"
 
 
@@ -107,8 +107,9 @@ def custom_aims(foot: Profiled, base: BaseLast, question: CustomQuestion) -> tup
             allowance = rules[name].target + rules[name].cavity
             target = stored + off[name]
             firm = name in WIDTHS and not question.bottom_kept
-            if name == HEEL_GIRTH:  # what is kept nearly sets it: only into its good range
-                target = stored - inner_good(rules[name], stored - target)
+            if name in PULLED:  # where its least tape brings it, if that is good
+                grown = sum(a.target - a.base for a in aims if a.measure == f"{name}_least")
+                target = own + grown - inner_good(rules[name], stored + grown - target)
             aims.append(CustomAim(name, name, own, target, target - allowance, allowance, firm))
     return tuple(aims)
 

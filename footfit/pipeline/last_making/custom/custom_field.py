@@ -9,11 +9,12 @@ from functools import partial
 import numpy as np
 
 from footfit.errors import BadOption, OutOfReach
-from footfit.geometry.deform.chart import Chart, chart_of, eased
+from footfit.geometry.deform.chart import Chart, eased
 from footfit.geometry.deform.field import Bump, Field, least_determinant
 from footfit.geometry.deform.probes import Probe
 from footfit.geometry.deform.solver import (
     SCALES,
+    SOLVER,
     Goal,
     Knob,
     Solution,
@@ -32,8 +33,7 @@ from footfit.pipeline.last_making.custom.custom_aims import (
 )
 from footfit.pipeline.last_making.custom.custom_reading import (
     Carried,
-    value_mm,
-    values_mm,
+    asked_mm,
 )
 
 
@@ -56,8 +56,6 @@ class CustomSettings:
     pulled_mm, line_mm : float
         The miss of a pulled girth, and of the ball line, that costs as much as a firm one's of .01
         mm.
-    ball_mm : float
-        The ball moves at most so far for the ball line.
     met_mm, length_met_mm : float
         A girth or a width, and the length, that is missed by more cannot be reached.
     wider, higher : float
@@ -80,9 +78,8 @@ class CustomSettings:
     forepart_mm: float = 2.0
     ball: tuple[float, float] = (0.55, 0.77)
     slope: float = 0.003
-    pulled_mm: float = 2.0
-    line_mm: float = 0.4
-    ball_mm: float = 6.0
+    pulled_mm: float = 1.0
+    line_mm: float = 0.1
     met_mm: float = 0.5
     length_met_mm: float = 0.3
     wider: float = 1.25
@@ -96,6 +93,8 @@ class CustomSettings:
 
 
 CUSTOM = CustomSettings()
+WARM = replace(SOLVER, shaping=1)
+"""A search that begins where another one ended."""
 FREE_MM = 100.0
 """The unit of a knob in mm whose size costs nothing."""
 MEDIAL, LATERAL, UP = AXES[1], -AXES[1], AXES[2]
@@ -170,16 +169,16 @@ def custom_shape(
     knobs : sequence of Knob
         Where the search begins; by default at ``start``.
     """
+    aims = [aim for aim in aims if aim.measure not in FOLLOWING]
+    settings = WARM if knobs else SOLVER
     knobs = knobs or _knobs(start.chart, aims)
     first = turned_field(start, knobs, np.array([knob.value for knob in knobs]))
     moved = first.moved_points(base.shape.vertices_mm)
-    goals = [
-        _goal(aim, carried.probe(moved, aim.measure), value_mm(base.shape, aim.measure, base))
-        for aim in aims
-    ]
-    read = partial(values_mm, carried=carried, aims=aims, base=base)
+    probes = carried.probes(moved, aims)
+    goals = [_goal(a, probe, asked_mm(a, base)) for a, probe in zip(aims, probes, strict=True)]
+    read = partial(carried.values_mm, aims=aims)
     costs = _costs(start.chart, knobs)
-    solved = solution(start, knobs, base.shape.vertices_mm, goals, read, costs)
+    solved = solution(start, knobs, base.shape.vertices_mm, goals, read, costs, settings)
     least = least_determinant(solved.field, base.shape.vertices_mm)
     return CustomShape(solved, solved.vertices_mm, least)
 
@@ -212,12 +211,10 @@ def with_room(base: BaseLast, shape: CustomShape, bumps: Sequence[Bump]) -> Cust
     return roomy
 
 
-def first_field(base: BaseLast, turn_deg: float, *, bottom_kept: bool) -> Field:
+def first_field(chart: Chart, turn_deg: float, *, bottom_kept: bool) -> Field:
     """The field that a search begins with: the turn of the flare."""
-    chart = chart_of(base.shape)
     still = Field.still(chart, bottom_kept=bottom_kept)
-    turned = np.radians(turn_deg) * _pattern(chart, CUSTOM.bend)
-    return replace(still, turned=turned)
+    return replace(still, turned=np.radians(turn_deg) * _pattern(chart, CUSTOM.bend))
 
 
 def _pattern(chart: Chart, window: tuple[float, float]) -> Floats:
@@ -226,16 +223,12 @@ def _pattern(chart: Chart, window: tuple[float, float]) -> Floats:
     return eased((chart.centres() - start) / (end - start))
 
 
-def _goal(aim: CustomAim, probe: Probe, own_mm: float) -> Goal:
-    """What the solver brings an aim to; a length goes by the toe room.
-
-    ``own_mm`` is the measure of the base.
-    """
-    target_mm = aim.target - aim.base + own_mm
+def _goal(aim: CustomAim, probe: Probe, target_mm: float) -> Goal:
+    """What the solver brings an aim to."""
     if aim.firm:
         return Goal(target_mm, probe)
     miss_mm = CUSTOM.line_mm if aim.measure == BALL_LENGTH else CUSTOM.pulled_mm
-    return Goal(target_mm, probe, np.inf if aim.measure in FOLLOWING else miss_mm, firm=False)
+    return Goal(target_mm, probe, miss_mm, firm=False)
 
 
 def _costs(chart: Chart, knobs: Sequence[Knob]) -> Floats:

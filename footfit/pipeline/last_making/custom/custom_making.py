@@ -10,6 +10,7 @@ import numpy as np
 
 from footfit import results
 from footfit.errors import OutOfReach
+from footfit.geometry.deform.chart import chart_of
 from footfit.geometry.deform.field import Field
 from footfit.geometry.measures.landmarks import Shape
 from footfit.geometry.mesh.surface import face_normals, vertex_normals
@@ -26,7 +27,6 @@ from footfit.pipeline.last_making.custom.custom_aims import (
 )
 from footfit.pipeline.last_making.custom.custom_field import (
     CUSTOM,
-    first_field,
     refuse_far,
     room_bumps,
 )
@@ -82,9 +82,10 @@ def customised(
     if not aims:
         raise OutOfReach("no measure of the foot can be compared with the base: scan it again")
     refuse_far(aims, base)
-    bumps = room_bumps(base.shape, first_field(base, 0.0, bottom_kept=False).chart, making.rooms_mm)
+    chart = chart_of(base.shape)
+    bumps = room_bumps(base.shape, chart, making.rooms_mm)
     own: SideName = foot.aligned.alignment.side.side or "right"
-    given = Given(base, side or own, making.name, _flare_turn_deg(foot, base, making))
+    given = Given(base, chart, side or own, making.name, _flare_turn_deg(foot, base, making))
     given = replace(given, bottom_kept=question.bottom_kept)
 
     def answer(attempt: Attempt) -> CustomLast:

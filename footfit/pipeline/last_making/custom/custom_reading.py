@@ -96,19 +96,33 @@ def tape_plane(shape: Shape, measure: str) -> TapePlane | None:
     return None
 
 
-def value_mm(shape: Shape, measure: str, base: BaseLast) -> float:
+def value_mm(shape: Shape, measure: str, base: BaseLast, gain_mm: float | None = None) -> float:
     """A measure of a shape; of the length, that which the toe room goes by.
 
-    NaN if the shape does not have it.
+    ``gain_mm`` is how much longer it is along its bottom, if that is known. NaN if the shape does
+    not have the measure.
     """
     if measure == LENGTH:
-        return _toe_room_length_mm(shape, base)
+        gain_mm = _gain_mm(shape, base) if gain_mm is None else gain_mm
+        return _functional_mm(shape) + gain_mm
     value = measure_named(measure).value_of(shape).value
     return np.nan if value is None else value
 
 
-def _toe_room_length_mm(shape: Shape, base: BaseLast) -> float:
-    """The length that counts for the toe room: the functional length, along the bottom."""
+def asked_mm(aim: CustomAim, base: BaseLast) -> float:
+    """What an aim's measure should read on the changed base; a length goes by the toe room."""
+    if aim.measure != LENGTH:
+        return aim.target
+    return value_mm(base.shape, LENGTH, base) + aim.target - aim.base
+
+
+def _functional_mm(shape: Shape) -> float:
+    """The functional length; the length of a shape that has none."""
+    return measure_named("functional_length").value_of(shape).value or shape.length_mm
+
+
+def _gain_mm(shape: Shape, base: BaseLast) -> float:
+    """How much longer a changed base is along its bottom, which counts for the toe room."""
     names = ("functional_length", LENGTH, "heel_height", *LENGTHS)
     values = {name: measure_named(name).value_of(shape).value for name in names}
     measures = {
@@ -117,7 +131,7 @@ def _toe_room_length_mm(shape: Shape, base: BaseLast) -> float:
     }
     labels = base.record.labels
     last = ZoneShape(base.record.extent_mm, base.record.flare, measures, labels.heel_height_mm)
-    return (values["functional_length"] or shape.length_mm) + bottom_gain(last)[0]
+    return bottom_gain(last)[0]
 
 
 def probe_of(shape: Shape, measure: str) -> Probe:
@@ -189,7 +203,7 @@ class Carried:
     ``frame`` (4, 4) leads from the base's resting frame to its own.
     """
 
-    def __init__(self, known: Shape, frame: Floats | None = None) -> None:
+    def __init__(self, known: Shape, base: BaseLast, frame: Floats | None = None) -> None:
         assert known.bottom_arc is not None
         along, over = known.bottom_arc.shares(known.vertices_mm)
         middle = np.abs(known.vertices_mm[:, 1] - np.median(known.vertices_mm[:, 1])) < MIDDLE_MM
@@ -198,6 +212,7 @@ class Carried:
         self._along = known.bottom_arc.stands[0, :3]
         self._known = known
         self._frame = np.eye(4) if frame is None else frame
+        self._base, self._gain_mm = base, _gain_mm(known, base)
 
     def lying(self, vertices_mm: Floats) -> Floats:
         """Vertices (n, 3) of the base's resting frame as the known shape lies."""
@@ -224,19 +239,15 @@ class Carried:
         vars(shape)["stance"] = moved  # it need not be found
         return shape
 
-    def probe(self, vertices_mm: Floats, measure: str) -> Probe:
-        """What answers for a measure when moved vertices (n, 3) of the base move a little more."""
-        own = probe_of(self.shape(vertices_mm), measure)
+    def probes(self, vertices_mm: Floats, aims: Sequence[CustomAim]) -> list[Probe]:
+        """What answers for each aim when moved vertices (n, 3) of the base move a little more."""
+        shape = self.shape(vertices_mm)
+        return [self._lying_probe(probe_of(shape, aim.measure)) for aim in aims]
+
+    def _lying_probe(self, own: Probe) -> Probe:
         return Probe(own.rows, lambda points_mm: own.value(self.lying(points_mm)))
 
-
-def values_mm(
-    vertices_mm: Floats, carried: Carried, aims: Sequence[CustomAim], base: BaseLast
-) -> Floats:
-    """The aims' measures of a moved base, (aims,)."""
-    return aims_read(carried.shape(vertices_mm), aims, base)
-
-
-def aims_read(shape: Shape, aims: Sequence[CustomAim], base: BaseLast) -> Floats:
-    """The aims' measures of a shape, (aims,)."""
-    return np.array([value_mm(shape, aim.measure, base) for aim in aims])
+    def values_mm(self, vertices_mm: Floats, aims: Sequence[CustomAim]) -> Floats:
+        """The aims' measures (aims,) of moved vertices (n, 3) of the base."""
+        shape = self.shape(vertices_mm)
+        return np.array([value_mm(shape, aim.measure, self._base, self._gain_mm) for aim in aims])

@@ -9,11 +9,13 @@ from __future__ import annotations
 from collections.abc import Sequence
 from contextlib import nullcontext, suppress
 from dataclasses import dataclass, replace
+from functools import cached_property
 
 import numpy as np
 
 from footfit import results
 from footfit.errors import FootfitError
+from footfit.geometry.deform.chart import Chart
 from footfit.geometry.deform.field import Bump
 from footfit.geometry.deform.solver import Knob
 from footfit.geometry.measures.landmarks import Shape
@@ -31,16 +33,16 @@ from footfit.pipeline.last_making.custom.custom_field import (
     refuse_missed,
     with_room,
 )
-from footfit.pipeline.last_making.custom.custom_reading import Carried, aims_read
+from footfit.pipeline.last_making.custom.custom_reading import Carried, asked_mm, value_mm
 from footfit.pipeline.scan.align import aligned_scan
 from footfit.pipeline.scan.flare import profiled_scan
 from footfit.pipeline.scan.measure import last_record
 from footfit.pipeline.scan.preparation import prepared_scan, right_copy
 from footfit.pipeline.scan.reading import read
 from footfit.pipeline.scan.standing import stance_labels
-from footfit.results import LastLabels, SideName
+from footfit.results import LastLabels, PreparedScan, SideName
 
-SETTLED_MM = (0.1, 0.1, 0.1, 0.3, 0.3, 0.3)
+SETTLED_MM = (0.15, 0.15, 0.15, 0.3, 0.3, 0.3)
 """The finished last is made again if it reads so far from a target: by the tries before."""
 TURN_DEG = 2.5
 """The flare is turned in steps of at most so much; each step begins where the last one ended."""
@@ -48,11 +50,12 @@ TURN_DEG = 2.5
 
 @dataclass(frozen=True, slots=True)
 class Given:
-    """What all tries at a custom last have: the base, the side and name of the new last, the turn
-    of the flare, and whether the bottom keeps its outline.
+    """What all tries at a custom last have: the base and its chart, the side and name of the new
+    last, the turn of the flare, and whether the bottom keeps its outline.
     """
 
     base: BaseLast
+    chart: Chart
     side: SideName
     name: str
     turn_deg: float
@@ -61,21 +64,33 @@ class Given:
 
 @dataclass(frozen=True)
 class MadeLast:
-    """A custom last as its file has it: the record, the right shape, and the file's vertices.
+    """A custom last as its file has it.
 
-    ``frame`` (4, 4) takes right vertices of the base's frame to the shape's canonical right frame.
+    ``prepared`` is the file as it was read again, ``vertices_mm`` and ``faces`` are those of the
+    file; ``frame`` (4, 4) takes right vertices of the base's frame to the shape's canonical right
+    frame.
     """
 
-    record: results.LastRecord
-    shape: Shape
+    prepared: PreparedScan
+    labels: LastLabels
     vertices_mm: Floats
     faces: Ints
     frame: Floats
 
     @property
+    def shape(self) -> Shape:
+        """The right shape."""
+        return self.prepared.shape
+
+    @cached_property
+    def record(self) -> results.LastRecord:
+        """The record, with every measure and the flare."""
+        return last_record(profiled_scan(aligned_scan(self.prepared)), self.labels)
+
+    @property
     def to_file(self) -> Floats:
         """From the shape's canonical right frame to the axes of the file, (4, 4)."""
-        return np.asarray(mirror_of(self.record.side.side) @ np.linalg.inv(self.frame))
+        return np.asarray(mirror_of(self.prepared.side.side) @ np.linalg.inv(self.frame))
 
     def carried(self, base: BaseLast, vertices_mm: Floats) -> Carried:
         """How bases that are changed a little otherwise lie and stand; ``vertices_mm`` (n, 3) are
@@ -84,7 +99,7 @@ class MadeLast:
         lying_mm = vertices_mm @ self.frame[:3, :3].T + self.frame[:3, 3]
         known = Shape(lying_mm, base.shape.faces, "last", self.shape.labels)
         vars(known)["stance"] = self.shape.stance
-        return Carried(known, self.frame)
+        return Carried(known, base, self.frame)
 
 
 @dataclass(frozen=True)
@@ -116,7 +131,9 @@ def attempt_at(given: Given, aims: Sequence[CustomAim], first: Attempt | None = 
         A target is missed, or lies beyond the limits of stretch.
     """
     base, knobs = given.base, first.shape.solved.knobs if first else ()
-    carried = first.made.carried(base, first.shape.vertices_mm) if first else Carried(base.shape)
+    carried = (
+        first.made.carried(base, first.shape.vertices_mm) if first else Carried(base.shape, base)
+    )
     steps = 1 if first else max(1, int(np.ceil(abs(given.turn_deg) / TURN_DEG)))
     for step in range(1, steps):
         turned = _tried(given, aims, step / steps, carried, knobs)
@@ -144,7 +161,7 @@ def _tried(
     knobs: Sequence[Knob],
 ) -> Attempt:
     """One try, with a share of the turn."""
-    start = first_field(given.base, share * given.turn_deg, bottom_kept=given.bottom_kept)
+    start = first_field(given.chart, share * given.turn_deg, bottom_kept=given.bottom_kept)
     shape = custom_shape(given.base, aims, start, carried, knobs)
     made = made_last(given.base, shape.vertices_mm, given.side, given.name)
     off_mm = _off_mm(given.base, aims, made)
@@ -153,8 +170,8 @@ def _tried(
 
 def _off_mm(base: BaseLast, aims: Sequence[CustomAim], made: MadeLast) -> Floats:
     """How far a finished last reads from each firm target, (aims,)."""
-    grown = aims_read(made.shape, aims, base) - aims_read(base.shape, aims, base)
-    off = grown - np.array([aim.target - aim.base for aim in aims])
+    asked = np.array([asked_mm(aim, base) for aim in aims])
+    off = np.array([value_mm(made.shape, aim.measure, base) for aim in aims]) - asked
     off = np.where(np.isnan(off), np.inf, off)
     return np.where([aim.firm for aim in aims], off, 0.0)
 
@@ -196,10 +213,9 @@ def made_last(base: BaseLast, vertices_mm: Floats, side: SideName, name: str) ->
         platform_mm=old.platform_mm,
     )
     prepared = prepared_scan(replace(scan, pose=pose), side, labels=stance_labels(labels))
-    record = last_record(profiled_scan(aligned_scan(prepared)), labels)
     mirror = mirror_of(side)
     frame = mirror @ prepared.canonical_transform @ mirror
-    return MadeLast(record, prepared.shape, vertices_mm, faces, np.asarray(frame, np.float64))
+    return MadeLast(prepared, labels, vertices_mm, faces, np.asarray(frame, np.float64))
 
 
 def mirror_of(side: SideName | None) -> Floats:

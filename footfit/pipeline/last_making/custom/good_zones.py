@@ -7,13 +7,14 @@ from dataclasses import replace
 
 from footfit.pipeline.last_making.custom.custom_aims import (
     BALL_LENGTH,
+    HEEL_GIRTH,
+    MOST_BALL_MM,
     PULLED,
     WIDTHS,
     CustomAim,
     CustomQuestion,
     inner_good,
 )
-from footfit.pipeline.last_making.custom.custom_field import CUSTOM
 from footfit.pipeline.last_making.custom.custom_reading import value_mm
 from footfit.pipeline.last_making.custom.custom_tries import Attempt, Given
 from footfit.results import JudgedZone, Notice, Profiled, Verdict
@@ -27,7 +28,7 @@ PRESSED = (PRESSABLE, PRESSABLE, (BALL_LENGTH,))
 """What is pressed: all that can be; what is then no longer good; or else the ball's place alone."""
 WHY = {
     "length": "the toe room is kept, because a longer or shorter toe box would fit worse",
-    "ball_line": f"the forepart keeps its length, but for {CUSTOM.ball_mm:g} mm",
+    "ball_line": f"the forepart keeps its length, but for {MOST_BALL_MM:g} mm",
     "ball_girth": "its section keeps the shape that the base has: the least tape has its target",
     "instep_girth": "its section keeps the shape that the base has: the least tape has its target",
     "short_heel_girth": "the bottom, the back and the top stay, and nearly set it",
@@ -64,7 +65,7 @@ def pressed_aims(
     rules = {rule.zone: rule for rule in question.profile.zones}
     more_mm = {}
     for zone in not_good(judged):
-        if zone.custom is not None:
+        if zone.custom is not None and (zone.name != HEEL_GIRTH or zone.base_verdict == "good"):
             rule = rules[zone.name]
             off = inner_good(rule, zone.custom - zone.target)
             if zone.name == "ball_line" or abs(off) <= NEAR * (rule.good[1] - rule.good[0]):
@@ -85,7 +86,7 @@ def _pressed(given: Given, attempt: Attempt, aim: CustomAim, more_mm: float) -> 
     grown_mm = value_mm(attempt.made.shape, aim.measure, base) + more_mm
     grown_mm -= value_mm(base.shape, aim.measure, base)
     if aim.measure == BALL_LENGTH:
-        grown_mm = min(max(grown_mm, -CUSTOM.ball_mm), CUSTOM.ball_mm)
+        grown_mm = min(max(grown_mm, -MOST_BALL_MM), MOST_BALL_MM)
     return replace(aim, target=aim.base + grown_mm, firm=True, pressed=True)
 
 
