@@ -37,6 +37,7 @@ from footfit.pipeline.last_making.custom.custom_making import Making, customised
 from footfit.pipeline.last_making.custom.custom_reading import Carried, tape_plane
 from footfit.results import CustomLast, Profiled
 from tests import custom_judge
+from tests.self_intersection import welded
 from tools.last_specs import wide
 from tools.lasts import last_mesh
 
@@ -170,7 +171,7 @@ def judged(pair: Pair, custom: CustomLast, *, full: bool) -> dict[str, float]:
     again = footfit.measure(data, units="mm", side="right")
     read = {row.name: row.measured.value or np.nan for row in again.measures}
     off = {name: abs(read[name] - zone["target"]) for name, zone in zones.items()}
-    corners = custom_judge.welded(*custom_judge.stl_mesh(data))[1]
+    corners = welded(*custom_judge.stl_mesh(data))[1]
     rows = {
         "girths in their planes, mm": max(map(abs, girths.values())),
         "least girths by brute force, mm": max(map(abs, least.values())),
@@ -201,7 +202,8 @@ def _rank(pair: Pair, custom: CustomLast, data: bytes) -> float:
     with tempfile.TemporaryDirectory() as folder:
         path = Path(folder) / "lasts.footfit"
         with footfit.open_catalogue(path) as catalogue:
-            for name, mesh in (("custom", data), ("base", (base.vertices_mm, base.faces))):
+            meshes: dict[str, Any] = {"custom": data, "base": (base.vertices_mm, base.faces)}
+            for name, mesh in meshes.items():
                 labels = replace(custom.record.labels, name=name)
                 catalogue.ingest([mesh], labels=labels, units="mm", side="right")
             vertices_mm, faces = pair.foot.aligned.vertices_mm, pair.foot.aligned.faces

@@ -6,19 +6,32 @@ import json
 import os
 import subprocess
 import sys
+from dataclasses import replace
 from functools import cache
 
 import numpy as np
 import pytest
 
 import footfit
+from footfit.errors import OutOfReach
+from footfit.geometry.deform.chart import chart_of
+from footfit.geometry.deform.field import Field
+from footfit.geometry.deform.solver import Solution
+from footfit.geometry.measures.landmarks import Shape
 from footfit.meshes.write import encoded_mesh
+from footfit.pipeline.fit.fit_profile import fit_profile
+from footfit.pipeline.fit.heel_model import heel_question
+from footfit.pipeline.last_making.custom.custom_aims import CustomAim, CustomQuestion
+from footfit.pipeline.last_making.custom.custom_field import CustomShape, refuse_missed
+from footfit.pipeline.last_making.custom.good_zones import zone_notices
 from footfit.report.page.custom_page import custom_page
 from footfit.report.terminal.custom_tables import custom_table
 from footfit.report.terminal.scan_tables import terminal_text
+from footfit.results import JudgedZone
+from footfit.results.worn import BAREFOOT
 from tests import shapes
 from tests.conftest import ROOT, Footfit
-from tests.custom_judge import girth_misses, least_misses, mesh_changes
+from tests.custom_judge import girth_misses, kept_moves, least_misses, mesh_changes
 from tests.customs import custom_last
 from tests.distortions import random_pose
 from tests.self_intersection import self_intersections
@@ -142,22 +155,78 @@ def test_room_keep_bottom_and_flare() -> None:
     assert abs(by_name["instep_girth_least"].room) < 0.1
     gap = roomy.vertices_mm - custom().vertices_mm
     assert gap[:, 1].max() == pytest.approx(4.0, abs=0.3)
-    note = next(each.message for each in made.warnings if each.code == "not_good")
-    assert note.endswith("toe, flare, top and bottom outline")
+    off = [abs(zone.reached - zone.target) for zone in made.zones if not zone.follows]
+    assert max(off) < 0.3
 
 
 def test_targets_are_met_with_a_turned_flare_and_room_comes_on_top() -> None:
-    """A turned flare moves the joints, so the finished last needs more tries than two."""
-    made = custom(flare_follow=0.6)
-    off = [abs(zone.reached - zone.target) for zone in made.zones if not zone.follows]
-    said = [each for each in made.warnings if each.code == "target_missed"]
-    assert len(said) == sum(each > 0.3 for each in off)
-    assert max(off) < CLOSE_MM
+    """A turned flare moves the joints and the frame, so it is turned in steps."""
+    for follow in (1.0, 0.6):
+        made = custom(flare_follow=follow)
+        off = [abs(zone.reached - zone.target) for zone in made.zones if not zone.follows]
+        assert max(off) < 0.3
     (roomy,) = footfit.customise(foot(), base(), flare_follow=0.6, room_mm={"ball-medial": 4.0})
     gap = np.linalg.norm(roomy.vertices_mm - made.vertices_mm, axis=1)
     assert gap.max() == pytest.approx(4.0, abs=0.1)
     width = next(zone for zone in roomy.zones if zone.name == "ball_width")
-    assert width.room == pytest.approx(4.0, abs=0.5)
+    assert 2.4 < width.room < 4.5  # the joints lie askew, and the forepart is turned by 4 degrees
+
+
+def test_a_zone_that_is_not_good_is_named_with_its_reason() -> None:
+    zones = [
+        JudgedZone("length", "toe room", "mm", 14.0, 14.0, "good", 14.0, "good"),
+        JudgedZone("toes", "toes", "mm", -1.0, -3.0, "good", -5.0, "acceptable"),
+        JudgedZone("flare", "flare", "deg", 0.0, -12.0, "acceptable", -12.0, "acceptable"),
+        JudgedZone("heel_width", "heel width", "mm", -2.0, 3.0, "poor", 3.0, "poor"),
+    ]
+    asked = CustomQuestion(fit_profile("walking"), heel_question(), BAREFOOT)
+    (notice,) = zone_notices(zones, asked)
+    assert notice.message.startswith("not good in toes (the toe keeps its shape), flare (")
+    assert "--flare-follow" in notice.message
+    (kept,) = zone_notices(zones[3:], replace(asked, bottom_kept=True))
+    assert "--keep bottom" in kept.message
+    assert zone_notices(zones[:1], asked) == ()
+
+
+def test_the_ball_line_of_a_customer_stays_good() -> None:
+    """It was 2.2 % too far forward when the forepart was not pressed."""
+    last = ROOT / "sample_data" / "lasts" / "derby-43.stl"
+    (made,) = footfit.customise(str(FOOT.with_name("mh008_R.stl")), str(last))
+    assert made.verdict == "good"
+    assert not made.warnings
+
+
+def test_a_miss_is_refused_and_names_the_measure() -> None:
+    made = custom()
+    aims = [CustomAim("length", "length", 260.0, 262.0), CustomAim("waist_girth", "", 230.0, 226.0)]
+    shape = changed_shape(made)
+    refuse_missed(aims, np.array([0.29, -0.49]), shape, 0.0)
+    with pytest.raises(OutOfReach, match=r"length .* nearest is 262\.3 mm, not 262\.0 mm"):
+        refuse_missed(aims, np.array([0.31, 0.49]), shape, 0.0)
+    with pytest.raises(OutOfReach, match=r"waist girth .* with the flare turned by 3\.0 deg"):
+        refuse_missed(aims, np.array([0.0, 0.51]), shape, 3.0)
+
+
+def changed_shape(made) -> CustomShape:
+    """A shape within all limits."""
+    chart = chart_of(Shape(*base(), "last"))
+    solved = Solution(Field.still(chart), (), made.vertices_mm, np.zeros(2), 0)
+    return CustomShape(solved, made.vertices_mm, 1.0)
+
+
+def test_the_judge_of_what_is_kept_sees_what_moved() -> None:
+    """A last that is raised at its toe, and swollen behind, by 1 mm."""
+    vertices, faces = base()
+    up = np.array([0.0, 0.0, 1.0])
+    still = kept_moves(vertices, vertices, faces, up)
+    assert max(still.values()) < 1e-9
+    share = (vertices[:, 0] - vertices[:, 0].min()) / np.ptp(vertices[:, 0])
+    raised = vertices + (share > 0.95)[:, None] * up
+    assert kept_moves(vertices, raised, faces, up)["toe spring"] == pytest.approx(1.0, abs=0.01)
+    swollen = vertices - (share < 0.1)[:, None] * np.array([1.0, 0.0, 0.0])
+    assert kept_moves(vertices, swollen, faces, up)["back curve"] == pytest.approx(1.0, abs=0.1)
+    lifted = vertices + 1.0 * (vertices[:, 2] > 0.6 * vertices[:, 2].max())[:, None] * up
+    assert kept_moves(vertices, lifted, faces, up)["top plane"] == pytest.approx(1.0, abs=0.01)
 
 
 def test_the_file_is_written_though_nobody_reads_the_answer(tmp_path) -> None:

@@ -19,6 +19,8 @@ from footfit.results.last_making.custom_last import CustomLast
 
 TRIED = 3
 """So many of the best lasts are tried before a foot is refused."""
+HEEL_MM = 6.0
+"""Lasts whose heels differ by less have the same heel: a better base of that heel comes first."""
 LOOKED_AT = 20
 """Among so many of the best lasts those that were not made for a customer come first."""
 
@@ -96,19 +98,38 @@ def customised_from(
     try:
         return customised(foot, base, making, side)
     except OutOfReach as error:
-        better = None if path is None else _better_base(foot, path, making, base.name)
-        lower = "; try a lower --flare-follow" if making.question.flare_follow else ""
-        words = f"; use --base {better}" if better else lower
+        better = None if path is None else _better_base(foot, path, making, base)
+        turned = "; try a lower --flare-follow" if making.question.flare_follow else ""
+        words = (
+            turned if better is None else f"; use --base {better.name}{_heel_words(better, base)}"
+        )
         raise OutOfReach(f"{error.message}{words}", base.name) from error
 
 
-def _better_base(foot: Profiled, path: Location, making: Making, without: str) -> str | None:
-    """Another last that can be changed to fit; None if there is none."""
+def _better_base(foot: Profiled, path: Location, making: Making, base: BaseLast) -> BaseLast | None:
+    """Another last that can be changed to fit, best one of the same heel; None if there is none."""
     with suppress(FootfitError):
-        for base in best_bases([foot], path, making, without):
+        others = list(best_bases([foot], path, making, base.name))
+        for other in sorted(
+            others, key=lambda other: abs(_heel_mm(other) - _heel_mm(base)) > HEEL_MM
+        ):
             with suppress(OutOfReach):
-                return customised(foot, base, making).base
+                customised(foot, other, making)
+                return other
     return None
+
+
+def _heel_words(better: BaseLast, base: BaseLast) -> str:
+    """That a better base has another heel, if it has."""
+    if abs(_heel_mm(better) - _heel_mm(base)) <= HEEL_MM:
+        return ""
+    return f", whose heel is {_heel_mm(better):.0f} mm high, not {_heel_mm(base):.0f} mm"
+
+
+def _heel_mm(base: BaseLast) -> float:
+    """How high the heel of a last is by its label, or as it was measured."""
+    record = base.record
+    return record.labels.heel_height_mm or record.value_of("heel_height") or 0.0
 
 
 def store_custom_last(path: Location, custom: CustomLast, *, replaces: bool = False) -> None:

@@ -114,8 +114,13 @@ ROOM_PLACES: dict[str, tuple[float, Floats]] = {
 """Where room can be given: about where along the arc, and towards which side."""
 
 
-def room_bumps(base: Shape, chart: Chart, rooms_mm: Mapping[str, float]) -> tuple[Bump, ...]:
+def room_bumps(
+    base: Shape, chart: Chart, rooms_mm: Mapping[str, float], lying_mm: Floats
+) -> tuple[Bump, ...]:
     """The swellings of the places that are given room.
+
+    ``lying_mm`` (n, 3) is the changed base in its own canonical frame: a place is where that is
+    outermost.
 
     Raises
     ------
@@ -132,7 +137,7 @@ def room_bumps(base: Shape, chart: Chart, rooms_mm: Mapping[str, float]) -> tupl
             raise BadOption(f"--room {name} takes up to {CUSTOM.room_mm:g} mm, not {size_mm:g}")
         share, outward = ROOM_PLACES[name]
         near = np.flatnonzero((np.abs(along - share) < 0.04) & ((over < 0.16) | (outward[2] > 0)))
-        centre = standing[near[np.argmax(standing[near] @ outward)]]
+        centre = standing[near[np.argmax(lying_mm[near] @ outward)]]
         bumps.append(Bump(centre, outward, CUSTOM.room_radius * chart.arc.length_mm, size_mm))
     return tuple(bumps)
 

@@ -83,7 +83,7 @@ def customised(
         raise OutOfReach("no measure of the foot can be compared with the base: scan it again")
     refuse_far(aims, base)
     chart = chart_of(base.shape)
-    bumps = room_bumps(base.shape, chart, making.rooms_mm)
+    room_bumps(base.shape, chart, making.rooms_mm, base.shape.vertices_mm)  # are they known?
     own: SideName = foot.aligned.alignment.side.side or "right"
     given = Given(base, chart, side or own, making.name, _flare_turn_deg(foot, base, making))
     given = replace(given, bottom_kept=question.bottom_kept)
@@ -113,7 +113,9 @@ def customised(
             mended = answer(other)
             if faults(mended.judged) < faults(made.judged):
                 attempt, made = other, mended
-    if bumps:  # room is given on top of the targets, which are met without it
+    if making.rooms_mm:  # room is given on top of the targets, which are met without it
+        lying_mm = attempt.made.lying(attempt.shape.vertices_mm)
+        bumps = room_bumps(base.shape, chart, making.rooms_mm, lying_mm)
         made = answer(with_bumps(given, attempt, bumps))
     return replace(made, warnings=(*made.warnings, *notices))
 

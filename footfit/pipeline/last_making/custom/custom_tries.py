@@ -20,6 +20,7 @@ from footfit.geometry.deform.field import Bump
 from footfit.geometry.deform.solver import Knob
 from footfit.geometry.measures.landmarks import Shape
 from footfit.geometry.numeric.arrays import Floats, Ints
+from footfit.geometry.numeric.rotations import moved_points
 from footfit.geometry.search.pose_search import RoughPose
 from footfit.meshes.write import encoded_mesh
 from footfit.pipeline.batch.sources import ReadingOptions, Source
@@ -92,12 +93,15 @@ class MadeLast:
         """From the shape's canonical right frame to the axes of the file, (4, 4)."""
         return np.asarray(mirror_of(self.prepared.side.side) @ np.linalg.inv(self.frame))
 
+    def lying(self, vertices_mm: Floats) -> Floats:
+        """Right vertices (n, 3) of the base's frame in the last's canonical frame."""
+        return moved_points(self.frame, vertices_mm)
+
     def carried(self, base: BaseLast, vertices_mm: Floats) -> Carried:
         """How bases that are changed a little otherwise lie and stand; ``vertices_mm`` (n, 3) are
         the right ones that it was made of, in the base's frame.
         """
-        lying_mm = vertices_mm @ self.frame[:3, :3].T + self.frame[:3, 3]
-        known = Shape(lying_mm, base.shape.faces, "last", self.shape.labels)
+        known = Shape(self.lying(vertices_mm), base.shape.faces, "last", self.shape.labels)
         vars(known)["stance"] = self.shape.stance
         return Carried(known, base, self.frame)
 
