@@ -101,12 +101,12 @@ def custom_aims(foot: Profiled, base: BaseLast, question: CustomQuestion) -> tup
     if "ball_line" in off:
         aims += _ball_line(foot, base, rules, judged.heels)
     aims += _girths(foot, base, rules, judged.heels)
-    for name in (*WIDTHS, *PULLED):
+    for name in PULLED if question.bottom_kept else (*WIDTHS, *PULLED):
         own, stored = measure_named(name).value_of(base.shape).value, base.record.value_of(name)
         if own is not None and stored is not None and name in off:
             allowance = rules[name].target + rules[name].cavity
             target = stored + off[name]
-            firm = name in WIDTHS and not question.bottom_kept
+            firm = name in WIDTHS
             if name in PULLED:  # where its least tape brings it, if that is good
                 grown = sum(a.target - a.base for a in aims if a.measure == f"{name}_least")
                 target = own + grown - inner_good(rules[name], stored + grown - target)

@@ -10,7 +10,6 @@ from footfit.pipeline.last_making.custom.custom_aims import (
     HEEL_GIRTH,
     MOST_BALL_MM,
     PULLED,
-    WIDTHS,
     CustomAim,
     CustomQuestion,
     inner_good,
@@ -23,7 +22,7 @@ NEAR = 0.5
 """A clearance that is farther outside of its good range, over the width of that, is not pressed;
 the ball line comes as near as the ball may move."""
 VERDICTS: tuple[Verdict, ...] = ("good", "acceptable", "poor", "reject")
-PRESSABLE = (BALL_LENGTH, *WIDTHS, *PULLED)
+PRESSABLE = (BALL_LENGTH, *PULLED)
 PRESSED = (PRESSABLE, PRESSABLE, (BALL_LENGTH,))
 """What is pressed: all that can be; what is then no longer good; or else the ball's place alone."""
 WHY = {
