@@ -7,7 +7,6 @@ from dataclasses import replace
 
 from footfit.pipeline.last_making.custom.custom_aims import (
     BALL_LENGTH,
-    HEEL_GIRTH,
     MOST_BALL_MM,
     PULLED,
     CustomAim,
@@ -64,7 +63,7 @@ def pressed_aims(
     rules = {rule.zone: rule for rule in question.profile.zones}
     more_mm = {}
     for zone in not_good(judged):
-        if zone.custom is not None and (zone.name != HEEL_GIRTH or zone.base_verdict == "good"):
+        if zone.custom is not None:
             rule = rules[zone.name]
             off = inner_good(rule, zone.custom - zone.target)
             if zone.name == "ball_line" or abs(off) <= NEAR * (rule.good[1] - rule.good[0]):
