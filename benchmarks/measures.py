@@ -144,11 +144,11 @@ def repeat_rows(found: Findings, kind: str) -> Iterator[list[str]]:
         spread = [f"{rms(moved[change]):.2f}" for change in CHANGES]
         asked = [value for change in ASKED for value in moved[change]]
         p95 = float(np.percentile(np.abs(asked), 95))
-        bound = BOUNDS_MM.get(entry.name)
+        bound, sd = BOUNDS_MM.get(entry.name), f"{entry.sd_of(kind):g}"
         lost = found.lost[kind, entry.name]
         yield [
             entry.name, str(len(every)), *spread, f"{rms(every):.2f}", f"{p95:.2f}",
-            "" if bound is None else f"{bound:g}", str(lost) if lost else "", f"{entry.sd:g}",
+            "" if bound is None else f"{bound:g}", str(lost) if lost else "", sd,
         ]  # fmt: skip
 
 

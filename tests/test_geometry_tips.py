@@ -7,7 +7,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from footfit.geometry.mesh.outermost_point import TIPS, share_over, tip
+from footfit.geometry.mesh.outermost_point import LAST_TIPS, TIPS, TipSettings, share_over, tip
 from tests import shapes
 from tests.bounds import EXACT, ROUNDING
 from tests.distortions import random_rotation, subdivided, white_noise
@@ -16,12 +16,13 @@ from tests.strategies import seeds
 LENGTH_MM = 250.0
 
 
-@settings(max_examples=15, deadline=None)
+@pytest.mark.parametrize("law", [TIPS, LAST_TIPS])
+@settings(max_examples=10, deadline=None)
 @given(seeds)
-def test_the_reach_of_a_sphere_is_its_radius(seed: int) -> None:
+def test_the_reach_of_a_sphere_is_its_radius(law: TipSettings, seed: int) -> None:
     vertices, faces = shapes.sphere(40.0, 4)
     direction = random_rotation(np.random.default_rng(seed))[0]
-    found = tip(vertices, faces, direction, LENGTH_MM)
+    found = tip(vertices, faces, direction, LENGTH_MM, law)
     # an inscribed mesh of 5 mm edges lies up to e^2 / 6 r = .1 mm inside
     assert found.reach == pytest.approx(40.0, abs=0.06)
     assert np.linalg.norm(np.cross(found.place, direction)) < 0.02
@@ -38,6 +39,19 @@ def test_noise_moves_the_outermost_vertex_and_not_the_tip() -> None:
     assert vertex > 0.4
     assert abs(found.mean()) < 0.035  # measured 0.023
     assert np.sqrt(np.mean(found**2)) < 0.09  # measured 0.059
+
+
+@pytest.mark.parametrize("turn_deg", [15.0, 30.0, 45.0])
+def test_the_reach_over_an_edge_is_nearer_by_a_parabola(turn_deg: float) -> None:
+    # a disc's rim, seen aslant, as the toe of a heeled last is
+    tube, faces = shapes.cylinder(45.0, 60.0, 360, 80)
+    turn = np.radians(turn_deg)
+    direction = np.array([np.cos(turn), 0.0, np.sin(turn)])
+    outermost = float((tube @ direction).max())
+    by_line, by_parabola = (
+        outermost - tip(tube, faces, direction, LENGTH_MM, law).reach for law in (TIPS, LAST_TIPS)
+    )
+    assert 0.0 <= by_parabola < 0.6 * by_line
 
 
 def test_the_reach_of_a_flat_wall_is_the_wall() -> None:
@@ -65,8 +79,8 @@ def test_a_shallower_cap_lies_nearer_to_the_top_of_a_lopsided_outline(lopsided: 
     outward = -np.square(x) / 300.0 + lopsided * x**3 - np.square(z) / 80.0
     vertices = np.column_stack([x, outward, z])
     deep, shallow = (
-        tip(vertices, faces, np.array([0.0, 1.0, 0.0]), LENGTH_MM, cap).place[0]
-        for cap in (0.012, 0.006)
+        tip(vertices, faces, np.array([0.0, 1.0, 0.0]), LENGTH_MM, settings).place[0]
+        for settings in (TIPS, LAST_TIPS)
     )
     assert abs(shallow) <= 0.55 * abs(deep) + ROUNDING  # it grows as the depth does
     assert np.sign(deep.round(6)) == np.sign(lopsided)

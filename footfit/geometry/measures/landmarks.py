@@ -18,7 +18,7 @@ from footfit.geometry.measures.bottom_arc import BottomArc, bottom_arc
 from footfit.geometry.measures.tape import Crown, convex_hull, depth_under_hull
 from footfit.geometry.measures.top_cut import top_cut_faces
 from footfit.geometry.mesh.filled_holes import filled_faces
-from footfit.geometry.mesh.outermost_point import Tip, tip
+from footfit.geometry.mesh.outermost_point import LAST_TIPS, TIPS, Tip, TipSettings, tip
 from footfit.geometry.mesh.outlines import OUTLINES, Outline, OutlineSettings, outline
 from footfit.geometry.numeric.arrays import Bools, Floats, Ints
 from footfit.geometry.stance.cues import NO_LABELS, StanceLabels
@@ -36,7 +36,6 @@ class LandmarkSettings:
     width_height: float = 0.20  # over the floor; above it ankles may stand out
     inner_joint: tuple[float, float] = (0.60, 0.82)  # MT1 of a foot lies at .72, MT5 at .63
     outer_joint: tuple[float, float] = (0.52, 0.76)
-    cap: tuple[float, float] = (0.012, 0.006)  # of a foot, a last: a place is its cap's middle
     joint_edge: float = 0.008  # a joint this close to the edge of its search window is rejected
     instep: float = 0.50
     cone: float = 0.15  # a place on a last's cone
@@ -88,8 +87,13 @@ class Shape:
     def ends(self) -> tuple[Tip, Tip]:
         """The rearmost point of the heel (its reach towards -X) and the foremost of the toes."""
         rough_mm = self._rough_length_mm
-        rear = tip(self.vertices_mm, self._heel, -AXES[0], rough_mm)
-        return rear, tip(self.vertices_mm, self.low, AXES[0], rough_mm)
+        rear = tip(self.vertices_mm, self._heel, -AXES[0], rough_mm, self.tips)
+        return rear, tip(self.vertices_mm, self.low, AXES[0], rough_mm, self.tips)
+
+    @property
+    def tips(self) -> TipSettings:
+        """How its outermost points are found."""
+        return LAST_TIPS if self.kind == "last" else TIPS
 
     @cached_property
     def _heel(self) -> Ints:
@@ -204,21 +208,12 @@ class Shape:
         faces = self.faces[a | b | c]  # coarse triangles at the window's ends count too
         if not len(faces):
             return None
-        outermost = self._tip(faces, side * AXES[1])
+        outermost = tip(self.vertices_mm, faces, side * AXES[1], self.length_mm, self.tips)
         filled = faces[self.filled[a | b | c]]
         beside_mm = (side * self.vertices_mm[filled, 1]).max(initial=-np.inf)
         if beside_mm > outermost.reach - LANDMARKS.filled_beside * self.length_mm:
             return None
         return np.array([outermost.place[0], side * outermost.reach, outermost.place[2]])
-
-    def _tip(self, faces: Ints, direction: Floats) -> Tip:
-        """The outermost point of faces (k, 3), whose place serves as a landmark.
-
-        The cap of a last is half as deep: its triangles are small and its outline is smooth. On a
-        lopsided outline the middle of a cap lies off its top, the farther the deeper the cap is.
-        """
-        cap = LANDMARKS.cap[self.kind == "last"]
-        return tip(self.vertices_mm, faces, direction, self.length_mm, cap)
 
     # ------------------------------------------------------------ what was not scanned
 

@@ -36,7 +36,8 @@ class AlongSettings:
     The wall of the heel's back is read at heights over the bottom (``wall``) up to ``wall_deep``
     from the rearmost place, over the length; its faces look back by ``wall_back`` in plan.
     Where the bottom lies less than ``tread_height`` of the standing length over the ground, it is
-    tread; it is read at ``tread_points`` places from ``tread_reach``.
+    tread; it is read at ``tread_points`` places from ``tread_reach``. A second scan of a last
+    moves such a height by ``tread_noise``, and the tread's ends by what this makes of it.
     """
 
     line_window: tuple[float, float] = (0.06, 0.965)
@@ -46,6 +47,8 @@ class AlongSettings:
     wall_deep: float = 0.12
     wall_back: float = 0.7
     tread_height: float = 0.002
+    tread_noise: float = 0.0004
+    tread_least_sd_mm: float = 0.3
     tread_reach: tuple[float, float] = (0.40, 0.95)
     tread_points: int = 276
     bandwidth: float = 0.012
@@ -74,7 +77,8 @@ def functional_length(shape: Shape) -> MeasureValue:
     distance = 0.0
     for _ in range(TURNS):
         direction = (end - start) / np.hypot(*(end - start))
-        toe = tip(shape.vertices_mm, fore, np.array([*direction, 0.0]), shape.length_mm)
+        outward = np.array([*direction, 0.0])
+        toe = tip(shape.vertices_mm, fore, outward, shape.length_mm, shape.tips)
         distance = toe.reach - float(start @ direction)
         end = toe.place[:2]
     return MeasureValue(distance)
@@ -107,8 +111,8 @@ def stick_length(shape: Shape) -> MeasureValue:
         return MeasureValue(None, OPEN_BOTTOM)
     along, up = shape.stance.standing_transform[:3, :3][[0, 2]]
     low = _low_faces(shape, shape.stance)
-    rear = tip(shape.vertices_mm, low, -along, shape.length_mm)
-    front = tip(shape.vertices_mm, low, along, shape.length_mm)
+    rear = tip(shape.vertices_mm, low, -along, shape.length_mm, shape.tips)
+    front = tip(shape.vertices_mm, low, along, shape.length_mm, shape.tips)
     rise_mm = float((front.place - rear.place) @ up)
     return MeasureValue(
         rear.reach + front.reach, convention_sd=abs(rise_mm) * shape.stance.ground_sd
@@ -237,17 +241,23 @@ def _tread_end(shape: Shape, end: int) -> MeasureValue:
     known, height_mm = stance.middle_mm[:, 0] / stance.length_mm, stance.middle_mm[:, 1]
     over = local_quadratic(place, known, ALONG.bandwidth)[0] @ height_mm / stance.length_mm
     tilt = place - stance.touching_x_mm / stance.length_mm
+    height = ALONG.tread_height
     value, low, high = (
-        _low_stretch(place, over - by * tilt)[end] * stance.length_mm
+        _low_stretch(place, over - by * tilt, height)[end] * stance.length_mm
         for by in (0.0, -stance.ground_sd, stance.ground_sd)
     )
-    return MeasureValue(value, convention_sd=0.5 * abs(high - low))
+    under, above = (
+        _low_stretch(place, over, height + by)[end] * stance.length_mm
+        for by in (-ALONG.tread_noise, ALONG.tread_noise)
+    )
+    sd = max(0.5 * abs(above - under), ALONG.tread_least_sd_mm)
+    return MeasureValue(value, convention_sd=0.5 * abs(high - low), sd=sd)
 
 
-def _low_stretch(place: Floats, over: Floats) -> tuple[float, float]:
-    """From where to where a curve about its lowest place is lower than the tread's height."""
+def _low_stretch(place: Floats, over: Floats, height: float) -> tuple[float, float]:
+    """From where to where a curve about its lowest place is no more than a height over it."""
     lowest = int(np.argmin(over))
-    high = over - over[lowest] > ALONG.tread_height
+    high = over - over[lowest] > height
     ends = []
     for side, step in ((np.flatnonzero(high[:lowest])[::-1], 1), (np.flatnonzero(high), -1)):
         beyond = side[side > lowest] if step < 0 else side
@@ -256,6 +266,6 @@ def _low_stretch(place: Floats, over: Floats) -> tuple[float, float]:
             continue
         pair = [int(beyond[0]), int(beyond[0]) + step]
         rise = over[pair] - over[lowest]
-        share = (ALONG.tread_height - rise[1]) / (rise[0] - rise[1])
+        share = (height - rise[1]) / (rise[0] - rise[1])
         ends.append(float(place[pair[1]] + share * (place[pair[0]] - place[pair[1]])))
     return ends[0], ends[1]

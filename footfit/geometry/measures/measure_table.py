@@ -62,7 +62,8 @@ class MeasureDefinition:
 
     The docstring of ``value_of`` is the definition, and ``version`` counts its changes. ``sd`` is
     the repeatability of the whole way from a scan, in any pose, with noise or ripple of 0.3 mm, or
-    with a quarter of the faces (benchmarks/measures.py). ``foot`` and ``last`` are the trueness of
+    with a quarter of the faces (benchmarks/measures.py); ``last_sd`` is that of a last, if it
+    differs: its surface is smoother. ``foot`` and ``last`` are the trueness of
     each kind (benchmarks/trueness.py). ``usual_mm`` in mm, or ``usual_share``
     over the length, is the range of the feet of a survey's 6,068 people [ansur2].
     """
@@ -75,6 +76,7 @@ class MeasureDefinition:
     last: Trueness = NO_VALUE
     usual_mm: tuple[float, float] | None = None
     usual_share: tuple[float, float] | None = None
+    last_sd: float | None = None
 
     @property
     def name(self) -> str:
@@ -86,6 +88,10 @@ class MeasureDefinition:
         """The name with the version: what a stored value was measured by."""
         return f"{self.name}/{self.version}"
 
+    def sd_of(self, kind: str) -> float:
+        """The repeatability on a "foot" or a "last"."""
+        return self.sd if kind == "foot" or self.last_sd is None else self.last_sd
+
     def trueness(self, kind: str) -> Trueness:
         """What is known of the trueness of a "foot" or a "last"."""
         return self.foot if kind == "foot" else self.last
@@ -94,7 +100,7 @@ class MeasureDefinition:
 MEASURES: tuple[MeasureDefinition, ...] = (
     MeasureDefinition(
         lengths.length,
-        2,
+        3,
         0.25,
         foot=off(-0.23, 0.31),
         last=off(-0.20, 0.00, 0.17, 0.18, 0.41),
@@ -102,7 +108,7 @@ MEASURES: tuple[MeasureDefinition, ...] = (
     ),
     MeasureDefinition(
         lengths.functional_length,
-        1,
+        2,
         0.25,
         foot=off(-0.27, 0.32),
         last=off(-0.23, 0.01, 0.23, 0.25, 0.47),
@@ -111,6 +117,7 @@ MEASURES: tuple[MeasureDefinition, ...] = (
         lengths.ball_length,
         2,
         0.45,
+        last_sd=0.6,
         foot=off(0.79, 0.82),
         last=off(0.02, 1.50, 1.59, 2.20, 2.26),
         usual_share=(0.66, 0.80),
@@ -118,15 +125,17 @@ MEASURES: tuple[MeasureDefinition, ...] = (
     MeasureDefinition(
         widths.ball_width,
         3,
-        0.3,
+        0.25,
+        last_sd=0.15,
         foot=off(-0.25, 0.26),
         last=off(0.03, 0.35, 0.35, 0.44, 0.68),
         usual_share=(0.31, 0.46),
     ),
     MeasureDefinition(
         widths.ball_width_orthogonal,
-        1,
-        0.25,
+        2,
+        0.2,
+        last_sd=0.15,
         foot=off(-0.42, 0.43),
         last=off(-0.33, 0.36, 0.30, 0.40, 0.45),
         usual_share=(0.31, 0.46),
@@ -134,16 +143,16 @@ MEASURES: tuple[MeasureDefinition, ...] = (
     MeasureDefinition(
         girths.ball_girth,
         2,
-        0.6,
+        0.5,
         foot=off(-0.45, 0.54),
         last=off(0.49, 0.83, 1.04, 1.55, 1.54),
         usual_share=(0.77, 1.10),
     ),
     MeasureDefinition(
-        girths.waist_girth, 2, 0.35, foot=off(-0.19, 0.21), last=off(-0.56, 0.37, 0.65, 0.76, 0.82)
+        girths.waist_girth, 2, 0.3, foot=off(-0.19, 0.21), last=off(-0.56, 0.37, 0.65, 0.76, 0.82)
     ),
     MeasureDefinition(
-        girths.instep_girth, 2, 0.45, foot=off(-0.14, 0.18), last=off(-0.43, 0.12, 0.63, 0.39, 0.57)
+        girths.instep_girth, 2, 0.3, foot=off(-0.14, 0.18), last=off(-0.43, 0.12, 0.63, 0.39, 0.57)
     ),
     MeasureDefinition(
         girths.long_heel_girth,
@@ -155,7 +164,8 @@ MEASURES: tuple[MeasureDefinition, ...] = (
     MeasureDefinition(
         girths.short_heel_girth,
         3,
-        0.6,
+        0.35,
+        last_sd=0.8,
         foot=off(-0.35, 0.00),
         last=off(-0.29, 2.65, 1.61, 1.44, 1.89),
         usual_share=(1.12, 1.47),
@@ -163,28 +173,30 @@ MEASURES: tuple[MeasureDefinition, ...] = (
     MeasureDefinition(
         girths.ball_girth_least,
         2,
-        0.6,
+        0.5,
         foot=off(-0.03, 0.00),
         last=off(0.88, 1.00, 1.35, 1.80, 1.81),
     ),
     MeasureDefinition(
         girths.waist_girth_least,
         3,
-        0.35,
+        0.3,
         foot=off(0.11, 0.00),
         last=off(-0.26, 0.61, 0.37, 0.64, 0.47),
     ),
     MeasureDefinition(
         girths.instep_girth_least,
         2,
-        0.4,
+        0.3,
+        last_sd=0.25,
         foot=off(0.17, 0.18),
         last=off(-0.01, 0.35, 0.00, 0.00, 0.00),
     ),
     MeasureDefinition(
         girths.heel_girth_instep,
         2,
-        0.6,
+        0.45,
+        last_sd=0.55,
         foot=off(0.27, 0.23),
         last=off(-0.47, 1.30, 1.66, 1.33, 1.31),
     ),
@@ -192,6 +204,7 @@ MEASURES: tuple[MeasureDefinition, ...] = (
         widths.heel_width,
         2,
         0.2,
+        last_sd=0.1,
         foot=off(-0.08, 0.07),
         last=off(-0.04, 0.00, 0.00, 0.00, 0.00),
         usual_share=(0.19, 0.35),
@@ -200,28 +213,40 @@ MEASURES: tuple[MeasureDefinition, ...] = (
         heights.arch_height, 1, 0.2, foot=off(-0.46, 0.59), last=off(0.11, 0.80, 0.33, 0.24, 0.26)
     ),
     MeasureDefinition(
-        heights.instep_height, 1, 0.3, foot=off(-0.45, 0.67), last=off(0.06, 0.58, 0.18, 0.00, 0.20)
+        heights.instep_height,
+        1,
+        0.25,
+        last_sd=0.2,
+        foot=off(-0.45, 0.67),
+        last=off(0.06, 0.58, 0.18, 0.00, 0.20),
     ),
     MeasureDefinition(
-        heights.toe_height, 1, 0.3, foot=off(-0.11, 0.00), last=off(0.18, 0.13, 0.35, 0.53, 1.12)
+        heights.toe_height, 1, 0.25, foot=off(-0.11, 0.00), last=off(0.18, 0.13, 0.35, 0.53, 1.12)
     ),
     MeasureDefinition(
-        heights.toe_spring, 3, 0.3, foot=off(-0.23, 0.45), last=off(-0.23, 0.00, 0.56, 0.00, 0.39)
+        heights.toe_spring,
+        3,
+        0.2,
+        last_sd=0.25,
+        foot=off(-0.23, 0.45),
+        last=off(-0.23, 0.00, 0.56, 0.00, 0.39),
     ),
-    MeasureDefinition(heights.heel_height, 3, 0.7, last=off(-0.27, 0.42, 0.63, 0.00, 0.00)),
+    MeasureDefinition(heights.heel_height, 3, 0.5, last=off(-0.27, 0.42, 0.63, 0.00, 0.00)),
     MeasureDefinition(
-        widths.bottom_width_ball, 2, 0.5, LAST, last=off(0.17, 0.26, 0.00, 0.00, 0.00)
+        widths.bottom_width_ball, 2, 0.3, LAST, last=off(0.17, 0.26, 0.00, 0.00, 0.00)
     ),
     MeasureDefinition(
         widths.bottom_width_heel, 2, 0.2, LAST, last=off(-0.05, 0.10, 0.00, 0.00, 0.02)
     ),
-    MeasureDefinition(lengths.tape_length, 2, 0.25, LAST, last=off(-0.33, 0.19, 0.51, 0.49, 0.71)),
-    MeasureDefinition(lengths.stick_length, 1, 0.3, LAST, last=off(-0.24, 0.25, 0.45, 0.76, 0.63)),
-    MeasureDefinition(lengths.bottom_length, 2, 0.5, LAST, last=off(0.18, 0.37, 0.00, 0.20, 0.58)),
-    MeasureDefinition(heights.toe_spring_tip, 1, 0.6, LAST, last=off(0.22, 0.23, 0.27, 0.70, 0.89)),
+    MeasureDefinition(lengths.tape_length, 3, 0.3, LAST, last=off(-0.33, 0.19, 0.51, 0.49, 0.71)),
+    MeasureDefinition(lengths.stick_length, 2, 0.3, LAST, last=off(-0.24, 0.25, 0.45, 0.76, 0.63)),
+    MeasureDefinition(lengths.bottom_length, 2, 0.35, LAST, last=off(0.18, 0.37, 0.00, 0.20, 0.58)),
+    MeasureDefinition(
+        heights.toe_spring_tip, 1, 0.45, LAST, last=off(0.22, 0.23, 0.27, 0.70, 0.89)
+    ),
     MeasureDefinition(lengths.tread_from, 1, 2.0, LAST, last=off(0.77, 0.00, 1.67, 0.00, 0.57)),
     MeasureDefinition(lengths.tread_to, 1, 2.0, LAST, last=off(0.03, 3.91, 4.80, 1.53, 1.31)),
-    MeasureDefinition(heights.seat_angle_deg, 1, 0.5, LAST, last=off(0.07, 0.00, 0.49, 0.00, 0.00)),
+    MeasureDefinition(heights.seat_angle_deg, 1, 0.4, LAST, last=off(0.07, 0.00, 0.49, 0.00, 0.00)),
 )
 
 

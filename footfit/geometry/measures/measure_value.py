@@ -21,12 +21,14 @@ class MeasureValue(NamedTuple):
     """A value in mm, or the reason why there is none.
 
     ``convention_sd`` is how much the value would vary with what this very shape leaves open, such
-    as the ground that a last stands on. It is no repeatability.
+    as the ground that a last stands on. It is no repeatability. ``sd`` is the repeatability, where
+    it depends on the shape: where a flat tread ends is less sure than where a crisp one does.
     """
 
     value: float | None
     reason: str | None = None
     convention_sd: float = 0.0
+    sd: float | None = None
 
 
 def no_ball(shape: Shape) -> MeasureValue:

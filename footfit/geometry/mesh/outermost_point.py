@@ -25,17 +25,22 @@ class TipSettings:
     Attributes
     ----------
     law, levels : tuple of float, int
-        Between which depths, and at how many, the area is taken to grow evenly.
+        Between which depths, and at how many, the growth of the area is read.
+    degree : int
+        Of the curve through the areas: 1 if the area grows evenly, 2 if it grows faster farther in.
     cap : float
         The part of the surface above this depth is the cap whose middle is the tip's place.
     """
 
     law: tuple[float, float] = (0.0026, 0.0085)
     levels: int = 6
+    degree: int = 1
     cap: float = 0.012
 
 
 TIPS = TipSettings()
+LAST_TIPS = TipSettings(law=(0.0026, 0.012), levels=8, degree=2, cap=0.006)
+"""Of a last: it is smooth, has one toe, and may have an edge there, so that more can be read."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -47,13 +52,18 @@ class Tip:
 
 
 def tip(
-    vertices: Floats, faces: Ints, direction: Floats, length: float, cap: float = TIPS.cap
+    vertices: Floats,
+    faces: Ints,
+    direction: Floats,
+    length: float,
+    settings: TipSettings = TIPS,
 ) -> Tip:
     """The outermost point of a surface in a direction.
 
     Take a level at the depth t under the extreme of a smooth surface. The area beyond it is 2 pi t
     times a radius (exactly so on a sphere: Archimedes), so it grows evenly with t. The extreme is
-    where the straight line through the areas at several depths meets zero. Noise that is as often
+    where the straight line through the areas at several depths meets zero, or a parabola, if the
+    settings say so: towards an edge, the area grows faster farther in. Noise that is as often
     inward as outward does not move that line. The areas are exact for triangles of any size.
 
     Parameters
@@ -65,8 +75,7 @@ def tip(
         A unit vector.
     length : float
         The shape's length, which depths are multiplied by.
-    cap : float
-        The depth of the cap whose middle is the tip's place.
+    settings : TipSettings
 
     Returns
     -------
@@ -83,19 +92,39 @@ def tip(
     corner = values[faces]
     outermost = np.maximum(np.maximum(corner[:, 0], corner[:, 1]), corner[:, 2])
     top = float(outermost.max())
-    near = outermost > top - max(TIPS.law[1], cap) * length
+    near = outermost > top - max(settings.law[1], settings.cap) * length
     corner, triangles = corner[near], vertices[faces[near]]
     sides = triangles[:, 1] - triangles[:, 0], triangles[:, 2] - triangles[:, 0]
     area = row_lengths(cross(*sides))
-    depth = np.linspace(*TIPS.law, TIPS.levels) * length
-    beyond = area @ share_over(corner, top - depth)
-    slope, start = np.polyfit(depth, beyond, 1)
-    inward = -start / slope if slope > 0.0 else 0.0
-    weight = np.maximum(corner @ _PARTS.T - (top - cap * length), 0.0) * area[:, None]
+    depth = np.linspace(*settings.law, settings.levels) * length
+    inward = _no_area(depth, area @ share_over(corner, top - depth), settings.degree)
+    weight = np.maximum(corner @ _PARTS.T - (top - settings.cap * length), 0.0) * area[:, None]
     place = np.einsum("ts,sk,tkj->j", weight, _PARTS, triangles) / max(weight.sum(), 1e-300)
     if not weight.any():  # a spike so thin that no middle of a part lies in the cap
         place = vertices[faces].reshape(-1, 3)[np.argmax(values[faces])]
     return Tip(top - float(np.clip(inward, 0.0, depth[0])), place)
+
+
+def _no_area(depth: Floats, beyond: Floats, degree: int) -> float:
+    """The depth at which the area beyond it, (k,) at depths (k,), would be zero.
+
+    Examples
+    --------
+    >>> depth = np.array([1.0, 2.0, 3.0])
+    >>> round(_no_area(depth, 5.0 * (depth - 0.2), 1), 9)
+    0.2
+    >>> round(_no_area(depth, (depth - 0.2) + (depth - 0.2) ** 2, 2), 9)
+    0.2
+    """
+    slope, start = np.polyfit(depth, beyond, 1)
+    if slope <= 0.0:
+        return 0.0
+    if degree == 2:
+        bend, rise, level = np.polyfit(depth, beyond, 2)
+        inside = rise**2 - 4.0 * bend * level
+        if rise > 0.0 and inside > 0.0:  # else the curve turns before it meets zero
+            return float(-2.0 * level / (rise + np.sqrt(inside)))
+    return float(-start / slope)
 
 
 def share_over(corner_values: Floats, levels: Floats) -> Floats:

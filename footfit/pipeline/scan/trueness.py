@@ -51,9 +51,10 @@ def measured(
         return Measured(None, reason=taken.reason)
     trueness = entry.trueness(kind)
     open_sd = OPEN_SHARE * taken.convention_sd
-    parts = (entry.sd, trueness.sd_at(heel_mm), open_sd, scan_sd_mm(entry.name, info))
+    sd = entry.sd_of(kind) if taken.sd is None else taken.sd
+    parts = (sd, trueness.sd_at(heel_mm), open_sd, scan_sd_mm(entry.name, info))
     total_sd = math.hypot(*parts)
-    return Measured(taken.value, entry.sd, None, total_sd, trueness.bias)
+    return Measured(taken.value, sd, None, total_sd, trueness.bias)
 
 
 def scan_sd_mm(name: str, info: MeshInfo | None) -> float:
