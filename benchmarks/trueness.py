@@ -248,7 +248,8 @@ def fitted_sd(groups: list[list[Error]]) -> float:
     total = max(WIDER * np.sqrt(least * greatest), greatest)
     low, high = RATIOS[0] * greatest, RATIOS[1] * least
     total = min(total, max(high, low)) if low <= high else greatest
-    others = rms([e.other_sd for group in groups for e in group])
+    worst = max(groups, key=lambda group: rms([e.error for e in group]))
+    others = float(np.median([e.other_sd for e in worst]))
     return float(np.sqrt(max(total**2 - others**2, 0.0)))
 
 

@@ -61,7 +61,10 @@ class Drafted:
         """The rearmost and the foremost x; a foot's heel is looked for under its narrowing."""
         x, _, z = self.vertices_mm.T
         rear = z < (0.30 if self.kind == "last" else 0.18) * self.rough_mm
-        return float(x[rear].min()), float(x[z < 0.30 * self.rough_mm].max())
+        low = z < 0.30 * self.rough_mm
+        if self.kind == "last":  # as it rests, the toe of a high heel lies higher
+            low |= x > x[low].max() - 0.3 * self.rough_mm
+        return float(x[rear].min()), float(x[low].max())
 
     @property
     def length_mm(self) -> float:
@@ -211,7 +214,9 @@ def true_measures(shape: Drafted) -> dict[str, float]:
 def _ends(shape: Drafted) -> dict[str, float]:
     points = shape.vertices_mm
     rear = points[np.argmin(np.where(points[:, 2] < 0.2 * shape.rough_mm, points[:, 0], np.inf))]
-    fore = points[(points[:, 0] > shape.x_mm(0.7)) & (points[:, 2] < 0.3 * shape.length_mm)]
+    fore = points[points[:, 0] > shape.x_mm(0.7)]
+    if shape.kind == "foot":
+        fore = fore[fore[:, 2] < 0.3 * shape.length_mm]
     start = np.array([shape.ends_mm[0], rear[1]])
     farthest = np.linalg.norm(fore[:, :2] - start, axis=1).max()
     return {"length": shape.length_mm, "functional_length": float(farthest)}

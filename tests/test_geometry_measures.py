@@ -13,7 +13,7 @@ from hypothesis import strategies as st
 
 from footfit.geometry.measures.heights import toe_height
 from footfit.geometry.measures.landmarks import Shape
-from footfit.geometry.measures.lengths import tread_from
+from footfit.geometry.measures.lengths import length, tread_from
 from footfit.geometry.measures.measure_table import BOTH, MEASURES, measure_named, of_kind, unusual
 from footfit.geometry.stance.middle_line import low_points, turned
 from footfit.geometry.stance.stance import STANCE
@@ -180,6 +180,16 @@ def test_a_subdivided_shape_measures_the_same() -> None:
 def sd_of(name: str, kind: str) -> float:
     """The repeatability; where it depends on the shape, the table has a usual one."""
     return measure_named(name).sd_of(kind)
+
+
+@pytest.mark.parametrize("heel_mm", [30.0, 105.0, 118.0])
+def test_a_last_is_measured_to_its_toe_however_high_that_lies(heel_mm: float) -> None:
+    vertices, faces = last_of(replace(LEVEL, heel_height_mm=heel_mm, toe_spring_mm=12.0))
+    back_mm = vertices[vertices[:, 2] < 0.3 * np.ptp(vertices[:, 0]), 0].min()
+    # measured .3; a toe that lies over .30 of the length was cut off, up to 8 mm
+    assert length(Shape(vertices, faces, "last")).value == pytest.approx(
+        vertices[:, 0].max() - back_mm, abs=0.6
+    )
 
 
 def test_where_a_crisp_tread_begins_is_surer_than_where_a_soft_one_does() -> None:

@@ -33,6 +33,7 @@ class LandmarkSettings:
     """Where landmarks are looked for; heights and places over the length."""
 
     length_height: float = 0.30  # higher parts are leg
+    toes: float = 0.30  # so far back from the foremost point a last has toes
     width_height: float = 0.20  # over the floor; above it ankles may stand out
     inner_joint: tuple[float, float] = (0.60, 0.82)  # MT1 of a foot lies at .72, MT5 at .63
     outer_joint: tuple[float, float] = (0.52, 0.76)
@@ -88,7 +89,20 @@ class Shape:
         """The rearmost point of the heel (its reach towards -X) and the foremost of the toes."""
         rough_mm = self._rough_length_mm
         rear = tip(self.vertices_mm, self._heel, -AXES[0], rough_mm, self.tips)
-        return rear, tip(self.vertices_mm, self.low, AXES[0], rough_mm, self.tips)
+        return rear, tip(self.vertices_mm, self.toes, AXES[0], rough_mm, self.tips)
+
+    @cached_property
+    def toes(self) -> Ints:
+        """The faces (k, 3) that the foremost point is looked for in: what is low.
+
+        Of a last it is all in front of .7 of what is low: as a last with a high heel rests, its toe
+        lies higher than .30 of its length.
+        """
+        if self.kind == "foot":
+            return self.low
+        x = self.vertices_mm[:, 0]
+        front_mm = x[self.low[:, 0]].max() - LANDMARKS.toes * self._rough_length_mm
+        return self._faces_of(x > front_mm)
 
     @property
     def tips(self) -> TipSettings:

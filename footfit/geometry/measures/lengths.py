@@ -71,7 +71,7 @@ def functional_length(shape: Shape) -> MeasureValue:
     If a shoe is too short, this toe touches it first, whichever way the shoe turns about the heel.
     """
     start = shape.pternion[:2]
-    fore = shape.low[shape.vertices_mm[shape.low[:, 0], 0] > shape.x_mm(FOREPART)]
+    fore = shape.toes[shape.vertices_mm[shape.toes[:, 0], 0] > shape.x_mm(FOREPART)]
     corners = shape.vertices_mm[fore[:, 0], :2]
     end = corners[np.argmax(np.square(corners - start).sum(axis=1))]
     distance = 0.0

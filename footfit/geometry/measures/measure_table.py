@@ -102,24 +102,24 @@ MEASURES: tuple[MeasureDefinition, ...] = (
         lengths.length,
         3,
         0.25,
-        foot=off(-0.23, 0.31),
-        last=off(-0.20, 0.00, 0.17, 0.18, 0.41),
+        foot=off(-0.31, 0.35),
+        last=off(-0.11, 0.00, 0.13, 0.24, 0.23),
         usual_mm=(200.0, 310.0),
     ),
     MeasureDefinition(
         lengths.functional_length,
         2,
         0.25,
-        foot=off(-0.27, 0.32),
-        last=off(-0.23, 0.01, 0.23, 0.25, 0.47),
+        foot=off(-0.31, 0.37),
+        last=off(-0.13, 0.00, 0.19, 0.27, 0.25),
     ),
     MeasureDefinition(
         lengths.ball_length,
         2,
         0.45,
         last_sd=0.6,
-        foot=off(0.79, 0.82),
-        last=off(0.02, 1.50, 1.59, 2.20, 2.26),
+        foot=off(0.79, 0.92),
+        last=off(0.04, 1.43, 1.07, 1.43, 3.01),
         usual_share=(0.66, 0.80),
     ),
     MeasureDefinition(
@@ -127,8 +127,8 @@ MEASURES: tuple[MeasureDefinition, ...] = (
         3,
         0.25,
         last_sd=0.15,
-        foot=off(-0.25, 0.26),
-        last=off(0.03, 0.35, 0.35, 0.44, 0.68),
+        foot=off(-0.22, 0.39),
+        last=off(-0.03, 0.26, 0.35, 0.32, 0.60),
         usual_share=(0.31, 0.46),
     ),
     MeasureDefinition(
@@ -136,117 +136,117 @@ MEASURES: tuple[MeasureDefinition, ...] = (
         2,
         0.2,
         last_sd=0.15,
-        foot=off(-0.42, 0.43),
-        last=off(-0.33, 0.36, 0.30, 0.40, 0.45),
+        foot=off(-0.35, 0.42),
+        last=off(-0.13, 0.28, 0.22, 0.30, 0.25),
         usual_share=(0.31, 0.46),
     ),
     MeasureDefinition(
         girths.ball_girth,
         2,
         0.5,
-        foot=off(-0.45, 0.54),
-        last=off(0.49, 0.83, 1.04, 1.55, 1.54),
+        foot=off(-0.37, 0.81),
+        last=off(0.41, 0.27, 0.75, 0.89, 1.01),
         usual_share=(0.77, 1.10),
     ),
     MeasureDefinition(
-        girths.waist_girth, 2, 0.3, foot=off(-0.19, 0.21), last=off(-0.56, 0.37, 0.65, 0.76, 0.82)
+        girths.waist_girth, 2, 0.3, foot=off(0.04, 0.00), last=off(0.03, 0.49, 0.21, 0.21, 0.33)
     ),
     MeasureDefinition(
-        girths.instep_girth, 2, 0.3, foot=off(-0.14, 0.18), last=off(-0.43, 0.12, 0.63, 0.39, 0.57)
+        girths.instep_girth, 2, 0.3, foot=off(0.14, 0.34), last=off(0.09, 0.66, 0.05, 0.00, 0.23)
     ),
     MeasureDefinition(
         girths.long_heel_girth,
         2,
         0.4,
-        foot=off(-0.25, 0.46),
-        last=off(-0.38, 0.91, 0.55, 0.39, 0.57),
+        foot=off(0.17, 0.57),
+        last=off(0.01, 0.57, 0.00, 0.30, 0.18),
     ),
     MeasureDefinition(
         girths.short_heel_girth,
         3,
         0.35,
         last_sd=0.8,
-        foot=off(-0.35, 0.00),
-        last=off(-0.29, 2.65, 1.61, 1.44, 1.89),
+        foot=off(0.04, 0.00),
+        last=off(-0.02, 0.85, 0.53, 0.64, 1.15),
         usual_share=(1.12, 1.47),
     ),
     MeasureDefinition(
         girths.ball_girth_least,
         2,
         0.5,
-        foot=off(-0.03, 0.00),
-        last=off(0.88, 1.00, 1.35, 1.80, 1.81),
+        foot=off(-0.26, 0.72),
+        last=off(0.36, 0.20, 0.71, 1.00, 0.73),
     ),
     MeasureDefinition(
         girths.waist_girth_least,
         3,
         0.3,
-        foot=off(0.11, 0.00),
-        last=off(-0.26, 0.61, 0.37, 0.64, 0.47),
+        foot=off(0.04, 0.00),
+        last=off(-0.14, 0.64, 0.23, 0.46, 0.59),
     ),
     MeasureDefinition(
         girths.instep_girth_least,
         2,
         0.3,
         last_sd=0.25,
-        foot=off(0.17, 0.18),
-        last=off(-0.01, 0.35, 0.00, 0.00, 0.00),
+        foot=off(0.07, 0.22),
+        last=off(0.03, 0.43, 0.12, 0.00, 0.20),
     ),
     MeasureDefinition(
         girths.heel_girth_instep,
         2,
         0.45,
         last_sd=0.55,
-        foot=off(0.27, 0.23),
-        last=off(-0.47, 1.30, 1.66, 1.33, 1.31),
+        foot=off(0.24, 0.49),
+        last=off(-0.30, 1.48, 0.64, 0.46, 0.69),
     ),
     MeasureDefinition(
         widths.heel_width,
         2,
         0.2,
         last_sd=0.1,
-        foot=off(-0.08, 0.07),
-        last=off(-0.04, 0.00, 0.00, 0.00, 0.00),
+        foot=off(-0.07, 0.25),
+        last=off(-0.03, 0.14, 0.14, 0.14, 0.15),
         usual_share=(0.19, 0.35),
     ),
     MeasureDefinition(
-        heights.arch_height, 1, 0.2, foot=off(-0.46, 0.59), last=off(0.11, 0.80, 0.33, 0.24, 0.26)
+        heights.arch_height, 1, 0.2, foot=off(-0.41, 0.60), last=off(0.13, 1.02, 0.34, 0.00, 0.06)
     ),
     MeasureDefinition(
         heights.instep_height,
         1,
         0.25,
         last_sd=0.2,
-        foot=off(-0.45, 0.67),
-        last=off(0.06, 0.58, 0.18, 0.00, 0.20),
+        foot=off(-0.51, 0.79),
+        last=off(0.10, 0.75, 0.18, 0.14, 0.30),
     ),
     MeasureDefinition(
-        heights.toe_height, 1, 0.25, foot=off(-0.11, 0.00), last=off(0.18, 0.13, 0.35, 0.53, 1.12)
+        heights.toe_height, 1, 0.25, foot=off(-0.12, 0.20), last=off(0.10, 0.21, 0.33, 0.32, 0.44)
     ),
     MeasureDefinition(
         heights.toe_spring,
         3,
         0.2,
         last_sd=0.25,
-        foot=off(-0.23, 0.45),
-        last=off(-0.23, 0.00, 0.56, 0.00, 0.39),
+        foot=off(-0.18, 0.55),
+        last=off(-0.15, 0.00, 0.60, 0.06, 0.46),
     ),
-    MeasureDefinition(heights.heel_height, 3, 0.5, last=off(-0.27, 0.42, 0.63, 0.00, 0.00)),
+    MeasureDefinition(heights.heel_height, 3, 0.5, last=off(-0.28, 0.00, 0.98, 0.00, 0.18)),
     MeasureDefinition(
-        widths.bottom_width_ball, 2, 0.3, LAST, last=off(0.17, 0.26, 0.00, 0.00, 0.00)
+        widths.bottom_width_ball, 2, 0.3, LAST, last=off(0.22, 0.29, 0.26, 0.29, 0.35)
     ),
     MeasureDefinition(
-        widths.bottom_width_heel, 2, 0.2, LAST, last=off(-0.05, 0.10, 0.00, 0.00, 0.02)
+        widths.bottom_width_heel, 2, 0.2, LAST, last=off(-0.03, 0.00, 0.00, 0.00, 0.03)
     ),
-    MeasureDefinition(lengths.tape_length, 3, 0.3, LAST, last=off(-0.33, 0.19, 0.51, 0.49, 0.71)),
-    MeasureDefinition(lengths.stick_length, 2, 0.3, LAST, last=off(-0.24, 0.25, 0.45, 0.76, 0.63)),
-    MeasureDefinition(lengths.bottom_length, 2, 0.35, LAST, last=off(0.18, 0.37, 0.00, 0.20, 0.58)),
+    MeasureDefinition(lengths.tape_length, 3, 0.3, LAST, last=off(-0.26, 0.00, 0.57, 0.64, 0.45)),
+    MeasureDefinition(lengths.stick_length, 2, 0.3, LAST, last=off(-0.18, 0.23, 0.44, 0.60, 1.13)),
+    MeasureDefinition(lengths.bottom_length, 2, 0.35, LAST, last=off(0.15, 0.62, 0.38, 0.34, 0.78)),
     MeasureDefinition(
-        heights.toe_spring_tip, 1, 0.45, LAST, last=off(0.22, 0.23, 0.27, 0.70, 0.89)
+        heights.toe_spring_tip, 1, 0.45, LAST, last=off(0.19, 0.41, 0.80, 0.92, 0.00)
     ),
-    MeasureDefinition(lengths.tread_from, 1, 2.0, LAST, last=off(0.77, 0.00, 1.67, 0.00, 0.57)),
-    MeasureDefinition(lengths.tread_to, 1, 2.0, LAST, last=off(0.03, 3.91, 4.80, 1.53, 1.31)),
-    MeasureDefinition(heights.seat_angle_deg, 1, 0.4, LAST, last=off(0.07, 0.00, 0.49, 0.00, 0.00)),
+    MeasureDefinition(lengths.tread_from, 1, 2.0, LAST, last=off(0.92, 2.42, 1.49, 2.17, 0.00)),
+    MeasureDefinition(lengths.tread_to, 1, 2.0, LAST, last=off(-0.31, 5.55, 3.71, 0.00, 0.84)),
+    MeasureDefinition(heights.seat_angle_deg, 1, 0.4, LAST, last=off(0.03, 0.00, 0.31, 0.08, 0.55)),
 )
 
 
