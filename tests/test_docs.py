@@ -25,7 +25,7 @@ NOT_HERE = {
     "migrations/versions/NNNN_title.py",
 }
 """Folders that only the wheel has, and a name to fill in."""
-OF_TOOLS = {"--count", "--fit", "--only", "--scale", "--seed", "--sizes", "--write"}
+OF_TOOLS = {"--count", "--fit", "--only", "--scale", "--script", "--seed", "--sizes", "--write"}
 """Options of benchmarks, ``tests.torture`` and ``tools.fuzz``."""
 OF_DASK = {"--nthreads", "--port", "--protocol", "--tls-ca-file", "--tls-cert", "--tls-key"}
 """Options of Dask's own programs."""
