@@ -4,8 +4,8 @@
 
 Bases are lasts of both families with heels of 0 to 80 mm; feet are those at hand, changed so that
 every target lies within 15 mm of the base. ``tests/custom_judge.py`` reads the written file and the
-JSON, and shares no code with the deformation. The bases are laid with their targets equal, and put
-into a catalogue with their custom lasts, once in ``SPARSE`` pairs. ``--write`` puts the table into
+JSON, and shares no code with the deformation. Once in ``SPARSE``
+pairs the targets are the base's own, and the custom last is put into a catalogue with its base. ``--write`` puts the table into
 docs/custom-lasts.md. ``--part 1/2`` does one half of the pairs, and ``--rows FILE`` keeps what was
 found of them; with several ``--read FILE`` the table is made of such files.
 """
@@ -15,6 +15,7 @@ from __future__ import annotations
 import argparse
 import json
 import tempfile
+import textwrap
 import time
 from collections import Counter
 from collections.abc import Iterator, Sequence
@@ -302,8 +303,9 @@ def table(pairs_found: Sequence[dict[str, Any]], ratio: float) -> str:
     names = ", ".join(f"{name.replace('_', ' ')} {count}" for name, count in zones.most_common())
     bent = sum(row["dihedral change, 99th percentile, deg"] > 2.0 for row in rows)
     words = f"{len(pairs_found)} pairs; {len(refused)} refused, {shown} of them shown to be beyond"
-    words += f" the limits. The dihedral bar is passed by {bent}. All zones are good in {good};"
-    return f"{markdown(['what', 'worst', '95 % within', 'bar'], cells)}\n{words} not good: {names}."
+    words += f" the limits. {bent} exceed the dihedral bar. All zones are good in {good}; not good:"
+    words = textwrap.fill(f"{words} {names}.", 118)
+    return f"{markdown(['what', 'worst', '95 % within', 'bar'], cells)}\n{words}"
 
 
 def main() -> None:

@@ -142,6 +142,7 @@ def _answer(foot: Profiled, given: Given, making: Making, attempt: Attempt) -> C
     kept_base = replace(base, sections=sections)
     after = fit_in(foot, made.record, kept_base, question)
     judged, zones = _judged(before, after), _zones(base, attempt)
+    roomy = [zone.name for zone in zones if zone.room > 0.05]
     side = made.record.side.side or "right"
     mirror = np.array([1.0, -1.0 if side == "left" else 1.0, 1.0])
     base_vertices_mm = base.shape.vertices_mm * mirror
@@ -169,7 +170,7 @@ def _answer(foot: Profiled, given: Given, making: Making, attempt: Attempt) -> C
         flare_turn_deg=given.turn_deg,
         largest_move_mm=float(np.linalg.norm(shift, axis=1).max()),
         least_determinant=shape.least_determinant,
-        warnings=(*_notices(base), *zone_notices(judged, question)),
+        warnings=(*_notices(base), *zone_notices(judged, question, roomy)),
         record=made.record,
         sections=sections,
         parentage=_parentage(foot, base, making, zones),

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
 from dataclasses import replace
 
 from footfit.pipeline.last_making.custom.custom_aims import (
@@ -88,13 +88,20 @@ def _pressed(given: Given, attempt: Attempt, aim: CustomAim, more_mm: float) -> 
     return replace(aim, target=aim.base + grown_mm, firm=True, pressed=True)
 
 
-def zone_notices(judged: Sequence[JudgedZone], question: CustomQuestion) -> tuple[Notice, ...]:
-    """A warning that names the zones that are not good, with what is kept and so forbids it."""
+def zone_notices(
+    judged: Sequence[JudgedZone], question: CustomQuestion, roomy: Collection[str] = ()
+) -> tuple[Notice, ...]:
+    """A warning that names the zones that are not good, with what is kept and so forbids it.
+
+    ``roomy`` are the measures to which room for single places was added.
+    """
     words = []
     for zone in not_good(judged):
         why = WHY.get(zone.name, "the base's shape is kept there")
         if question.bottom_kept and zone.name.endswith("_width"):
             why = "--keep bottom keeps the outline of the bottom"
+        elif zone.name in roomy:
+            why = "--room was given on top of its target"
         elif zone.name == "flare" and question.flare_follow == 0.0:
             why += "; --flare-follow turns it"
         words.append(f"{zone.label} ({why})")
