@@ -4,8 +4,8 @@
 
 Bases are lasts of both families with heels of 0 to 80 mm; feet are those at hand, changed so that
 every target lies within 15 mm of the base. ``tests/custom_judge.py`` reads the written file and the
-JSON, and shares no code with the deformation. Once in ``SPARSE``
-pairs the targets are the base's own, and the custom last is put into a catalogue with its base. ``--write`` puts the table into
+JSON, and shares no code with the deformation. Once in ``SPARSE`` pairs the targets are the base's
+own too, and the custom last is put into a catalogue with its base. ``--write`` puts the table into
 docs/custom-lasts.md. ``--part 1/2`` does one half of the pairs, and ``--rows FILE`` keeps what was
 found of them; with several ``--read FILE`` the table is made of such files.
 """
