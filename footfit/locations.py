@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import re
 from dataclasses import dataclass, field
 from pathlib import Path
 from urllib.parse import unquote, urlsplit
@@ -11,6 +12,9 @@ from footfit.errors import BadOption
 
 SCHEME = "postgresql+psycopg"
 FORM = f"{SCHEME}://USER@HOST:PORT/DATABASE"
+_ADDRESS = re.compile(r"\s*(postgres[\w+.-]*:|[\w+]+://)", re.IGNORECASE)
+"""How an address begins, also one that lacks a slash: a password in it must not become a path."""
+_BARE_PERCENT = re.compile("%(?![0-9A-Fa-f]{2})")
 
 
 @dataclass(frozen=True, slots=True)
@@ -48,7 +52,8 @@ def location_of(name: LocationName) -> Location:
     Raises
     ------
     BadOption
-        It is an address of another kind of database, or it lacks the name of the database.
+        It is an address of another kind of database, it lacks the name of the database, or it has
+        a character that must be written as % and two digits. The message repeats none of it.
 
     Examples
     --------
@@ -58,11 +63,20 @@ def location_of(name: LocationName) -> Location:
     if isinstance(name, ServerUrl):
         return name
     text = os.fspath(name)
-    scheme, colon, rest = text.partition("://")
-    if not colon or not scheme.replace("+", "").isalnum():
+    if not _ADDRESS.match(text):
         return Path(text)
+    scheme, slashes, rest = text.partition("://")
+    if not slashes:
+        raise BadOption(f"the address of the catalogue lacks :// after its scheme; write {FORM}")
     if scheme != SCHEME:
         raise BadOption(f"a shared catalogue has an address like {FORM}, not {scheme}://")
+    if _BARE_PERCENT.search(rest):
+        words = "the address of the catalogue has a % that is not followed by two hex digits"
+        raise BadOption(f"{words}: write %25 for a %")
+    before, _, path = rest.partition("?")[0].partition("/")
+    if before.count("@") > 1 or "@" in path:
+        words = "the user or the password in the address of the catalogue has a @ or a /"
+        raise BadOption(f"{words}: write %40 for a @, and %2F for a /")
     try:
         parts = urlsplit(f"//{rest}")
         user, host, port = parts.username, parts.hostname, parts.port

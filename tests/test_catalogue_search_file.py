@@ -256,6 +256,16 @@ def test_processes_that_make_and_remove_it_at_once_disturb_nobody(
     assert not left
 
 
+@pytest.mark.skipif(not hasattr(os, "mkfifo"), reason="this system has no named pipes")
+def test_a_pipe_in_its_place_is_not_waited_for(catalogue: Path, foot: Profiled) -> None:
+    question = Question(by="flare")
+    sound = matched([foot], choice(catalogue, None, None), question)
+    search_path(catalogue).unlink(missing_ok=True)
+    os.mkfifo(search_path(catalogue))
+    beside = matched([foot], choice(catalogue, None, None), question)
+    assert [c.last for c in beside.candidates] == [c.last for c in sound.candidates]
+
+
 def test_it_is_not_more_readable_than_the_catalogue(catalogue: Path) -> None:
     catalogue.chmod(0o600)
     choice(catalogue, None, None)

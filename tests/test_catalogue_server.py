@@ -239,6 +239,16 @@ def test_what_is_shown_of_an_address_has_no_password(ending: str) -> None:
         "postgresql+psycopg://ann:hush-hush@db",
         "postgresql+psycopg://ann:hush-hush@db:port/lasts",
         "postgresql+psycopg://ann:hush-hush@[db/lasts",
+        "postgresql+psycopg://ann:hush%hush@127.0.0.1:9/lasts",
+        "postgresql+psycopg://ann:12/hush@127.0.0.1:9/lasts",
+        "postgresql+psycopg://ann:hu@sh-hush@127.0.0.1:9/lasts",
+        "postgresql+psycopg://ann:hush%00hush@127.0.0.1:9/lasts",
+        "postgresql+psycopg://ann:hush hush@127.0.0.1:9/lasts",
+        "postgresql+psycopg://ann@127.0.0.1:9/lasts?hush=1",
+        "postgresql+psycopg:/ann:hush-hush@db/lasts",
+        "postgresql+psycopg:ann:hush-hush@db/lasts",
+        "postgresql:ann:hush-hush@db/lasts",
+        "postgres:/ann:hush-hush@db/lasts",
     ],
 )
 def test_an_address_that_is_none_is_refused(address: str, footfit: Footfit) -> None:

@@ -144,6 +144,8 @@ def test_a_drive_without_links_permissions_and_folder_lists_takes_a_file(
         ("measure", "both.stl#2", "FOOT", "--csv", "FOOT", "--force"),
         ("match", "FOOT", "--csv", "FOOT", "--force"),
         ("compare", "x.stl", "FOOT", "--html", "FOOT", "--force"),
+        ("coverage", "feet.csv", "--csv", "./feet.csv", "--force"),
+        ("coverage", "feet.csv", "--stock", "stock.csv", "--lasts-csv", "stock.csv", "--force"),
         ("measure", "FOOT", "--csv", "lasts.footfit", "--force"),
         ("compare", "FOOT", "x", "--html", "lasts.footfit", "--force"),
         ("match", "FOOT", "--html", "a.html", "--csv", "./a.html"),
@@ -162,6 +164,8 @@ def test_no_output_replaces_a_scan_a_catalogue_or_another_output(
 ) -> None:
     monkeypatch.chdir(tmp_path)
     (tmp_path / "foot.stl").write_bytes(foot.read_bytes())
+    (tmp_path / "feet.csv").write_text("id,length,ball_girth\na,250,240\n", encoding="utf-8")
+    (tmp_path / "stock.csv").write_text("last,quantity\nderby-42,1\n", encoding="utf-8")
     kept = {path: path.read_bytes() for path in tmp_path.iterdir()}
     run = footfit(*(word.replace("FOOT", "foot.stl") for word in arguments))
     assert run.code == 2

@@ -5,9 +5,12 @@ from __future__ import annotations
 import json
 import os
 import signal
+import socket
 import subprocess
 import sys
+import threading
 from collections.abc import Iterator
+from contextlib import suppress
 from pathlib import Path
 from typing import Any
 
@@ -153,6 +156,30 @@ def test_a_scheduler_that_does_not_answer_is_code_6(footfit: Footfit, foot: Path
     run = footfit("measure", foot, "--scheduler", NOBODY)
     assert (run.code, run.out, run.err.count("\n")) == (6, "", 1)
     assert NOBODY in run.err
+
+
+def test_a_user_in_the_address_is_refused_and_not_shown(footfit: Footfit, foot: Path) -> None:
+    run = footfit("measure", foot, "--scheduler", "tcp://ann:hush-hush@127.0.0.1:9")
+    assert (run.code, run.err.count("\n")) == (2, 1)
+    assert "hush" not in run.err
+    assert "127.0.0.1:9" in run.err
+
+
+def test_another_program_at_the_address_is_one_line_in_plain_words(foot: Path) -> None:
+    with socket.create_server(("127.0.0.1", 0)) as other:
+
+        def hang_up() -> None:
+            with suppress(OSError):
+                while True:
+                    other.accept()[0].close()
+
+        threading.Thread(target=hang_up, daemon=True).start()
+        address = f"tcp://127.0.0.1:{other.getsockname()[1]}"
+        command = [sys.executable, "-m", "footfit", "measure", str(foot), "--scheduler", address]
+        run = subprocess.run(command, capture_output=True, text=True, timeout=60, check=False)
+        other.shutdown(socket.SHUT_RDWR)
+    assert (run.returncode, run.stdout, run.stderr.count("\n")) == (6, "", 1)
+    assert "is no Dask scheduler" in run.stderr
 
 
 def test_tls_without_certificates_is_said(cluster: LocalCluster) -> None:

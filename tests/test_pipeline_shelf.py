@@ -131,7 +131,7 @@ def replace_content(record):
 def library_of(path: Path, shelf) -> Library:
     """The same lasts as records, read from their rows."""
     return Library(
-        shelf.records(),
+        shelf.with_records()[1],
         shelf.total,
         shelf.reference,
         shelf.rejected,
@@ -186,7 +186,7 @@ def test_a_match_answers_as_row_by_row(
 def own_side(shelf, customer: list[Profiled]) -> list[str]:
     """The names of the lasts that the customer is compared with, one by one."""
     longer = max(customer, key=lambda foot: foot.length_or_extent_mm)
-    side, records = longer.aligned.alignment.side.side, shelf.records()
+    side, records = longer.aligned.alignment.side.side, shelf.with_records()[1]
 
     def twins(one, other) -> bool:
         labels = [

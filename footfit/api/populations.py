@@ -21,7 +21,7 @@ from footfit.api.inputs import (
 )
 from footfit.api.scans import sources
 from footfit.errors import EmptyCatalogue, NoCandidate
-from footfit.locations import Location
+from footfit.locations import Location, location_of
 from footfit.pipeline.batch.runs import HERE, Jobs
 from footfit.results.population.coverage_answer import Coverage
 
@@ -71,7 +71,7 @@ def coverage(feet: Meshes, catalogue: FilePath, **asked: Unpack[CoverageKeywords
     NoCatalogue, NoCandidate, CatalogueUnusable
         There is no catalogue, no last passes the filters, or the file cannot be used.
     """
-    asker = coverage_asker(Path(catalogue), asked)
+    asker = coverage_asker(location_of(catalogue), asked)
     if is_table(feet):
         return asker.of_table(Path(os.fspath(feet)))  # type: ignore[arg-type]
     given = sources(feet)
@@ -119,7 +119,9 @@ class CoverageAsker:
         from footfit.pipeline.population.judging import Asking
         from footfit.pipeline.population.tables import last_table
 
-        shelf, asked = self.shelf, self.asked
+        (shelf, records), asked = self.shelf.with_records(), self.asked
+        if self.shelf.ranked.any() and not records:
+            raise NoCandidate(shelf.warnings[0].message)
         worn = worn_with(self.profile, worn_options(asked))
         people = coverage_run.Population(
             feet,
@@ -129,7 +131,7 @@ class CoverageAsker:
             asked.get("next_lasts", coverage_run.NEXT_LASTS),
             (*shelf.warnings, *notices),
         )
-        lasts = last_table(shelf.records(), self.profile, shelf.file)
+        lasts = last_table(records, self.profile, shelf.file)
         return coverage_run.coverage(people, lasts, Asking(self.profile, heel_options(asked), worn))
 
 
@@ -149,7 +151,8 @@ def coverage_asker(path: Location, asked: Any) -> CoverageAsker:
     try:
         shelf = choice(path, asked.get("style"), asked.get("size_system"))
         if not shelf.ranked.any():
-            raise NoCandidate("no last passes these filters; see footfit list-lasts")
+            nothing = "no last passes these filters; see footfit list-lasts"
+            raise NoCandidate(next((notice.message for notice in shelf.warnings), nothing))
         stock = asked.get("stock")
         shelf = shelf if stock is None else in_stock(shelf, Path(stock))
     except EmptyCatalogue:

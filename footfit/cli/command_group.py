@@ -10,6 +10,7 @@ import inspect
 from collections.abc import Callable, Iterable, Iterator
 from dataclasses import fields, is_dataclass
 from functools import wraps
+from pathlib import Path
 from typing import Any, get_type_hints
 
 import typer
@@ -17,6 +18,7 @@ from typer.core import TyperCommand, TyperGroup
 from typer.main import get_command
 
 from footfit.cli.console import answer
+from footfit.cli.options import OUTPUT
 
 CommandTable = tuple[tuple[str, Callable[..., object], str], ...]
 """Every command: its name, its function, its heading in the help."""
@@ -111,6 +113,22 @@ class _HelpAsAnswer:
 
 class PlainCommand(_HelpAsAnswer, TyperCommand):
     """A command whose help groups the options by heading."""
+
+    def invoke(self, ctx: Any) -> Any:
+        """Run the command, unless it would write over a file that it reads."""
+        written: list[str] = []
+        read: list[str] = []
+        for parameter in self.params:
+            value = ctx.params.get(parameter.name)
+            values = value if isinstance(value, (list, tuple)) else [value]
+            is_output = getattr(parameter, "rich_help_panel", None) == OUTPUT
+            names = [str(name) for name in values if isinstance(name, (str, Path))]
+            (written if is_output else read).extend(names)
+        if written:
+            from footfit.cli.outputs import refuse_inputs
+
+            refuse_inputs(written, read)
+        return super().invoke(ctx)
 
     def collect_usage_pieces(self, ctx: Any) -> list[str]:
         """What follows the command in the line of its usage: ``[OPTIONS] MESH...``."""

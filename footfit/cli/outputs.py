@@ -25,6 +25,9 @@ if TYPE_CHECKING:
     from footfit.pipeline.batch.sources import Source
 
 
+READ_TOO = "is read by this command too; name another file to write"
+
+
 @dataclass(frozen=True, slots=True)
 class OutputFile:
     """A file to write for one result, if there is a ``path``.
@@ -141,8 +144,7 @@ class Outputs:
             name = source.path or ""
             read = Path(name if Path(name).exists() else name.rpartition("#")[0])
             if read.is_file() and file_id(read) in there:
-                words = "is the scan itself; name another file to write"
-                raise BadOption(words, str(there[file_id(read)]))
+                raise BadOption(READ_TOO, str(there[file_id(read)]))
 
     def require_one(self, meshes: Sized, unless: str = "") -> None:
         """Refuse one file for several meshes; ``unless`` names another solution.
@@ -204,6 +206,28 @@ def file_id(path: Path) -> tuple[int, int]:
     """What two paths of one file have in common."""
     known = path.stat()
     return known.st_dev, known.st_ino
+
+
+def refuse_inputs(outputs: Iterable[str], inputs: Iterable[str]) -> None:
+    """Refuse an output that is there and is one of the inputs, also with --force.
+
+    Raises
+    ------
+    BadOption
+        The input would be lost.
+    """
+    read = {known for name in inputs if (known := _known_file(name)) is not None}
+    for name in outputs:
+        if _known_file(name) in read and not _is_catalogue(Path(name)):  # it has its own words
+            raise BadOption(READ_TOO, name)
+
+
+def _known_file(name: str) -> tuple[int, int] | None:
+    """The `file_id` of a name, if it is that of a file."""
+    try:
+        return file_id(Path(name)) if Path(name).is_file() else None
+    except (OSError, ValueError):  # such as a name that is too long
+        return None
 
 
 def make_folder(folder: Path) -> None:

@@ -9,7 +9,6 @@ from collections.abc import Callable
 from contextlib import closing
 from pathlib import Path
 
-from footfit.catalogue.blocks.block_reading import BadBlocks
 from footfit.catalogue.file.engine import connect
 from footfit.errors import ExitCode, FootfitError
 from footfit.pipeline.library.check import check
@@ -102,10 +101,7 @@ def ranked(path: Path) -> dict[str, object]:
     """The lasts that a match can show; none where it is refused."""
     try:
         shelf = choice(path, None, None)
-        try:
-            shown = shelf.records()
-        except BadBlocks as error:
-            shown = shelf.anew(error.blocks).records()
+        _, shown = shelf.with_records()
         return {record.labels.name: records.plain(record) for record in shown}
     except FootfitError:
         return {}

@@ -68,8 +68,9 @@ class BadBlocks(Exception):
     """Blocks that are not what was stored: their lasts must be read from their rows."""
 
     def __init__(self, blocks: Iterable[int]) -> None:
-        super().__init__()
         self.blocks = frozenset(blocks)
+        numbers = ", ".join(map(str, sorted(self.blocks)))
+        super().__init__(f"these search blocks are not what was stored: {numbers}")
 
 
 @dataclass(frozen=True, slots=True)
@@ -284,6 +285,7 @@ def _of_blocks(
     if total != sum(map(len, found.values())) or bad:
         apart = _beside_blocks(connection, found, bad)
     intact = [stored for stored in apart if stored.intact]
+    bad |= {block_of(stored.id) for stored in intact}  # a block lacks them, or is missing itself
     from_rows = columns_of_rows(connection, intact, words)
     parts = list(found.values())
     starts = np.cumsum([0, *map(len, parts)])

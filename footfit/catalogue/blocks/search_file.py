@@ -137,6 +137,8 @@ def open_search_file(location: Location, mark: str | None) -> SearchFile | None:
     if mark is None or mark in NOT_TRUSTED or not isinstance(location, Path):
         return None
     try:
+        if not search_path(location).is_file():  # a pipe would be waited for
+            return None
         whole = np.memmap(search_path(location), dtype=np.uint8, mode="r")
         return _opened(whole, mark)
     except (OSError, ValueError, KeyError, TypeError):

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
 from functools import cached_property
@@ -26,6 +26,10 @@ if TYPE_CHECKING:
 
 NOT_INSTALLED = (
     "needs psycopg, which is not installed; type: python -m pip install 'footfit[postgres]'"
+)
+NOT_VALID = (
+    "the address is not valid: each setting after the ? must be one of PostgreSQL's, as name=value;"
+    " write a space as %20"
 )
 CONNECT_S = 10
 LOCK = 0x466F6F74
@@ -55,36 +59,45 @@ def connect(url: ServerUrl, patience_s: float = CONNECT_S) -> ServerConnection:
     Raises
     ------
     BadOption
-        psycopg is not installed.
+        psycopg is not installed, or libpq does not understand the address.
     CatalogueUnreachable
         The server does not answer, it has no such database, or it refuses the user.
     """
     try:
         import psycopg
+        from psycopg.conninfo import conninfo_to_dict
     except ImportError as error:
         raise BadOption(NOT_INSTALLED, str(url)) from error
+    try:
+        parts = conninfo_to_dict(url.secret)
+    except psycopg.Error:  # its words quote the address
+        raise BadOption(NOT_VALID, str(url)) from None
     wait_s = round(min(max(patience_s, 2.0), CONNECT_S))  # libpq takes no less
     try:
         connection = psycopg.connect(
             url.secret, autocommit=True, connect_timeout=wait_s, client_encoding="utf8"
         )
     except psycopg.Error as error:
-        raise _not_connected(error, url) from None
+        secrets = [str(parts[name]) for name in ("password", "sslpassword") if parts.get(name)]
+        raise _not_connected(error, url, secrets) from None
     return ServerConnection(connection)
 
 
-def _not_connected(error: Exception, url: ServerUrl) -> CatalogueUnreachable:
-    """Why there is no connection. libpq's words name the host and the user, and no password."""
+def _not_connected(
+    error: Exception, url: ServerUrl, secrets: Sequence[str]
+) -> CatalogueUnreachable:
+    """Why there is no connection. libpq's words are left out if they hold one of the secrets."""
     lines = [line for line in str(error).splitlines() if line.strip()]
     said = lines[0] if lines else type(error).__name__
     for before in ("failed: ", "FATAL: ", "fe_sendauth: "):
         said = said.rpartition(before)[2].strip()
+    why = "" if any(secret in said for secret in secrets) else f" ({said})"
     if "password" in said:
-        words = f"the server refuses the user ({said}): set PGPASSWORD, or write ~/.pgpass"
+        words = f"the server refuses the user{why}: set PGPASSWORD, or write ~/.pgpass"
     elif "database" in said and "does not exist" in said:
-        words = f"the server says: {said}; make it with createdb"
+        words = f"the server has no such database{why}; make it with createdb"
     else:
-        words = f"the server cannot be reached ({said}); check the address, and that it runs"
+        words = f"the server cannot be reached{why}; check the address, and that it runs"
     return CatalogueUnreachable(words, str(url))
 
 

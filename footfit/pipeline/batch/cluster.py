@@ -264,15 +264,18 @@ def _client(address: str, patience: Patience) -> Any:
             "distributed.admin.large-graph-warning-threshold": "10GB",
         }
     )
-    connect = partial(distributed.Client, address, timeout=wait, set_as_default=False)
-    client: Future[Any] = Future()
+    client = distributed.Client.__new__(distributed.Client)
+    connect = partial(client.__init__, address, timeout=wait, set_as_default=False)
+    connected: Future[Any] = Future()
     # Dask may wait for ever if another program listens there.
-    threading.Thread(target=lambda: settle(client, *_answer(connect)), daemon=True).start()
+    threading.Thread(target=lambda: settle(connected, *_answer(connect)), daemon=True).start()
     try:
-        return client.result(patience.to_connect_s + patience.look_every_s)
+        connected.result(patience.to_connect_s + patience.look_every_s)
+        return client
     except Exception as error:
-        words = f"no Dask scheduler answers there ({_first_line(error)}); look at its address"
-        raise ClusterUnusable(words, address) from error
+        client.status = "closed"  # else its end waits 30 s to close what was never open
+        words = "what answers there is no Dask scheduler, or one of another version of Dask"
+        raise ClusterUnusable(f"{words}; look at the address", address) from error
 
 
 def _has_certificates(security: Any) -> bool:
@@ -286,6 +289,10 @@ def _require_scheduler(address: str, patience: Patience) -> None:
         host, port = parts.hostname, parts.port
     except ValueError:
         host = port = None
+    _, has_user, shown = address.rpartition("@")
+    if has_user:
+        words = "--scheduler takes tcp://HOST:PORT or tls://HOST:PORT, without a user or a password"
+        raise BadOption(f"{words} before {shown!r}")
     if not host or not port or parts.scheme not in ("tcp", "tls"):
         raise BadOption(f"--scheduler takes tcp://HOST:PORT or tls://HOST:PORT, not {address!r}")
     try:
@@ -293,7 +300,3 @@ def _require_scheduler(address: str, patience: Patience) -> None:
     except OSError as error:
         words = f"no scheduler answers there ({error.strerror or error}); type: dask scheduler"
         raise ClusterUnusable(words, address) from error
-
-
-def _first_line(error: BaseException) -> str:
-    return (str(error).splitlines() or [type(error).__name__])[0]

@@ -18,6 +18,7 @@ from footfit.errors import BadManifest
 DELIMITERS = (",", ";", "\t", "|")
 LARGEST_BYTES = 16_000_000
 SAVE_AGAIN = "save it as CSV UTF-8"
+MORE_VALUES = "has more values than columns; put a value that holds the delimiter in quotes"
 _UTF16_MARKS = (codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE)
 _EXCELS_LINE = re.compile(r"sep=(.)\r?\n", re.IGNORECASE)
 
@@ -219,8 +220,7 @@ def _values(cells: Sequence[str], names: Sequence[str], where: str) -> dict[str,
         if not (text := cell.strip()):
             continue
         if place >= len(names):
-            words = "has more values than columns; put a value that holds the delimiter in quotes"
-            raise BadManifest(words, where)
+            raise BadManifest(MORE_VALUES, where)
         if not names[place]:
             words = f"has a value in column {place + 1}, which has no name; name it or empty it"
             raise BadManifest(words, where)

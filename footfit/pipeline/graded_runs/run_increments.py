@@ -27,6 +27,10 @@ LEAST_LASTS = 3
 """Two lasts have one increment, which nothing can be compared with."""
 
 
+OF_TWINS = "name one of them, or say the sizes with --manifest"
+OF_STORED_TWINS = "change the labels of one with edit-last, or remove it with remove-last"
+
+
 @dataclass(frozen=True, slots=True)
 class Line:
     """Lasts that differ in size alone, or in width alone, from the least to the largest.
@@ -123,7 +127,8 @@ def _refuse_twins(lasts: Sequence[RunLast]) -> None:
         if twin is not last:
             width = f", width {last.width}" if last.width else ""
             words = f"both {twin.last!r} and {last.last!r} have the size {last.size}{width}"
-            raise BadOption(f"{words}: name one of them, or say the sizes with --manifest")
+            stored = {twin.size_from, last.size_from} == {"catalogue"}
+            raise BadOption(f"{words}: {OF_STORED_TWINS if stored else OF_TWINS}")
 
 
 def _size_lines(lasts: Sequence[RunLast], step: float) -> Iterator[Line]:

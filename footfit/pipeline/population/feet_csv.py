@@ -12,7 +12,7 @@ import numpy as np
 from footfit.errors import BadManifest, BadOption
 from footfit.geometry.measures.measure_table import MeasureDefinition, of_kind
 from footfit.geometry.numeric.arrays import Floats
-from footfit.pipeline.batch.csv_rows import csv_stream, plain_name
+from footfit.pipeline.batch.csv_rows import MORE_VALUES, csv_stream, plain_name
 from footfit.pipeline.batch.side_words import side_in_name
 from footfit.pipeline.population.shape_columns import (
     MeasureColumn,
@@ -101,6 +101,8 @@ def feet_of_csv(path: Path, kept: Sequence[str] = ()) -> tuple[FootTable, tuple[
         for where, cells in table.rows:
             if not any(map(str.strip, cells)):
                 continue
+            if any(map(str.strip, cells[len(table.head) :])):
+                raise BadManifest(MORE_VALUES, where)
             places.append(where.rpartition(" ")[2])
             for column in columns:
                 column.texts.append(
@@ -227,10 +229,11 @@ def _table(columns: Sequence[_Cells], places: Sequence[str], origin: str) -> Foo
         gain_sd_mm=np.zeros(count),
     )
     sides = by_kind["side"][0].texts if by_kind["side"] else [""] * count
-    known = {text: _side(text, origin) for text in set(sides)}
+    first = dict(zip(reversed(sides), reversed(places), strict=True)) if by_kind["side"] else {}
+    known = {text: _side(text, f"{origin} line {place}") for text, place in first.items()}
     return FootTable(
         tuple(name or f"line {place}" for name, place in zip(ids, places, strict=True)),
-        tuple(known[text] for text in sides),
+        tuple(known.get(text) for text in sides),
         shapes,
         {column.role.name: tuple(column.texts) for column in by_kind["text"]},
     )
@@ -243,12 +246,12 @@ def _measure(value: Floats, entry: MeasureDefinition) -> MeasureColumn:
     return MeasureColumn(value, np.where(np.isnan(value), 0.0, entry.sd), definition)
 
 
-def _side(text: str, origin: str) -> SideName | None:
+def _side(text: str, where: str) -> SideName | None:
     if text.casefold() in NOTHING:
         return None
     side = side_in_name(text).side
     if side is None:
-        raise BadManifest(f"a side is {text!r}; it must be left or right, or empty", origin)
+        raise BadManifest(f"side is {text!r}; it must be left or right, or empty", where)
     return side
 
 

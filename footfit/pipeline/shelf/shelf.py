@@ -8,9 +8,9 @@ from typing import Protocol
 
 import numpy as np
 
-from footfit.catalogue.blocks.block_reading import ShownLast
+from footfit.catalogue.blocks.block_reading import BadBlocks, ShownLast
 from footfit.catalogue.blocks.record_columns import Kept, columns_of
-from footfit.catalogue.blocks.search_file import SearchFile
+from footfit.catalogue.blocks.search_file import OtherCatalogue, SearchFile
 from footfit.catalogue.store import Catalogue, open_catalogue
 from footfit.errors import CatalogueDamaged, UnknownLast
 from footfit.geometry.numeric.arrays import Bools, Floats, Ints
@@ -122,11 +122,27 @@ class Shelf:
         """The names of the lasts that are ranked, sorted."""
         return tuple(sorted(self.lasts.base.taken(np.flatnonzero(self.ranked)).names))
 
-    def records(self) -> tuple[LastRecord, ...]:
-        """The records of the lasts that are ranked, by name, from their rows; no damaged one."""
-        shown = self.lasts.shown(np.flatnonzero(self.ranked).tolist())
+    def with_records(self) -> tuple[Shelf, tuple[LastRecord, ...]]:
+        """The shelf without damaged lasts, and the records of those that are ranked, by name.
+
+        Records are read from rows. If a search block is not what was stored, or somebody changed
+        the catalogue meanwhile, the shelf is made anew.
+        """
+        shelf, bad = self, frozenset[int]()
+        while True:
+            rows = np.flatnonzero(shelf.ranked).tolist()
+            try:
+                shown = shelf.lasts.shown(rows)
+                break
+            except OtherCatalogue:
+                shelf = shelf.anew(bad)
+            except BadBlocks as error:
+                bad |= error.blocks
+                shelf = shelf.anew(bad)
+        damaged = [row for row, last in zip(rows, shown, strict=True) if last.record is None]
         records = (last.record for last in shown if last.record is not None)
-        return tuple(sorted(records, key=lambda record: record.labels.name))
+        by_name = tuple(sorted(records, key=lambda record: record.labels.name))
+        return shelf.without(damaged), by_name
 
     def without(self, rows: Sequence[int]) -> Shelf:
         """The shelf without some lasts, because their rows are damaged; warnings name them."""
