@@ -23,7 +23,7 @@ from footfit.results import (
     Target,
 )
 
-STATIONS = 60
+STATIONS = FlareDefinition().stations
 
 
 def rotation(generator: np.random.Generator) -> np.ndarray:

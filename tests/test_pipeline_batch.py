@@ -6,9 +6,12 @@ import multiprocessing
 import os
 import resource
 import signal
+import subprocess
+import sys
 import time
 from concurrent.futures import Executor, Future, ThreadPoolExecutor, as_completed
 from contextlib import suppress
+from pathlib import Path
 
 import pytest
 
@@ -190,3 +193,34 @@ def test_a_pool_that_is_ended_at_once_leaves_no_future_open() -> None:
     pool.shutdown(cancel_futures=True)
     assert all(future.done() for future in futures)
     assert not multiprocessing.active_children()
+
+
+ENDS_EARLY = """
+import sys, time
+from multiprocessing import util
+from footfit.pipeline.batch.workers import WorkerPool
+
+spawn, started = util.spawnv_passfds, []
+
+def slow_spawn(*args):
+    process = spawn(*args)
+    started.append(process)
+    if len(started) == 2:  # the first is Python's own; this one waits for what it is to do
+        time.sleep(0.5)
+    return process
+
+if __name__ == "__main__":
+    util.spawnv_passfds = slow_spawn
+    pool = WorkerPool(2)
+    answer = pool.submit(len, "abc")
+    while len(started) < 2:
+        time.sleep(0.01)
+    sys.exit("the one line")
+"""
+
+
+def test_a_command_that_ends_while_its_workers_start_writes_one_line(tmp_path: Path) -> None:
+    script = tmp_path / "ends_early.py"
+    script.write_text(ENDS_EARLY, encoding="utf-8")
+    run = subprocess.run([sys.executable, script], capture_output=True, text=True, check=False)
+    assert (run.returncode, run.stdout, run.stderr) == (1, "", "the one line\n")

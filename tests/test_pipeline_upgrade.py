@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import shutil
 from dataclasses import replace
 from pathlib import Path
 
@@ -42,6 +43,25 @@ def test_profiles_of_another_definition_are_recomputed_and_marked(catalogue: Pat
     # measured 0.00105
     assert again.flare.angle_deg == pytest.approx(record.flare.angle_deg, abs=1.6e-3)
     assert upgrade(catalogue).recomputed == ()
+
+
+def test_a_profile_with_other_stations_than_its_definition_is_found_and_made_anew(
+    tmp_path: Path,
+) -> None:
+    """The stored catalogue has 60 stations, and their definition has fewer."""
+    old = Path(__file__).parent / "data" / "catalogue-0005.footfit"
+    path = Path(shutil.copy(old, tmp_path / "old.footfit"))
+    with open_catalogue(path) as opened:
+        found = [finding for finding in opened.findings() if finding.code == "definition"]
+        assert len(found) == len(opened.names())
+    assert all("stations" in finding.message for finding in found)
+    shelf = choice(path, None, None)
+    assert {notice.code for notice in shelf.warnings} >= {"outdated_last"}
+    assert not shelf.ranked.any()
+    assert len(upgrade(path).recomputed) == len(found)
+    assert choice(path, None, None).ranked.all()
+    with open_catalogue(path) as opened:
+        assert opened.findings() == []
 
 
 @pytest.mark.parametrize("other", [{"band_height": None}, {"band_width": 0.3}])

@@ -119,10 +119,14 @@ def _definitions(connection: Driver) -> Iterator[Finding]:
     """A profile of another definition is not damaged, but it cannot be ranked."""
     current = definition_text(FlareDefinition())
     for stored in stored_lasts(connection):
-        if stored.flare is not None and stored.definition != current:
+        if stored.flare is not None and not stored.is_current:
             version = stored.flare.get("definition_version")
-            words = f"its profile follows {version!r}; type: footfit upgrade-catalogue"
-            yield Finding("definition", words, stored.name, damage=False)
+            words = f"its profile follows {version!r}"
+            if stored.definition == current:
+                words = f"its profile has not the number of stations of {version!r}"
+            yield Finding(
+                "definition", f"{words}; type: footfit upgrade-catalogue", stored.name, damage=False
+            )
 
 
 def _sealed_rows(connection: Driver) -> Iterator[Finding]:

@@ -8,12 +8,10 @@ from dataclasses import asdict, dataclass
 from typing import Any
 
 from footfit.catalogue.file.dialect import Driver
-from footfit.catalogue.rows.array_blobs import definition_text
 from footfit.catalogue.rows.last_names import caseless
 from footfit.catalogue.rows.records import record_of
 from footfit.catalogue.rows.verified_rows import last_names, stored_lasts
 from footfit.geometry.fit.sizes import label_number
-from footfit.geometry.flare.definition import FlareDefinition
 from footfit.results import LastRecord
 
 
@@ -23,8 +21,8 @@ class StoredLasts:
 
     ``rejected`` counts the lasts that do not pass, by filter. ``damaged`` names the lasts whose
     rows are not what was stored. ``outdated`` names those of ``records`` whose profile follows
-    another flare definition than this footfit's: they cannot be ranked (``upgrade-catalogue``
-    makes a new profile).
+    another flare definition than this footfit's, or has other stations than its definition: they
+    cannot be ranked (``upgrade-catalogue`` makes a new profile).
     """
 
     records: tuple[LastRecord, ...]
@@ -36,7 +34,6 @@ class StoredLasts:
 def verified_records(connection: Driver, **filters: str | None) -> StoredLasts:
     """The lasts that pass the filters (see :func:`rejection`)."""
     names = last_names(connection)
-    current = definition_text(FlareDefinition())
     records, rejected, damaged, outdated = [], [], [], []
     for stored in sorted(stored_lasts(connection), key=lambda stored: stored.name):
         if not stored.intact:
@@ -48,7 +45,7 @@ def verified_records(connection: Driver, **filters: str | None) -> StoredLasts:
             rejected.append(reason)
             continue
         records.append(record)
-        if stored.definition != current:
+        if not stored.is_current:
             outdated.append(stored.name)
     counts = sorted(Counter(rejected).items())
     return StoredLasts(tuple(records), tuple(counts), tuple(damaged), tuple(outdated))

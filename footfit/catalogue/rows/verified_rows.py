@@ -10,9 +10,11 @@ from collections import defaultdict
 from dataclasses import dataclass
 
 from footfit.catalogue.file.dialect import Driver
+from footfit.catalogue.rows.array_blobs import array_of, definition_text
 from footfit.catalogue.rows.columns import FLARE, FRAME, LAST, MEASURE, NOTICE, Table
 from footfit.catalogue.rows.digests import Row, digest, hash_content
 from footfit.errors import CatalogueDamaged
+from footfit.geometry.flare.definition import FlareDefinition
 
 
 @dataclass(frozen=True, slots=True)
@@ -35,6 +37,16 @@ class LastRows:
     def definition(self) -> str:
         """The text of the definition that the flare profile follows."""
         return str((self.flare or {}).get("definition"))
+
+    @property
+    def is_current(self) -> bool:
+        """Whether the flare profile follows this footfit's definition, and has its stations; of
+        intact rows.
+        """
+        current = FlareDefinition()
+        stations = (self.flare or {}).get("stations")
+        whole = isinstance(stations, bytes) and len(array_of(stations)) == current.stations
+        return whole and self.definition == definition_text(current)
 
     @property
     def content_digest(self) -> str:

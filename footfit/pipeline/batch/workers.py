@@ -7,6 +7,7 @@ go on.
 
 from __future__ import annotations
 
+import atexit
 import signal
 import threading
 import time
@@ -103,6 +104,7 @@ class WorkerPool(Executor):
             if self._thread is None:
                 self._thread = threading.Thread(target=self._serve_orders, daemon=True)
                 self._thread.start()
+                atexit.register(self._leave)
         self._ring()
         return order.future
 
@@ -113,6 +115,10 @@ class WorkerPool(Executor):
         self._ring()
         if wait and self._thread is not None:
             self._thread.join()
+
+    def _leave(self) -> None:
+        """End the pool with this process: a child that loses it while it starts writes an error."""
+        self.shutdown(cancel_futures=True)
 
     def _ring(self) -> None:
         """Wake the thread."""
@@ -136,6 +142,7 @@ class WorkerPool(Executor):
                 self._ending = True
                 self._heard.close()
                 self._bell.close()
+            atexit.unregister(self._leave)
 
     def _is_done(self) -> bool:
         busy = any(worker.order is not None for worker in self._crew)

@@ -127,10 +127,12 @@ def _labels(lasts: LastColumns) -> list[tuple[str | None, ...]]:
 
 
 def _with_current_profile(lasts: LastColumns) -> Bools:
-    """Which profiles follow this footfit's definition, parameter by parameter."""
-    text = definition_text(FlareDefinition())
+    """Which profiles follow this footfit's definition, parameter by parameter, in its stations."""
+    definition = FlareDefinition()
+    text = definition_text(definition)
     current = [profile == text for profile in lasts.words.profiles.values]
-    return np.array(current, dtype=bool)[lasts.profile]
+    same_stations = np.asarray(lasts.stations == definition.stations)
+    return np.array(current, dtype=bool)[lasts.profile] & same_stations
 
 
 def _bad_blocks(lasts: BlockLasts) -> list[Notice]:
