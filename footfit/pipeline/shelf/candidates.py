@@ -131,8 +131,8 @@ def _with_current_profile(lasts: LastColumns) -> Bools:
     definition = FlareDefinition()
     text = definition_text(definition)
     current = [profile == text for profile in lasts.words.profiles.values]
-    same_stations = np.asarray(lasts.stations == definition.stations)
-    return np.array(current, dtype=bool)[lasts.profile] & same_stations
+    same: Bools = np.array(current, dtype=bool)[lasts.profile]
+    return np.asarray(same & (lasts.stations == definition.stations))
 
 
 def _bad_blocks(lasts: BlockLasts) -> list[Notice]:
