@@ -211,7 +211,7 @@ def changed_shape(made) -> CustomShape:
     """A shape within all limits."""
     chart = chart_of(Shape(*base(), "last"))
     solved = Solution(Field.still(chart), (), made.vertices_mm, np.zeros(2), 0)
-    return CustomShape(solved, made.vertices_mm, 1.0)
+    return CustomShape(solved, made.vertices_mm, 1.0, (1.0, 1.0))
 
 
 def test_the_judge_of_what_is_kept_sees_what_moved() -> None:

@@ -102,6 +102,16 @@ class Field:
             shift += bump.shift(points)
         return np.asarray(points + places.free[:, None] * shift)
 
+    def scales(self, points_mm: Floats) -> tuple[Floats, Floats]:
+        """By which factors widths and heights change at points (n, 3) of the resting frame, (n,)
+        each; what holds a point holds its scales too.
+        """
+        places = self.chart.places(self.chart.standing(points_mm))
+        width = places.risen if self.bottom_kept else 1.0
+        wider = np.expm1(width * (places.splines @ self.wider))
+        higher = np.expm1(places.risen * (places.splines @ self.higher))
+        return 1.0 + places.free * wider, 1.0 + places.free * higher
+
     def moved_points(self, points_mm: Floats) -> Floats:
         """Where the field moves points (n, 3) of the resting frame, in that frame."""
         standing = self.chart.standing(points_mm)

@@ -45,7 +45,7 @@ class SolverSettings:
     settled_mm: float = 0.05
     near_mm: float = 0.1
     rounds: int = 12
-    shaping: int = 3
+    shaping: int = 5
     step: float = 3e-3
     most: float = 0.25
     shorter: float = 0.5

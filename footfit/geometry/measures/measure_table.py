@@ -83,6 +83,13 @@ class MeasureDefinition:
         """The function's name: the key in JSON and in the catalogue."""
         return self.value_of.__name__
 
+    def taken_of(self, shape: Shape) -> MeasureValue:
+        """The measure of a shape: it is taken once, and kept with what was found on the shape."""
+        taken: dict[str, MeasureValue] = vars(shape).setdefault("taken", {})
+        if self.name not in taken:
+            taken[self.name] = self.value_of(shape)
+        return taken[self.name]
+
     @property
     def definition_id(self) -> str:
         """The name with the version: what a stored value was measured by."""

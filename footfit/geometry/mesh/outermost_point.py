@@ -99,7 +99,8 @@ def tip(
     depth = np.linspace(*settings.law, settings.levels) * length
     inward = _no_area(depth, area @ share_over(corner, top - depth), settings.degree)
     weight = np.maximum(corner @ _PARTS.T - (top - settings.cap * length), 0.0) * area[:, None]
-    place = np.einsum("ts,sk,tkj->j", weight, _PARTS, triangles) / max(weight.sum(), 1e-300)
+    of_corners = (weight @ _PARTS).ravel()
+    place = of_corners @ triangles.reshape(-1, 3) / max(weight.sum(), 1e-300)
     if not weight.any():  # a spike so thin that no middle of a part lies in the cap
         place = vertices[faces].reshape(-1, 3)[np.argmax(values[faces])]
     return Tip(top - float(np.clip(inward, 0.0, depth[0])), place)

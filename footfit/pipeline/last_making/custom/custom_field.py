@@ -93,7 +93,7 @@ class CustomSettings:
 
 
 CUSTOM = CustomSettings()
-WARM = replace(SOLVER, shaping=1)
+WARM = replace(SOLVER, shaping=3)
 """A search that begins where another one ended."""
 FREE_MM = 100.0
 """The unit of a knob in mm whose size costs nothing."""
@@ -146,12 +146,14 @@ def room_bumps(
 class CustomShape:
     """A base as a field has changed it: vertices (n, 3) of the right shape in the base's frame.
 
-    ``solved`` is without the room for single places; ``least_determinant`` is with it.
+    ``solved`` is without the room for single places; ``least_determinant`` is with it. ``scales``
+    are the largest factors by which widths and heights change, up or down.
     """
 
     solved: Solution
     vertices_mm: Floats
     least_determinant: float
+    scales: tuple[float, float]
 
 
 def custom_shape(
@@ -185,7 +187,13 @@ def custom_shape(
     costs = _costs(start.chart, knobs)
     solved = solution(start, knobs, base.shape.vertices_mm, goals, read, costs, settings)
     least = least_determinant(solved.field, base.shape.vertices_mm)
-    return CustomShape(solved, solved.vertices_mm, least)
+    wider, higher = solved.field.scales(base.shape.vertices_mm)
+    return CustomShape(solved, solved.vertices_mm, least, (_largest(wider), _largest(higher)))
+
+
+def _largest(factors: Floats) -> float:
+    """The largest of factors (n,), where those below 1 count by their inverse."""
+    return float(np.maximum(factors, 1.0 / factors).max())
 
 
 def _knobs(chart: Chart, aims: Sequence[CustomAim]) -> list[Knob]:
@@ -209,7 +217,8 @@ def with_room(base: BaseLast, shape: CustomShape, bumps: Sequence[Bump]) -> Cust
     """
     field = replace(shape.solved.field, bumps=tuple(bumps))
     moved = field.moved_points(base.shape.vertices_mm)
-    roomy = CustomShape(shape.solved, moved, least_determinant(field, base.shape.vertices_mm))
+    least = least_determinant(field, base.shape.vertices_mm)
+    roomy = replace(shape, vertices_mm=moved, least_determinant=least)
     words = limit_words(roomy)
     if words is not None:
         raise OutOfReach(f"there is no place for so much room: {words}; give less --room")
@@ -276,22 +285,28 @@ def refuse_missed(
     limit = limit_words(shape)
     if limit is not None:
         raise OutOfReach(f"{_worst_words(aims)}: {limit}{turned}")
-    most_mm = [CUSTOM.length_met_mm if aim.measure == LENGTH else CUSTOM.met_mm for aim in aims]
-    over = np.abs(off_mm) / most_mm * [aim.firm for aim in aims]
-    worst = int(np.argmax(over))
-    if over[worst] > 1.0:
+    worst = missed(aims, off_mm)
+    if worst is not None:
         aim, off = aims[worst], float(off_mm[worst])
         words = f"the nearest is {plain(aim.target + off)} mm, not {plain(aim.target)} mm{turned}"
         raise OutOfReach(f"the {aim.words} is out of reach of this base: {words}")
 
 
+def missed(aims: Sequence[CustomAim], off_mm: Floats) -> int | None:
+    """The row of the firm aim that is missed the most, by more than is allowed; or None."""
+    most_mm = [CUSTOM.length_met_mm if aim.measure == LENGTH else CUSTOM.met_mm for aim in aims]
+    over = np.abs(off_mm) / most_mm * [aim.firm for aim in aims]
+    worst = int(np.argmax(over))
+    return worst if over[worst] > 1.0 else None
+
+
 def limit_words(shape: CustomShape) -> str | None:
     """Which limit of stretch a change goes beyond, in words; None if it keeps them all."""
-    field, left = shape.solved.field, shape.least_determinant
-    scales = {"widths": (field.wider, CUSTOM.wider), "heights": (field.higher, CUSTOM.higher)}
-    for name, (curve, most) in scales.items():
-        if np.abs(curve).max() > np.log(most):
+    limits = zip(("widths", "heights"), shape.scales, (CUSTOM.wider, CUSTOM.higher), strict=True)
+    for name, scale, most in limits:
+        if scale > most:
             return f"its {name} would have to change by more than {100 * (most - 1):.0f} %"
+    left = shape.least_determinant
     if left < CUSTOM.determinant:
         return f"the surface would come too near to a fold ({plain(left, 2)} of its volume is left)"
     return None

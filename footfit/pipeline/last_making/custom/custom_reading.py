@@ -105,7 +105,7 @@ def value_mm(shape: Shape, measure: str, base: BaseLast, gain_mm: float | None =
     if measure == LENGTH:
         gain_mm = _gain_mm(shape, base) if gain_mm is None else gain_mm
         return _functional_mm(shape) + gain_mm
-    value = measure_named(measure).value_of(shape).value
+    value = measure_named(measure).taken_of(shape).value
     return np.nan if value is None else value
 
 
@@ -118,13 +118,13 @@ def asked_mm(aim: CustomAim, base: BaseLast) -> float:
 
 def _functional_mm(shape: Shape) -> float:
     """The functional length; the length of a shape that has none."""
-    return measure_named("functional_length").value_of(shape).value or shape.length_mm
+    return measure_named("functional_length").taken_of(shape).value or shape.length_mm
 
 
 def _gain_mm(shape: Shape, base: BaseLast) -> float:
     """How much longer a changed base is along its bottom, which counts for the toe room."""
     names = ("functional_length", LENGTH, "heel_height", *LENGTHS)
-    values = {name: measure_named(name).value_of(shape).value for name in names}
+    values = {name: measure_named(name).taken_of(shape).value for name in names}
     measures = {
         name: Measure(name, Measured(value), measure_named(name).definition_id)
         for name, value in values.items()

@@ -31,6 +31,7 @@ from footfit.pipeline.last_making.custom.custom_field import (
     custom_shape,
     first_field,
     limit_words,
+    missed,
     refuse_missed,
     with_room,
 )
@@ -45,6 +46,8 @@ from footfit.results import LastLabels, PreparedScan, SideName
 
 SETTLED_MM = (0.15, 0.15, 0.15, 0.3, 0.3, 0.3)
 """The finished last is made again if it reads so far from a target: by the tries before."""
+PRESSED_TRIES = 3
+"""So many tries at most, if zones are pressed: there is a good last already."""
 TURN_DEG = 2.5
 """The flare is turned in steps of at most so much; each step begins where the last one ended."""
 
@@ -122,8 +125,9 @@ class Attempt:
 
     @property
     def worth(self) -> tuple[bool, float]:
-        """What is least for the best try: whether it breaks a limit, and its worst miss."""
-        return limit_words(self.shape) is not None, float(np.abs(self.off_mm).max())
+        """What is least for the best try: whether it would be refused, and its worst miss."""
+        refused = limit_words(self.shape) is not None or missed(self.aims, self.off_mm) is not None
+        return refused, float(np.abs(self.off_mm).max())
 
 
 def attempt_at(given: Given, aims: Sequence[CustomAim], first: Attempt | None = None) -> Attempt:
@@ -144,7 +148,8 @@ def attempt_at(given: Given, aims: Sequence[CustomAim], first: Attempt | None = 
         carried = turned.made.carried(base, turned.shape.vertices_mm)
         knobs = turned.shape.solved.knobs
     tries: list[Attempt] = []
-    for settled_mm in SETTLED_MM:
+    pressed = any(aim.pressed for aim in aims)
+    for settled_mm in SETTLED_MM[: PRESSED_TRIES if pressed else None]:
         with suppress(FootfitError) if tries else nullcontext():
             tried = _tried(given, aims, 1.0, carried, knobs)
             carried = tried.made.carried(base, tried.shape.vertices_mm)
@@ -174,10 +179,11 @@ def _tried(
 
 def _off_mm(base: BaseLast, aims: Sequence[CustomAim], made: MadeLast) -> Floats:
     """How far a finished last reads from each firm target, (aims,)."""
-    asked = np.array([asked_mm(aim, base) for aim in aims])
-    off = np.array([value_mm(made.shape, aim.measure, base) for aim in aims]) - asked
-    off = np.where(np.isnan(off), np.inf, off)
-    return np.where([aim.firm for aim in aims], off, 0.0)
+    off = [
+        value_mm(made.shape, aim.measure, base) - asked_mm(aim, base) if aim.firm else 0.0
+        for aim in aims
+    ]
+    return np.where(np.isnan(off), np.inf, off)
 
 
 def with_bumps(given: Given, attempt: Attempt, bumps: Sequence[Bump]) -> Attempt:
