@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import os
+import re
 import subprocess
 import sys
 from dataclasses import replace
@@ -30,7 +31,7 @@ from footfit.report.terminal.scan_tables import terminal_text
 from footfit.results import JudgedZone
 from footfit.results.worn import BAREFOOT
 from tests import shapes
-from tests.conftest import ROOT, Footfit
+from tests.conftest import ROOT, SAMPLES, Footfit
 from tests.custom_judge import girth_misses, kept_moves, least_misses, mesh_changes
 from tests.customs import custom_last
 from tests.distortions import random_pose
@@ -286,3 +287,21 @@ def test_the_table_and_the_page_say_what_was_made() -> None:
     page = custom_page(made)
     assert "ball girth least" in page
     assert page == custom_page(made)
+
+
+def test_the_worked_example_says_what_comes_out() -> None:
+    """docs/custom-lasts.md tells the measures of a custom last of the samples."""
+    page = (ROOT / "docs/custom-lasts.md").read_text(encoding="utf-8")
+    words = page.split("The foot is narrower", 1)[1].split("Every zone", 1)[0]
+    told = [float(number) for number in re.findall(r"\d+\.\d", words)]
+    (made,) = footfit.customise(
+        str(SAMPLES / "feet/mh008_R.stl"), str(SAMPLES / "lasts/derby-43.stl")
+    )
+    zones = {zone.name: zone for zone in made.zones}
+    names = ("ball_girth_least", "waist_girth_least", "ball_width", "heel_width")
+    girths = [zones[name] for name in (*names, "instep_girth_least")]
+    room = next(zone for zone in made.judged if zone.name == "length")
+    own = [value for zone in girths for value in (zone.base, zone.reached)]
+    own += [zones["length"].base - zones["length"].reached, room.base, room.custom]
+    np.testing.assert_allclose(told, own, atol=0.1)
+    assert {zone.custom_verdict for zone in made.judged} == {"good"}

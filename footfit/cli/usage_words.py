@@ -59,7 +59,8 @@ def _a_number(match: re.Match[str]) -> str:
 
 def _one_of(match: re.Match[str]) -> str:
     *first, last = match["choices"].replace("'", "").split(", ")
-    return f"{match['name']} takes {', '.join(first)} or {last}, not {match['value']}"
+    names = f"{', '.join(first)} or {last}" if first else last
+    return f"{match['name']} takes {names}, not {match['value']}"
 
 
 def _no_option(match: re.Match[str]) -> str:

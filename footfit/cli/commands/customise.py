@@ -169,13 +169,15 @@ def rooms(given: Sequence[str]) -> dict[str, float]:
     Raises
     ------
     BadOption
-        It is not written as PLACE=MM.
+        It is not written as PLACE=MM, or a place is named twice.
     """
     from footfit.errors import BadOption
 
     result = {}
     for each in given:
         place, _, size = each.partition("=")
+        if place.strip() in result:
+            raise BadOption(f"--room names {place.strip()} twice: give it one size")
         try:
             result[place.strip()] = float(size)
         except ValueError as error:

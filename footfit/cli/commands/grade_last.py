@@ -122,5 +122,5 @@ def grade_last(
     write_outputs({**meshes, output / MANIFEST: manifest}, force=force)
     if store:
         run = store_run(lasts.path(), grading, run, replace_stored=force)
-    say_written([output / MANIFEST], quiet=mode.quiet)
+    say_written([*meshes, output / MANIFEST], quiet=mode.quiet)
     answer_result(run, mode, outputs)

@@ -8,7 +8,7 @@ from dataclasses import replace
 from pathlib import Path
 
 from footfit.catalogue.store import Catalogue, open_catalogue
-from footfit.errors import FootfitError, NoCandidate, OutOfReach
+from footfit.errors import FootfitError, NameTaken, NoCandidate, OutOfReach
 from footfit.locations import Location
 from footfit.pipeline.fit.match import Question, matched
 from footfit.pipeline.last_making.base_last import BaseLast, stored_base
@@ -144,8 +144,11 @@ def store_custom_last(path: Location, custom: CustomLast, *, replaces: bool = Fa
 
     copy: MeshCopy = compact_copy(custom.vertices_mm, custom.faces, len(custom.faces))
     with open_catalogue(path, write=True) as catalogue:
-        record = custom.record
-        known = custom.base in catalogue.names()
+        record, names = custom.record, catalogue.names()
+        if not replaces and record.labels.name in names:
+            words = "is in the catalogue: add --force, or give --store another name"
+            raise NameTaken(f"{record.labels.name!r} {words}")
+        known = custom.base in names
         labels = replace(record.labels, parent=custom.base if known else None)
         record = replace(record, labels=labels)
         catalogue.add(record, copy, custom.sections, custom.parentage, replace=replaces)

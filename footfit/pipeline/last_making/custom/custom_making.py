@@ -41,6 +41,7 @@ from footfit.pipeline.last_making.custom.custom_tries import (
 from footfit.pipeline.last_making.custom.good_zones import (
     PRESSED,
     faults,
+    not_good,
     pressed_aims,
     zone_notices,
 )
@@ -116,7 +117,14 @@ def customised(
     if making.rooms_mm:  # room is given on top of the targets, which are met without it
         lying_mm = attempt.made.lying(attempt.shape.vertices_mm)
         bumps = room_bumps(base.shape, chart, making.rooms_mm, lying_mm)
-        made = answer(with_bumps(given, attempt, bumps))
+        roomy = answer(with_bumps(given, attempt, bumps))
+        lost = {z.name for z in not_good(roomy.judged)} - {z.name for z in not_good(made.judged)}
+        made = replace(
+            roomy, warnings=(*_notices(base), *zone_notices(roomy.judged, question, lost))
+        )
+    if foot.aligned.alignment.pose.kind == "last":
+        words = "the foot has a shape like a last's: give the scan of a foot"
+        notices.append(results.Notice("looks_like_a_last", words))
     return replace(made, warnings=(*made.warnings, *notices))
 
 
@@ -142,7 +150,6 @@ def _answer(foot: Profiled, given: Given, making: Making, attempt: Attempt) -> C
     kept_base = replace(base, sections=sections)
     after = fit_in(foot, made.record, kept_base, question)
     judged, zones = _judged(before, after), _zones(base, attempt)
-    roomy = [zone.name for zone in zones if zone.room > 0.05]
     side = made.record.side.side or "right"
     mirror = np.array([1.0, -1.0 if side == "left" else 1.0, 1.0])
     base_vertices_mm = base.shape.vertices_mm * mirror
@@ -170,7 +177,7 @@ def _answer(foot: Profiled, given: Given, making: Making, attempt: Attempt) -> C
         flare_turn_deg=given.turn_deg,
         largest_move_mm=float(np.linalg.norm(shift, axis=1).max()),
         least_determinant=shape.least_determinant,
-        warnings=(*_notices(base), *zone_notices(judged, question, roomy)),
+        warnings=(*_notices(base), *zone_notices(judged, question)),
         record=made.record,
         sections=sections,
         parentage=_parentage(foot, base, making, zones),

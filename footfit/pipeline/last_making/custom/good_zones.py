@@ -93,7 +93,7 @@ def zone_notices(
 ) -> tuple[Notice, ...]:
     """A warning that names the zones that are not good, with what is kept and so forbids it.
 
-    ``roomy`` are the measures to which room for single places was added.
+    ``roomy`` are the zones that were good before room for single places was added.
     """
     words = []
     for zone in not_good(judged):
@@ -101,7 +101,7 @@ def zone_notices(
         if question.bottom_kept and zone.name.endswith("_width"):
             why = "--keep bottom keeps the outline of the bottom"
         elif zone.name in roomy:
-            why = "--room was given on top of its target"
+            why = "it was good before --room was given"
         elif zone.name == "flare" and question.flare_follow == 0.0:
             why += "; --flare-follow turns it"
         words.append(f"{zone.label} ({why})")
