@@ -243,6 +243,22 @@ def test_the_file_is_written_though_nobody_reads_the_answer(tmp_path) -> None:
     assert output.stat().st_size > 0
 
 
+def test_no_output_takes_the_place_of_a_foot_or_the_base(footfit: Footfit, tmp_path) -> None:
+    feet = [tmp_path / f"ann-{side}.stl" for side in ("left", "right")]
+    data = FOOT.read_bytes()
+    for path in feet:
+        path.write_bytes(data)
+    last = tmp_path / "base.stl"
+    last.write_bytes(data)
+    for written in ("ann.stl", "ann-left.stl", "base.stl"):
+        given = feet if written == "ann.stl" else feet[:1]
+        run = footfit(
+            "customise", *given, "--base", last, "-o", tmp_path / written, "--force"
+        )  # refused before a mesh is read
+        assert (run.code, "name another file" in run.err) == (2, True), run.err
+    assert all(path.read_bytes() == data for path in (*feet, last))
+
+
 def test_a_base_that_is_too_far_is_refused(footfit: Footfit, tmp_path) -> None:
     small = tmp_path / "small.stl"
     small.write_bytes(encoded_mesh(*last_mesh(LastSpec(length_mm=225.0, rings=80)), "stl"))

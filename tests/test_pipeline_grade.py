@@ -236,6 +236,8 @@ def test_what_cannot_be_planned_is_refused_in_words(tmp_path: Path) -> None:
     ):
         with pytest.raises(BadOption, match=words):
             plan(sizes=sizes)
+    with pytest.raises(OutOfReach, match="longer or shorter than any last"):
+        footfit.grade(mesh, "62", **known)
     with pytest.raises(BadOption, match="names no width"):
         plan(widths=" , ")
     with pytest.raises(UnreadableFile, match="no such file"):

@@ -94,7 +94,7 @@ def customise(
         *placed(plot, files.picture, pair=pair),
         *placed(html, lambda custom, _: files.page(custom), pair=pair),
     ]
-    refuse(written, force=force)
+    refuse(written, (*feet, base), force=force)
     sources = sources_of(feet, reading, quiet=mode.quiet)
     if len(sources) > 2 or (both and len(sources) == 2):
         raise BadOption("give one foot, with --both or without, or the two feet of one customer")
@@ -142,16 +142,18 @@ def placed(
     return [(side, path.with_stem(f"{path.stem}-{side}"), content) for side in sides]
 
 
-def refuse(written: Sequence[tuple[str | None, Path, Any]], *, force: bool) -> None:
-    """Stop before any work if a file could not be written at the end.
+def refuse(
+    written: Sequence[tuple[str | None, Path, Any]], read: Sequence[str], *, force: bool
+) -> None:
+    """Stop before any work if a file could not be written at the end; ``read`` are the inputs.
 
     Raises
     ------
     OutputExists, BadOption
-        A file exists, or its suffix is wrong.
+        A file exists, its suffix is wrong, or it is an input.
     """
     from footfit.api import files
-    from footfit.cli.outputs import refuse_existing
+    from footfit.cli.outputs import refuse_existing, refuse_inputs
     from footfit.pipeline.export import MESH_KINDS, PICTURE_KINDS
 
     for _, path, content in written:
@@ -161,6 +163,7 @@ def refuse(written: Sequence[tuple[str | None, Path, Any]], *, force: bool) -> N
         elif content is files.picture:
             kinds = PICTURE_KINDS
         refuse_existing(path, force=force, kinds=kinds)
+    refuse_inputs([str(path) for _, path, _ in written], read)
 
 
 def rooms(given: Sequence[str]) -> dict[str, float]:

@@ -6,7 +6,7 @@ import math
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, replace
 
-from footfit.errors import OutOfReach
+from footfit.errors import ImplausibleSize, OutOfReach
 from footfit.geometry.measures.landmarks import Shape
 from footfit.geometry.measures.measure_table import measure_named
 from footfit.geometry.stance.cues import StanceLabels
@@ -74,6 +74,9 @@ class Grader:
                 made[here], last = self._last(self._node(made, *_before(*here)), fitting)
             except OutOfReach as error:
                 raise OutOfReach(f"{self.name_of(fitting)}: {error.message}") from error
+            except ImplausibleSize as error:
+                words = "would be longer or shorter than any last: ask for fewer sizes"
+                raise OutOfReach(f"{self.name_of(fitting)} {words}") from error
             yield last
 
     def names(self) -> tuple[str, ...]:
