@@ -12,38 +12,69 @@ import numpy as np
 
 from footfit.geometry.deform.chart import Chart, eased
 from footfit.geometry.measures.landmarks import Shape
+from footfit.geometry.measures.top_cut import top_cut_faces
 from footfit.geometry.mesh.sections import (
     Planes,
     extremes_below,
-    highest,
     plane_sections,
     sections_across,
 )
-from footfit.geometry.numeric.arrays import Floats
-from footfit.geometry.numeric.planes import Plane
+from footfit.geometry.mesh.surface import area_vectors
+from footfit.geometry.mesh.topology import face_components
+from footfit.geometry.numeric.arrays import Bools, Floats, Ints
+from footfit.geometry.numeric.planes import Plane, robust_plane
 from footfit.geometry.numeric.smoothing import local_quadratic
 
 
 @dataclass(frozen=True, slots=True)
 class SteadySettings:
-    """Where the cone's top is read, as shares of the arc, and how its line is fitted.
+    """How the cone's top is read, and how far a held one reaches.
 
-    ``cone`` has ``places`` of it from end to end. The line has Cauchy weights of the width
-    ``flat``, over the arc's length, and ``rounds`` of them. A top that is held reaches ``rim_mm``
-    under its line. Its hold ends ``deep`` under that, and over the stretch ``fade`` in front of its
-    front edge: both over the length of the top, which does not change.
+    The plane of the top starts from the faces of the top cut that lie behind ``behind`` of the arc,
+    in ``start_rounds`` with Cauchy weights of the width ``flat`` over its length. Then it is fitted
+    to what lies less than ``near_mm`` over or under it, in at most ``rounds``.
+
+    A top that is held reaches ``rim_mm`` under its plane, which is more. Its hold ends ``deep``
+    under that, and over the stretch ``fade`` in front of its front edge: both over the length of
+    the top, which does not change.
     """
 
-    cone: tuple[float, float] = (0.10, 0.28)
-    places: int = 19
+    behind: float = 0.33
     flat: float = 0.004
-    rounds: int = 25
+    near_mm: float = 4.0
+    start_rounds: int = 12
+    rounds: int = 200
+    settled_mm: float = 1e-9
     rim_mm: float = 5.0
     deep: float = 0.5
     fade: tuple[float, float] = (0.07, 0.7)
 
 
 STEADY = SteadySettings()
+
+
+@dataclass(frozen=True, slots=True)
+class ConeTop:
+    """The plane of a cone's top: its slopes (2,) along x and y, and its height over a middle (2,).
+
+    ``face`` (3,) has the corners of a face that lies in it.
+    """
+
+    slope: Floats
+    middle_mm: Floats
+    height_mm: float
+    face: Ints
+
+    def over_mm(self, points_mm: Floats) -> Floats:
+        """How high points (n, 3) lie straight over the plane, (n,)."""
+        flat = (points_mm[:, :2] - self.middle_mm) @ self.slope
+        return np.asarray(points_mm[:, 2] - self.height_mm - flat)
+
+    def plane(self, under_mm: float) -> Plane:
+        """The plane that lies lower by so much."""
+        normal = np.array([*-self.slope, 1.0]) / np.sqrt(1.0 + self.slope @ self.slope)
+        offset = (self.height_mm - self.slope @ self.middle_mm - under_mm) * normal[2]
+        return Plane(normal, float(offset))
 
 
 def middle_mm(chart: Chart, shape: Shape) -> Floats:
@@ -62,30 +93,31 @@ def middle_mm(chart: Chart, shape: Shape) -> Floats:
     return np.asarray(value @ (0.5 * (least + most)[known]))
 
 
-def cone_top_mm(chart: Chart, shape: Shape) -> Floats:
+def cone_top_mm(chart: Chart, top: ConeTop) -> Floats:
     """How high the cone's top lies over the bottom, at the chart's stations, (k,).
 
-    It is drawn on over the whole last.
+    Its plane is drawn on over the whole last, along the middle of the top.
     """
-    slope, start_mm = _top_line(chart, shape)
     x_mm, z_mm = chart.arc.line.at(chart.stations * chart.arc.length_mm)
-    return np.asarray(slope * x_mm + start_mm - z_mm)
+    return np.asarray(top.height_mm + top.slope[0] * (x_mm - top.middle_mm[0]) - z_mm)
 
 
-def with_top_held(chart: Chart, shape: Shape) -> Chart:
+def with_top_held(chart: Chart, shape: Shape, top: ConeTop) -> Chart:
     """The chart that holds the cone's top, with its outline."""
     length_mm, standing = chart.arc.length_mm, chart.standing(shape.vertices_mm)
-    slope, start_mm = _top_line(chart, shape)
-    normal = np.array([-slope, 0.0, 1.0]) / np.hypot(slope, 1.0)
-    top = Plane(normal, float(start_mm * normal[2] - STEADY.rim_mm))
-    level = Planes(np.array([top.offset]), top.offset * normal[None], normal[None])
-    outline = plane_sections(standing, shape.faces, standing @ normal, level).points.reshape(-1, 3)
-    front = outline[outline[:, 0].argmax()]
-    top_mm = float(np.ptp(outline[:, 0]))
+    plane = top.plane(STEADY.rim_mm)
+    over_mm = plane.heights(standing)
+    level = Planes(np.zeros(1), plane.offset * plane.normal[None], plane.normal[None])
+    cut = plane_sections(standing, shape.faces, over_mm, level)
+    on_top = np.zeros(len(standing), dtype=bool)
+    on_top[_connected(shape.faces, over_mm > 0.0, top.face)] = True
+    outline_mm = cut.points[on_top[shape.faces[cut.face]].any(axis=1)].reshape(-1, 3)
+    front = outline_mm[outline_mm[:, 0].argmax()]
+    top_mm = float(np.ptp(outline_mm[:, 0]))
     start, end = (share * top_mm / length_mm for share in STEADY.fade)
     return replace(
         chart,
-        top=top,
+        top=plane,
         front=float(chart.arc.line.unrolled(front[None])[0, 0] / length_mm),
         deep_mm=STEADY.deep * top_mm,
         settings=replace(chart.settings, fade=(start, end)),
@@ -107,25 +139,52 @@ def free_of_top(chart: Chart, points_mm: Floats) -> Floats:
     return 1.0 - (1.0 - eased(-chart.top.heights(points_mm) / chart.deep_mm)) * (1.0 - fade)
 
 
-def _top_line(chart: Chart, shape: Shape) -> tuple[float, float]:
-    """The cone's top in the side view: its slope, and its height in mm where x is 0.
+def cone_top(chart: Chart, shape: Shape) -> ConeTop | None:
+    """The plane of the cone's top, fitted to what a held top keeps; None if nothing there is flat.
 
-    A straight line through the highest places of the rear sections.
+    A face counts by its area in the plan and by how near its three corners are to the plane. So the
+    plane is the same one after the top moved rigidly, or became longer, wider and higher. It is
+    looked for as the last stands: the top of a high heel looks backward as the last rests.
     """
-    share = np.linspace(*STEADY.cone, STEADY.places)
-    at_mm = chart.arc.line.at(share * chart.arc.length_mm)[0]
-    top_mm = _highest_mm(chart, shape, at_mm)
-    known = np.isfinite(top_mm)
-    basis, top_mm = np.column_stack([at_mm, np.ones(len(at_mm))])[known], top_mm[known]
-    weight, flat_mm = np.ones(len(top_mm)), STEADY.flat * chart.arc.length_mm
+    standing, faces = chart.standing(shape.vertices_mm), shape.faces
+    lid = faces[top_cut_faces(standing, faces, float(np.ptp(standing[:, 0])), 0.0)]
+    if not len(lid):
+        return None
+    start, face = _lid_plane(chart, standing, lid)
+    own = _connected(faces, start.heights(standing) > -2.0 * STEADY.rim_mm, face)
+    corners = standing[own]
+    middles = corners.mean(axis=1)
+    areas = np.maximum(area_vectors(standing, own)[:, 2], 0.0)
+    slope, height_mm = -start.normal[:2] / start.normal[2], start.offset / start.normal[2]
+    top = ConeTop(slope, np.zeros(2), float(height_mm), face)
     for _ in range(STEADY.rounds):
-        root = np.sqrt(weight)
-        line = np.linalg.lstsq(basis * root[:, None], top_mm * root, rcond=None)[0]
-        weight = 1.0 / (1.0 + ((basis @ line - top_mm) / flat_mm) ** 2)
-    return float(line[0]), float(line[1])
+        off = np.array([top.over_mm(corner) for corner in corners.transpose(1, 0, 2)])
+        near = np.maximum(1.0 - (off / STEADY.near_mm) ** 2, 0.0) ** 2
+        weight = areas * near.prod(axis=0)
+        middle_mm = weight @ middles[:, :2] / weight.sum()
+        basis = np.column_stack([middles[:, :2] - middle_mm, np.ones(len(middles))])
+        plane = np.linalg.solve((weight * basis.T) @ basis, (weight * basis.T) @ middles[:, 2])
+        before, top = top, ConeTop(plane[:2], middle_mm, float(plane[2]), face)
+        if np.abs(before.over_mm(middles) - top.over_mm(middles)).max() < STEADY.settled_mm:
+            break
+    return top
 
 
-def _highest_mm(chart: Chart, shape: Shape, x_mm: Floats) -> Floats:
-    """How high a last's sections at places along the ground are, (n,); NaN where it has none."""
-    cut = sections_across(chart.standing(shape.vertices_mm), shape.faces, x_mm)
-    return highest(cut.points[:, :, 2], cut)
+def _lid_plane(chart: Chart, standing: Floats, lid: Ints) -> tuple[Plane, Ints]:
+    """Roughly the plane of the top cut's faces (m, 3), and the corners (3,) of one in it."""
+    middles = standing[lid].mean(axis=1)
+    behind = chart.arc.line.unrolled(middles)[:, 0] < STEADY.behind * chart.arc.length_mm
+    if behind.any():
+        lid, middles = lid[behind], middles[behind]
+    areas = np.linalg.norm(area_vectors(standing, lid), axis=1)
+    flat_mm = STEADY.flat * chart.arc.length_mm
+    plane = robust_plane(middles, areas, flat_mm, STEADY.start_rounds)
+    return plane, lid[np.abs(plane.heights(middles)).argmin()]
+
+
+def _connected(faces: Ints, high: Bools, face: Ints) -> Ints:
+    """The faces whose corners are all high, and that are connected with one of them."""
+    above = faces[high[faces].all(axis=1)]
+    labels = face_components(above, len(high))
+    own = labels[(above == face).all(axis=1)]
+    return above[np.isin(labels, own)]

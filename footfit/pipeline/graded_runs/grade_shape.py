@@ -19,7 +19,12 @@ from footfit.geometry.grading.length_flow import (
     lengthened_mm,
     raised_mm,
 )
-from footfit.geometry.grading.steady_lines import cone_top_mm, middle_mm, with_top_held
+from footfit.geometry.grading.steady_lines import (
+    cone_top,
+    cone_top_mm,
+    middle_mm,
+    with_top_held,
+)
 from footfit.geometry.measures.heights import HEIGHTS
 from footfit.geometry.measures.landmarks import AXES, Shape
 from footfit.geometry.measures.measure_table import measure_named
@@ -119,7 +124,8 @@ def graded(shape: Shape, step: GradeStep) -> Shape:
     Raises
     ------
     OutOfReach
-        Its bottom is open, a target cannot be reached, or the surface would come near to a fold.
+        Its bottom is open, a top that is held is not flat, a target cannot be reached, or the
+        surface would come near to a fold.
     """
     if shape.bottom_arc is None:
         raise OutOfReach("its bottom is open at the heel or the ball: grade a whole last")
@@ -193,9 +199,12 @@ def _chart(shape: Shape, step: GradeStep) -> Chart:
     )
     middle = middle_mm(chart, shape)
     chart = replace(chart, middle_mm=middle, edge_mm=edge_mm, height_mm=height_mm)
-    if "top" not in step.held or not len(shape.faces[shape.top_cut]):
+    if "top" not in step.held:
         return chart
-    return with_top_held(chart, shape)
+    top = cone_top(chart, shape)
+    if top is None:
+        raise OutOfReach("the top of its cone is not flat, so it cannot be held: hold other parts")
+    return with_top_held(chart, shape, top)
 
 
 def _curve(chart: Chart, values: Floats) -> Floats:
@@ -225,7 +234,8 @@ def _knobs(chart: Chart, cone_mm: Floats, step: GradeStep) -> list[Knob]:
 
 def _cone_mm(chart: Chart, shape: Shape) -> Floats:
     """How high the cone's top lies over the bottom at the stations, but not less than a part."""
-    height_mm = cone_top_mm(chart, shape)
+    top = cone_top(chart, shape)
+    height_mm = chart.height_mm if top is None else cone_top_mm(chart, top)
     instep_mm = float(np.interp(GRADE.instep, chart.stations, height_mm))
     return np.maximum(height_mm, GRADE.low * instep_mm)
 
@@ -240,8 +250,10 @@ def _level_rise(chart: Chart, cone_mm: Floats) -> Floats:
 
 
 def _rise_mm(field: Field, cone_mm: Floats) -> float:
-    """By how much a field raises the plane of the cone's top."""
+    """By how much a field raises the plane of the cone's top; a top that is held stays."""
     chart = field.chart
+    if chart.top is not None:
+        return 0.0
     scale = chart.splines(np.array([GRADE.widths[0]])) @ field.higher
     return float(scale[0] * np.interp(GRADE.widths[0], chart.stations, cone_mm))
 
