@@ -98,6 +98,8 @@ def stepped(
 )
 @example(15.0, "bottom,toe", 0.9, 1.0)
 @example(60.0, "top", 1.0, 0.0)
+@example(95.0, "spring,toe,top", 1.0, 0.0)  # its cone leans over the seat
+@example(60.0, "bottom,top", 2.0 / 3.0, 0.0)  # heights change under a top that does not rise
 def test_a_step_back_leads_back(
     heel_mm: float, hold: str | None, sizes: float, widths: float
 ) -> None:

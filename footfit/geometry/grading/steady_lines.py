@@ -30,16 +30,15 @@ from footfit.geometry.numeric.smoothing import local_quadratic
 class SteadySettings:
     """How the cone's top is read, and how far a held one reaches.
 
-    The plane of the top starts from the faces of the top cut that lie behind ``behind`` of the arc,
-    in ``start_rounds`` with Cauchy weights of the width ``flat`` over its length. Then it is fitted
-    to what lies less than ``near_mm`` over or under it, in at most ``rounds``.
+    The plane of the top starts from the faces of the top cut, in ``start_rounds`` with Cauchy
+    weights of the width ``flat`` over the arc's length. Then it is fitted to what lies less than
+    ``near_mm`` over or under it, in at most ``rounds``.
 
     A top that is held reaches ``rim_mm`` under its plane, which is more. Its hold ends ``deep``
     under that, and over the stretch ``fade`` in front of its front edge: both over the length of
     the top, which does not change.
     """
 
-    behind: float = 0.33
     flat: float = 0.004
     near_mm: float = 4.0
     start_rounds: int = 12
@@ -172,13 +171,12 @@ def cone_top(chart: Chart, shape: Shape) -> ConeTop | None:
 
 def _lid_plane(chart: Chart, standing: Floats, lid: Ints) -> tuple[Plane, Ints]:
     """Roughly the plane of the top cut's faces (m, 3), and the corners (3,) of one in it."""
-    middles = standing[lid].mean(axis=1)
-    behind = chart.arc.line.unrolled(middles)[:, 0] < STEADY.behind * chart.arc.length_mm
-    if behind.any():
-        lid, middles = lid[behind], middles[behind]
-    areas = np.linalg.norm(area_vectors(standing, lid), axis=1)
+    middles, vectors = standing[lid].mean(axis=1), area_vectors(standing, lid)
+    areas = np.linalg.norm(vectors, axis=1)
+    normal = vectors.sum(axis=0) / np.linalg.norm(vectors.sum(axis=0))
+    start = Plane(normal, float(areas @ (middles @ normal) / areas.sum()))
     flat_mm = STEADY.flat * chart.arc.length_mm
-    plane = robust_plane(middles, areas, flat_mm, STEADY.start_rounds)
+    plane = robust_plane(middles, areas, flat_mm, STEADY.start_rounds, start)
     return plane, lid[np.abs(plane.heights(middles)).argmin()]
 
 
