@@ -254,6 +254,17 @@ def test_what_cannot_be_planned_is_refused_in_words(tmp_path: Path) -> None:
         stepped(shape, base_mm, (0.0, 0.0), (-30.0, 0.0))
 
 
+def test_a_top_that_is_not_flat_cannot_be_held() -> None:
+    shape, _ = standing_base(60.0)
+    chart = chart_of(shape, hold_top=False)
+    standing_mm = chart.standing(shape.vertices_mm)
+    share = standing_mm[:, 2] / standing_mm[:, 2].max()
+    standing_mm[:, 1] *= np.clip(2.0 * (1.0 - share), 0.05, 1.0)  # its cone ends in a ridge
+    ridge = Shape(chart.resting(standing_mm), shape.faces, "last", shape.labels)
+    with pytest.raises(OutOfReach, match="not flat, so it cannot be held: hold other parts"):
+        graded(ridge, GradeStep(1.0, {}, frozenset({"top"}), shape.labels))
+
+
 def test_sizes_are_whole_halves_and_thirds() -> None:
     assert [each.size for each in plan(sizes="42:43:1/3").fittings] == [
         *("42", "42 1/3", "42 2/3", "43"),
