@@ -15,10 +15,11 @@ from footfit.geometry.measures.landmarks import Shape
 from footfit.geometry.measures.measure_table import measure_named
 from tests.bounds import ROUNDING
 from tests.shapes import cube, sphere
-from tests.test_geometry_along_the_bottom import SPEC, resting
+from tests.test_geometry_along_the_bottom import SPEC
 from tools.bent_lasts import bent
 from tools.last_specs import LastSpec
 from tools.lasts import last_mesh
+from tools.resting import at_rest
 
 CHORD_MM = 0.05
 """What a drawing promises; .023 is the most that was measured."""
@@ -77,7 +78,7 @@ def test_a_last_that_is_bent_as_a_shoe_bends_keeps_its_bottom() -> None:
     level = vertices @ stands[:3, :3].T + stands[:3, 3]
     first = None
     for heel_mm in (0.0, 30.0, 60.0, 90.0):
-        raised = resting(bent(level, stance.length_mm, heel_mm, 1.0))
+        raised, _ = at_rest(bent(level, stance.length_mm, heel_mm, 1.0))
         shape = Shape(raised, faces, "last")
         outline = bottom_outline(shape, flat_frame(shape))
         length_mm = measure_named("bottom_length").value_of(shape).value

@@ -60,7 +60,8 @@ def test_a_leaning_shank_that_is_scanned_otherwise_has_the_length_too(change):
 def test_a_foot_whose_shank_does_not_lean_is_measured_as_before(name):
     vertices, faces, _ = foot(name)
     shape = Shape(vertices, faces)
-    before = tip(vertices, shape.low, np.array([-1.0, 0.0, 0.0]), shape._rough_length_mm)
+    back = np.array([-1.0, 0.0, 0.0])
+    before = tip(vertices, shape.low, back, shape._rough_length_mm, shape.tips)
     assert shape.ends[0].reach == pytest.approx(before.reach, abs=0.1)
 
 
@@ -68,7 +69,8 @@ def test_a_foot_whose_shank_does_not_lean_is_measured_as_before(name):
 def test_a_lasts_rear_may_be_anywhere_on_its_back(heel_mm):
     vertices, faces = last_mesh(LastSpec(heel_height_mm=heel_mm))
     shape = Shape(vertices, faces, "last")
-    before = tip(vertices, shape.low, np.array([-1.0, 0.0, 0.0]), shape._rough_length_mm)
+    back = np.array([-1.0, 0.0, 0.0])
+    before = tip(vertices, shape.low, back, shape._rough_length_mm, shape.tips)
     assert shape.ends[0].reach == before.reach
 
 

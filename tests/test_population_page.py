@@ -79,7 +79,7 @@ def test_a_csv_gives_a_table_pages_and_files(
         ("id,length,ball_girth\na,252,22.8\n", 3, "is it 228 mm?"),
         ("id,length\na,wide\n", 3, "length is 'wide'"),
         ("id,length,length_mm\na,250,250\n", 3, "two columns for length"),
-        ("id,length,side\na,250,up\n", 3, "a side is 'up'"),
+        ("id,length,side\na,250,up\n", 3, "line 2: side is 'up'"),
         ("id,length\n", 3, "has no foot below its head"),
     ],
 )

@@ -15,9 +15,9 @@ from footfit.report.drawing.papers import PAPERS, Tile
 from footfit.report.drawing.parts import Block
 from tests import paper
 from tests.conftest import ROOT, SAMPLES
-from tests.test_geometry_along_the_bottom import resting
 from tools.last_specs import LastSpec
 from tools.lasts import last_mesh
+from tools.resting import at_rest
 
 ON_PAPER_MM = 0.2
 """What a drawing must keep: a bar was off by .001 mm at most, a bottom's length by .02."""
@@ -86,7 +86,7 @@ def test_a_last_of_the_second_family_measures_what_it_should(heel_mm: float) -> 
     import lasts2
 
     mesh = lasts2.mesh(lasts2.Last2(length=262.0, heel_height=heel_mm), n_long=120, n_round=72)
-    drawing = footfit.drawing((resting(np.asarray(mesh.vertices)), mesh.faces), units="mm")
+    drawing = footfit.drawing((at_rest(np.asarray(mesh.vertices))[0], mesh.faces), units="mm")
     sheets = paper.pages(footfit.drawing_file(drawing), "bottom, laid flat")
     check_sheets(sheets)
     assert paper.outline_mm(sheets)[1] == pytest.approx(bottom_length_mm(drawing), abs=ON_PAPER_MM)
