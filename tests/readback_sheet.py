@@ -80,7 +80,7 @@ def _differences(values: list[dict[str, float | None]]) -> Iterator[Fact]:
         if left is None or right is None:
             continue
         number += 1
-        off = round(abs(left - right), 3)  # 2.0 and not 1.9999999: the values have two decimals
+        off = round(abs(left - right), 1)  # as it is shown
         words = "equally" if off < equal else plain(off)
         yield fact(f"difference {number}", words, SHEET)
 

@@ -131,9 +131,7 @@ def test_match_refuses_a_last_as_a_foot_and_finds_its_relatives(
         assert "--by shape" in json.loads(run.last_error)["message"]
     by_shape = footfit("match", LAST, "--by", "shape", *here).document  # its copy: measured 0.0206
     assert by_shape["candidates"][0]["last"] == LAST
-    assert by_shape["candidates"][0]["distance"] == pytest.approx(
-        0.0, abs=0.04
-    )
+    assert by_shape["candidates"][0]["distance"] == pytest.approx(0.0, abs=0.04)
 
 
 # ---------------------------------------------------------------- which of the two is taken
