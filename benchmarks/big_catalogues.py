@@ -30,6 +30,11 @@ def measured_lasts(folder: Path) -> list[NewLast]:
     path = folder / "measured.footfit"
     with open_catalogue(path) as lasts:
         lasts.ingest(str(SAMPLES / "lasts"), manifest=SAMPLES / "lasts.csv", jobs=2)
+    return ready_lasts(path)
+
+
+def ready_lasts(path: Path) -> list[NewLast]:
+    """The lasts of a catalogue with their sections, ready to be added to another one."""
     with catalogue_at(path) as catalogue:
         names = catalogue.names()
         return [NewLast(catalogue.record(name), None, catalogue.sections(name)) for name in names]

@@ -6,10 +6,11 @@ from collections.abc import Callable, Iterable
 from concurrent.futures import Executor, Future
 from typing import Any
 
+from footfit.catalogue.group_commit import NewLast
 from footfit.errors import FootfitError
 from footfit.pipeline.batch.sources import ReadingOptions, Source
 from footfit.pipeline.library.entries import Entry
-from footfit.pipeline.library.ingest import NewLast
+from footfit.pipeline.library.ingest import ReadyLast
 from footfit.results import LastRecord
 from tests import records
 
@@ -36,5 +37,5 @@ class ReadyLasts(Executor):
             future.set_exception(answer)
         else:
             copy = records.mesh_copy(answer.info.vertices % 2)
-            future.set_result(NewLast(answer.info.sha256, answer, copy))
+            future.set_result(ReadyLast(answer.info.sha256, NewLast(answer, copy)))
         return future

@@ -14,7 +14,7 @@ import numpy as np
 import pytest
 
 import footfit
-from benchmarks.big_catalogues import perturbed_lasts
+from benchmarks.big_catalogues import perturbed_lasts, ready_lasts
 from footfit.catalogue.blocks import block_reading, search_file
 from footfit.catalogue.blocks.search_file import search_path
 from footfit.catalogue.group_commit import NewLast
@@ -46,10 +46,7 @@ def _search_files_for_all() -> Iterator[None]:
 
 @pytest.fixture(scope="module")
 def measured(stocked: Path) -> list[NewLast]:
-    with open_catalogue(stocked) as catalogue:
-        return [
-            NewLast(catalogue.record(n), None, catalogue.sections(n)) for n in catalogue.names()
-        ]
+    return ready_lasts(stocked)
 
 
 @pytest.fixture(scope="module")

@@ -96,14 +96,14 @@ def test_a_file_that_takes_too_long_is_named_and_the_rest_is_stored(
     for path in sorted((SAMPLES / "lasts").iterdir())[:3]:
         shutil.copy(path, tmp_path)
     slow = sorted(tmp_path.iterdir())[1].name
-    usual = ingest.new_last
+    usual = ingest.ready_last
 
-    def new_last(entry: Entry, **options: Any) -> ingest.NewLast:
+    def ready_last(entry: Entry, **options: Any) -> ingest.ReadyLast:
         if entry.path and entry.path.endswith(slow):
             signal.raise_signal(signal.SIGALRM)
         return usual(entry, **options)
 
-    monkeypatch.setattr(ingest, "new_last", new_last)
+    monkeypatch.setattr(ingest, "ready_last", ready_last)
     in_this_process = lambda work, items, _, **more: outcome_groups(work, items, HERE, **more)  # noqa: E731
     monkeypatch.setattr(ingest, "outcome_groups", in_this_process)
     got = footfit("ingest-last", tmp_path, "--catalogue", tmp_path / "c", "--json")

@@ -14,7 +14,7 @@ import numpy as np
 import pytest
 
 import footfit
-from benchmarks.big_catalogues import perturbed_lasts
+from benchmarks.big_catalogues import perturbed_lasts, ready_lasts
 from footfit.catalogue.blocks import block_bytes, block_reading, block_writing
 from footfit.catalogue.group_commit import NewLast
 from footfit.catalogue.store import open_catalogue
@@ -59,10 +59,7 @@ def _small_blocks(request: pytest.FixtureRequest) -> Iterator[None]:
 
 @pytest.fixture(scope="module")
 def measured(stocked: Path) -> list[NewLast]:
-    with open_catalogue(stocked) as catalogue:
-        return [
-            NewLast(catalogue.record(n), None, catalogue.sections(n)) for n in catalogue.names()
-        ]
+    return ready_lasts(stocked)
 
 
 @pytest.fixture(scope="module")

@@ -139,12 +139,9 @@ class Outputs:
         BadOption
             The scan would be lost, also with --force.
         """
-        there = {file_id(path): path for path in self.paths if path.exists()}
-        for source in sources if there else ():
-            name = source.path or ""
-            read = Path(name if Path(name).exists() else name.rpartition("#")[0])
-            if read.is_file() and file_id(read) in there:
-                raise BadOption(READ_TOO, str(there[file_id(read)]))
+        names = (source.path or "" for source in sources)
+        read = (name if Path(name).exists() else name.rpartition("#")[0] for name in names)
+        refuse_inputs(map(str, self.paths), read)
 
     def require_one(self, meshes: Sized, unless: str = "") -> None:
         """Refuse one file for several meshes; ``unless`` names another solution.
@@ -216,10 +213,11 @@ def refuse_inputs(outputs: Iterable[str], inputs: Iterable[str]) -> None:
     BadOption
         The input would be lost.
     """
-    read = {known for name in inputs if (known := _known_file(name)) is not None}
-    for name in outputs:
-        if _known_file(name) in read and not _is_catalogue(Path(name)):  # it has its own words
-            raise BadOption(READ_TOO, name)
+    there = {known: name for name in outputs if (known := _known_file(name)) is not None}
+    for name in inputs if there else ():
+        known = _known_file(name)
+        if known in there and not _is_catalogue(Path(there[known])):  # it has its own words
+            raise BadOption(READ_TOO, there[known])
 
 
 def _known_file(name: str) -> tuple[int, int] | None:

@@ -12,6 +12,7 @@ from footfit.geometry.fit.stations import STATIONS, NamedSection
 from footfit.geometry.measures.landmarks import Shape
 from footfit.geometry.mesh.outlines import TAPE_OUTLINES
 from footfit.geometry.mesh.sections import extremes_below, sections_across
+from footfit.geometry.numeric.angles import turning_angle
 from footfit.geometry.numeric.arrays import Floats, Ints
 
 
@@ -111,8 +112,7 @@ def _evenly(loop: Floats, count: int) -> Floats:
     at = np.linspace(0.0, arc[-1], count, endpoint=False)
     points = np.column_stack([np.interp(at, arc, closed[:, axis]) for axis in (0, 1)])
     ahead = np.diff(closed, axis=0)
-    heading = np.unwrap(np.arctan2(ahead[:, 1], ahead[:, 0]))
-    turns = np.abs(np.diff(heading, prepend=heading[-1] - 2.0 * np.pi * np.sign(heading[-1])))
-    for corner in np.flatnonzero(np.minimum(turns, 2.0 * np.pi - turns) > CORNER):
+    turn = turning_angle(np.roll(ahead, 1, axis=0), ahead)
+    for corner in np.flatnonzero(np.abs(turn) > CORNER):
         points[round(arc[corner] / arc[-1] * count) % count] = loop[corner]
     return points

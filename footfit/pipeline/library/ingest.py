@@ -10,8 +10,7 @@ from functools import partial
 from pathlib import Path
 from typing import Literal
 
-from footfit.catalogue.group_commit import GROUP, KnownLasts
-from footfit.catalogue.group_commit import NewLast as WholeLast
+from footfit.catalogue.group_commit import GROUP, KnownLasts, NewLast
 from footfit.catalogue.store import Catalogue, open_catalogue
 from footfit.errors import ExitCode, FootfitError, NameTaken, NoCatalogue
 from footfit.locations import Location
@@ -21,27 +20,25 @@ from footfit.pipeline.library.holdings import Held, Holdings, held_last
 from footfit.pipeline.scan.kept_sections import kept_sections
 from footfit.pipeline.scan.measure import last_record
 from footfit.pipeline.scan.reading import content_hash, profiled_source
-from footfit.results import IngestOutcome, LastRecord, MeshCopy, ShapeSections
+from footfit.results import IngestOutcome, LastRecord
 from footfit.whole_files import require_folder
 
 KeepMesh = Literal["compact", "full"]
 
 
 @dataclass(frozen=True, slots=True)
-class NewLast:
-    """A last that can be stored; if its content is known, it has only the hash."""
+class ReadyLast:
+    """What the work on a file made; if its content is known, it has only the hash."""
 
     sha256: str
-    record: LastRecord | None = None
-    copy: MeshCopy | None = None
-    sections: ShapeSections | None = None
+    last: NewLast | None = None
 
 
 HoldSignals = Callable[[], AbstractContextManager[object]]
 """Makes a block that no signal interrupts: what is stored in it is also reported in it."""
 
 
-def new_last(entry: Entry, keep_mesh: KeepMesh = "compact") -> NewLast:
+def ready_last(entry: Entry, keep_mesh: KeepMesh = "compact") -> ReadyLast:
     """The slow part of an ingest. It does not use the catalogue, and runs in a worker.
 
     ``keep_mesh`` "full" keeps every face of the mesh.
@@ -54,7 +51,7 @@ def new_last(entry: Entry, keep_mesh: KeepMesh = "compact") -> NewLast:
     copy = compact_copy(shape.aligned.vertices_mm, faces, target)
     sections = kept_sections(shape.aligned.prepared.shape)
     record = last_record(shape, entry.labels)
-    return NewLast(record.info.sha256, record, copy, sections)
+    return ReadyLast(record.info.sha256, NewLast(record, copy, sections))
 
 
 def ingest(
@@ -87,7 +84,7 @@ def ingest(
         how = _How(replace, dry_run, keep_mesh)
         storing = _Storing(path, stack, how, catalogue, holdings)
         ready_groups = outcome_groups(
-            partial(new_last, keep_mesh=keep_mesh),
+            partial(ready_last, keep_mesh=keep_mesh),
             batch,
             jobs,
             known=partial(_known_last, known),
@@ -115,10 +112,10 @@ def _existing(path: Location, stack: ExitStack) -> Catalogue | None:
         return None
 
 
-def _known_last(known: frozenset[str], entry: Entry) -> NewLast | None:
+def _known_last(known: frozenset[str], entry: Entry) -> ReadyLast | None:
     """The last of a file whose content hash the catalogue has: it is not aligned again."""
     sha256 = content_hash(entry.source)
-    return NewLast(sha256) if sha256 in known else None
+    return ReadyLast(sha256) if sha256 in known else None
 
 
 def _stored_lasts(path: Location) -> Holdings:
@@ -154,7 +151,7 @@ class _Storing:
     known: KnownLasts = dataclasses.field(default_factory=KnownLasts)
     made: str | None = None
 
-    def together(self, ready: Sequence[Outcome[Entry, NewLast]]) -> list[IngestOutcome]:
+    def together(self, ready: Sequence[Outcome[Entry, ReadyLast]]) -> list[IngestOutcome]:
         """Store what the work on some files made in one commit, and say what became of each.
 
         If one of them cannot be stored, none is, and the list is empty.
@@ -169,7 +166,7 @@ class _Storing:
         pairs = zip(ready, planned, strict=True)
         return [self._answer(work, outcome) for work, (outcome, _) in pairs]
 
-    def alone(self, work: Outcome[Entry, NewLast]) -> IngestOutcome:
+    def alone(self, work: Outcome[Entry, ReadyLast]) -> IngestOutcome:
         """Store what the work on one file made, and say what became of the file."""
         outcome, last = self._planned(work)
         if last is not None and self.catalogue is not None:
@@ -183,7 +180,7 @@ class _Storing:
         return self._answer(work, outcome)
 
     def _not_added(
-        self, work: Outcome[Entry, NewLast], record: LastRecord, error: FootfitError
+        self, work: Outcome[Entry, ReadyLast], record: LastRecord, error: FootfitError
     ) -> IngestOutcome:
         """What became of a last that the catalogue refused: another process may have stored it."""
         entry = work.item
@@ -198,32 +195,32 @@ class _Storing:
         except FootfitError as refusal:
             return IngestOutcome(entry.path, "refused", failure=refusal.at(entry.path))
 
-    def _planned(self, work: Outcome[Entry, NewLast]) -> tuple[IngestOutcome, WholeLast | None]:
+    def _planned(self, work: Outcome[Entry, ReadyLast]) -> tuple[IngestOutcome, NewLast | None]:
         """What becomes of a file, and the last to store for it; the holdings have it already."""
-        entry, new, how = work.item, work.value, self.how
+        entry, ready, how = work.item, work.value, self.how
         again = how.replace and how.keep_mesh == "full"  # its copy may be a lighter one
-        if new is None:
+        if ready is None:
             return IngestOutcome(entry.path, "refused", failure=work.error), None
         self._open()
         try:
-            status = self.holdings.status(new.sha256, entry, replace=how.replace)
+            status = self.holdings.status(ready.sha256, entry, replace=how.replace)
             held = self.holdings.named(entry.labels.name)
             if held is not None and status == "unchanged" and not again:
                 return _unchanged(entry.path, held), None
-            if new.record is None:  # it was known when the batch began, and is not any more
-                new = new_last(entry, how.keep_mesh)
+            # a last that was known when the batch began may not be there any more
+            last = ready.last or ready_last(entry, how.keep_mesh).last
         except FootfitError as error:
             return IngestOutcome(entry.path, "refused", failure=error.at(entry.path)), None
-        assert new.record is not None
+        assert last is not None
         outcome = dataclasses.replace(
-            _unchanged(entry.path, held_last(new.record)),
+            _unchanged(entry.path, held_last(last.record)),
             status="replaced" if status == "unchanged" else status,
-            warnings=new.record.notices,
+            warnings=last.record.notices,
             reference=not self.holdings.by_name,
-            info=new.record.info,
+            info=last.record.info,
         )
-        self.holdings.put(new.record)
-        return outcome, WholeLast(new.record, new.copy, new.sections)
+        self.holdings.put(last.record)
+        return outcome, last
 
     def _open(self) -> None:
         """Open the catalogue if it is not open, unless nothing is to be stored."""
@@ -233,7 +230,7 @@ class _Storing:
         self.holdings = Holdings(self.catalogue.each_last())
         self.made = str(self.path) if self.catalogue.revisions.made else None
 
-    def _answer(self, work: Outcome[Entry, NewLast], outcome: IngestOutcome) -> IngestOutcome:
+    def _answer(self, work: Outcome[Entry, ReadyLast], outcome: IngestOutcome) -> IngestOutcome:
         """The outcome, with what is said of the whole batch."""
         made = None
         if work.value is not None:

@@ -127,9 +127,8 @@ def _heel_words(better: BaseLast, base: BaseLast) -> str:
 
 
 def _heel_mm(base: BaseLast) -> float:
-    """How high the heel of a last is by its label, or as it was measured."""
-    record = base.record
-    return record.labels.heel_height_mm or record.value_of("heel_height") or 0.0
+    """How high the heel of a last is; 0 if that is not known."""
+    return base.record.heel_height_mm or 0.0
 
 
 def store_custom_last(path: Location, custom: CustomLast, *, replaces: bool = False) -> None:

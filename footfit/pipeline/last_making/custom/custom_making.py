@@ -93,7 +93,7 @@ def customised(
         return _answer(foot, given, making, attempt)
 
     attempt = attempt_at(given, aims)
-    made, notices = answer(attempt), []
+    made, notices, lost = answer(attempt), [], set[str]()
     verdicts = {zone.name: (zone.base_verdict, zone.custom_verdict) for zone in made.judged}
     worse = [z for z in TOE_BOX & set(verdicts) if verdicts[z][0] == "good" != verdicts[z][1]]
     if worse and verdicts[LENGTH][0] == "good":
@@ -119,13 +119,12 @@ def customised(
         bumps = room_bumps(base.shape, chart, making.rooms_mm, lying_mm)
         roomy = answer(with_bumps(given, attempt, bumps))
         lost = {z.name for z in not_good(roomy.judged)} - {z.name for z in not_good(made.judged)}
-        made = replace(
-            roomy, warnings=(*_notices(base), *zone_notices(roomy.judged, question, lost))
-        )
+        made = roomy
     if foot.aligned.alignment.pose.kind == "last":
         words = "the foot has a shape like a last's: give the scan of a foot"
         notices.append(results.Notice("looks_like_a_last", words))
-    return replace(made, warnings=(*made.warnings, *notices))
+    said = (*_notices(base), *zone_notices(made.judged, question, lost), *notices)
+    return replace(made, warnings=said)
 
 
 def _flare_turn_deg(foot: Profiled, base: BaseLast, making: Making) -> float:
@@ -142,7 +141,7 @@ def _flare_turn_deg(foot: Profiled, base: BaseLast, making: Making) -> float:
 
 
 def _answer(foot: Profiled, given: Given, making: Making, attempt: Attempt) -> CustomLast:
-    """The result of what was made."""
+    """The result of what was made, without its warnings."""
     question, profile, base = making.question, making.question.profile, given.base
     made, shape = attempt.made, attempt.shape
     sections = kept_sections(made.shape)
@@ -177,7 +176,7 @@ def _answer(foot: Profiled, given: Given, making: Making, attempt: Attempt) -> C
         flare_turn_deg=given.turn_deg,
         largest_move_mm=float(np.linalg.norm(shift, axis=1).max()),
         least_determinant=shape.least_determinant,
-        warnings=(*_notices(base), *zone_notices(judged, question)),
+        warnings=(),
         record=made.record,
         sections=sections,
         parentage=_parentage(foot, base, making, zones),
