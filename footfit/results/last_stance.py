@@ -23,10 +23,10 @@ class GroundCue(Part):
 class LastStance(Part):
     """How a last stands.
 
-    Heel height and toe spring (mm, each with its standard deviation) are those of the measures.
-    They are known as a pair only: a last that rocks about its tread gains ``spring_per_heel`` of
-    toe spring for each mm of heel. ``decided_by`` is "label" or "shape". A height is None where the
-    bottom is open.
+    Heel height and toe spring (mm) are the measures of that name, each with its total standard
+    deviation. They are known as a pair only: a last that rocks about its tread gains
+    ``spring_per_heel`` of toe spring for each mm of heel. ``decided_by`` is "label" or "shape". A
+    height is None where the bottom is open.
     """
 
     decided_by: str
@@ -34,8 +34,8 @@ class LastStance(Part):
     ground_sd_deg: float
     length_mm: float
     heel_height_mm: float | None
-    heel_height_sd_mm: float
+    heel_height_sd_mm: float | None
     toe_spring_mm: float | None
-    toe_spring_sd_mm: float
+    toe_spring_sd_mm: float | None
     spring_per_heel: float
     cues: tuple[GroundCue, ...]

@@ -11,6 +11,7 @@ import numpy as np
 
 from footfit.geometry.mesh.samples import calm_vectors
 from footfit.geometry.mesh.surface import area_vectors
+from footfit.geometry.mesh.topology import face_components
 from footfit.geometry.numeric.arrays import Bools, Floats, Ints, row_lengths
 from footfit.geometry.numeric.planes import Plane, robust_plane
 
@@ -37,6 +38,12 @@ class TopCutSettings:
         the rim towards the wall's; the coarser the mesh, the more.
     area : float
         The least area; a leg's cut has .05.
+    middle, ridge_deg : float, float
+        If this share of a section's run over a top turns by more, the top is a ridge and no cut.
+    fewest : int
+        If that share has fewer segments, the mesh is too coarse to tell a ridge from a cut.
+    beside, wall_deg : float, float
+        So near to both ends of the run over a cut, over L, the section falls more steeply.
     """
 
     height: float = 0.15
@@ -49,6 +56,11 @@ class TopCutSettings:
     flat_share: float = 0.7
     flatness: float = 0.85
     area: float = 0.01
+    middle: float = 0.7
+    ridge_deg: float = 12.0
+    fewest: int = 4
+    beside: float = 0.03
+    wall_deg: float = 25.0
 
 
 TOP_CUT = TopCutSettings()
@@ -58,7 +70,8 @@ def top_cut_faces(vertices: Floats, faces: Ints, length: float, start_x: float) 
     """The faces (m,) that close a shape at its top.
 
     These are the faces that look up behind the bend of the ankle. If those lie in one plane, then
-    all faces in that plane count.
+    all faces in that plane count that are connected with them: the forepart of a last with a high
+    heel may lie in it too.
 
     Parameters
     ----------
@@ -89,5 +102,39 @@ def top_cut_faces(vertices: Floats, faces: Ints, length: float, start_x: float) 
     level = np.abs(plane.heights(middles)) < TOP_CUT.thickness * length
     level &= vectors @ plane.normal > TOP_CUT.flatness * areas
     flat = float(areas[behind & level].sum()) > TOP_CUT.flat_share * total
+    if flat:
+        labels = face_components(high[level], len(vertices))
+        level[level] = np.isin(labels, labels[behind[level]])
     on_top[candidates[level if flat else behind]] = True
     return on_top
+
+
+def runs_over_cut(segments: Floats, on_top: Bools, length: float) -> bool:
+    """Whether a section's run over a top is flat and ends at a rim, as a cut does.
+
+    The round instep of a last may lie in the plane of its cone's top. Its section turns all over,
+    and goes on as smoothly beside the run.
+
+    Parameters
+    ----------
+    segments : (m, 2, 2)
+        The section's segments, across and up.
+    on_top : (m,)
+        Which of them run over the top.
+    length : float
+        The shape's length.
+    """
+    run, rest = segments[on_top], segments[~on_top]
+    middles, others = run.mean(axis=1), rest.mean(axis=1)
+    ends = run.reshape(-1, 2)[[run[:, :, 0].argmin(), run[:, :, 0].argmax()]]
+    across = middles[:, 0]
+    inner = np.abs(across - ends[:, 0].mean()) < 0.5 * TOP_CUT.middle * np.ptp(ends[:, 0])
+    if np.count_nonzero(inner) < TOP_CUT.fewest:
+        return True
+    bend = np.polyfit(across[inner], middles[inner, 1], 2)[0]
+    if 2.0 * abs(bend) * np.ptp(across[inner]) > np.radians(TOP_CUT.ridge_deg):
+        return False
+    rise = np.abs(rest[:, 1] - rest[:, 0])
+    near = np.linalg.norm(others - ends[:, None], axis=2) < TOP_CUT.beside * length
+    falls = [np.arctan2(*rise[beside].sum(axis=0)[::-1]) for beside in near]
+    return bool(min(falls) > np.radians(TOP_CUT.wall_deg))

@@ -125,7 +125,7 @@ def _by_shape(last: Profiled) -> Profiled:
     alone = replace(
         prepared,
         shape=shape,
-        stance=last_stance(shape),
+        stance=last_stance(shape, prepared.info),
         standing_transform=shape.standing_transform,
     )
     return profiled_scan(aligned_scan(alone))

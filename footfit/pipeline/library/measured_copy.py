@@ -51,7 +51,7 @@ def measured_copy(record: LastRecord, copy: MeshCopy, *, reprofile: bool = True)
         measures=measures,
         flare=shape_flare(shape) if reprofile else None,
         sections=kept_sections(shape),
-        stance=last_stance(shape),
+        stance=last_stance(shape, info),
         standing_transform=None if shape.kind == "foot" else shape.standing_transform,
         notices=stance_notices(shape),
     )

@@ -152,24 +152,25 @@ def _prepared(record: LastRecord, copy: MeshCopy) -> PreparedScan:
     vertices_mm, faces = expanded_mesh(copy.data)
     right = stored_shape(copy.data, record.side.side)
     shape = Shape(*right, record.pose.kind, stance_labels(record.labels))
+    info = replace(
+        record.info,
+        path=record.labels.name,
+        format=FROM_CATALOGUE,
+        vertices=len(vertices_mm),
+        faces=len(faces),
+        units="mm",
+        units_source="declared",
+        unit_scale=1.0,
+        step=max(record.info.resolution_mm, copy.error_mm),
+    )
     return PreparedScan(
-        info=replace(
-            record.info,
-            path=record.labels.name,
-            format=FROM_CATALOGUE,
-            vertices=len(vertices_mm),
-            faces=len(faces),
-            units="mm",
-            units_source="declared",
-            unit_scale=1.0,
-            step=max(record.info.resolution_mm, copy.error_mm),
-        ),
+        info=info,
         side=record.side,
         pose=record.pose,
         canonical_transform=np.eye(4),
         length=record.length,
         extent_mm=record.extent_mm,
-        stance=last_stance(shape),
+        stance=last_stance(shape, info),
         standing_transform=record.standing_transform,
         file_vertices_mm=vertices_mm,
         shape=shape,

@@ -117,7 +117,7 @@ def prepared_scan(
         canonical_transform=transform(frame.rotation, factor * frame.shift, info.unit_scale),
         length=_length(frame, factor, shape, info),
         extent_mm=factor * frame.extent,
-        stance=last_stance(shape),
+        stance=last_stance(shape, info),
         standing_transform=shape.standing_transform,
         file_vertices_mm=factor * posed.vertices,
         shape=shape,
@@ -138,7 +138,7 @@ def on_side(prepared: PreparedScan, side: SideVerdict, notice: Notice) -> Prepar
         prepared,
         side=side,
         shape=shape,
-        stance=last_stance(shape),
+        stance=last_stance(shape, prepared.info),
         standing_transform=shape.standing_transform,
         warnings=(*kept, notice),
     )
@@ -301,7 +301,7 @@ def _notices(
         *settled_unit.read_notices(scan, info, prepared.length.value),
         *resolution_notices(info.resolution_mm),
         *posed.notices,
-        *_frame_notices(frame, factor),
+        *_frame_notices(frame, factor, prepared.shape.kind),
         *_side_notices(prepared.side),
         *stance_notices(prepared.shape),
         *settled_unit.length_notices(factor * frame.length),
@@ -309,7 +309,7 @@ def _notices(
     return tuple(dict.fromkeys(notices))
 
 
-def _frame_notices(frame: _Frame, factor: float) -> Iterator[Notice]:
+def _frame_notices(frame: _Frame, factor: float, kind: str) -> Iterator[Notice]:
     """What was closed, and what the frame may suffer from: an open end, no sole, a low leg."""
     extents = frame.closed.extents
     if extents:
@@ -320,7 +320,7 @@ def _frame_notices(frame: _Frame, factor: float) -> Iterator[Notice]:
         yield Notice("open_end", _OPEN_END.format(end=frame.open_end))
     if not frame.quality.sole:
         yield Notice("no_sole", "there is no sole: the frame rests on the lowest rim")
-    if frame.top < FRAMING.low_leg * frame.extent:
+    if kind == "foot" and frame.top < FRAMING.low_leg * frame.extent:
         yield Notice("leg_cut_low", f"the leg is cut {factor * frame.top:.0f} mm above the floor")
 
 

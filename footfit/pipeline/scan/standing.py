@@ -9,8 +9,10 @@ import numpy as np
 from footfit.errors import BadOption
 from footfit.geometry.measures.heights import HEIGHTS, heel_height, toe_spring
 from footfit.geometry.measures.landmarks import Shape
+from footfit.geometry.measures.measure_table import measure_named
 from footfit.geometry.stance.cues import StanceLabels
-from footfit.results import GroundCue, LastLabels, LastStance, Notice
+from footfit.pipeline.scan.trueness import measured
+from footfit.results import GroundCue, LastLabels, LastStance, MeshInfo, Notice
 
 LABELLED_MM = {"heel_height_mm": (0, 200), "toe_spring_mm": (0, 80), "platform_mm": (0, 100)}
 """What labels may say."""
@@ -43,21 +45,24 @@ def check_stance_labels(labels: StanceLabels) -> None:
             raise BadOption(f"a {words} is from {low} to {high} mm, not {value}")
 
 
-def last_stance(shape: Shape) -> LastStance | None:
+def last_stance(shape: Shape, info: MeshInfo | None = None) -> LastStance | None:
     """How a last stands, as a result; None of a foot, and if its ground is not known."""
     stance = shape.stance
     if stance is None or shape.kind == "foot":
         return None
-    heel, spring = heel_height(shape), toe_spring(shape)
+    heel, spring = (
+        measured(measure_named(name), value, shape.kind, shape.shape_heel_mm, info)
+        for name, value in (("heel_height", heel_height(shape)), ("toe_spring", toe_spring(shape)))
+    )
     return LastStance(
         decided_by=stance.decided_by,
         ground_deg=math.degrees(stance.ground),
         ground_sd_deg=math.degrees(stance.ground_sd),
         length_mm=stance.length_mm,
         heel_height_mm=heel.value,
-        heel_height_sd_mm=heel.convention_sd,
+        heel_height_sd_mm=heel.total_sd,
         toe_spring_mm=spring.value,
-        toe_spring_sd_mm=spring.convention_sd,
+        toe_spring_sd_mm=spring.total_sd,
         spring_per_heel=1.0 - HEIGHTS.toe_spring * shape.length_mm / stance.touching_x_mm,
         cues=tuple(
             GroundCue(cue.name, math.degrees(cue.ground), math.degrees(cue.sd))

@@ -110,9 +110,23 @@ def align_table(alignment: results.Alignment) -> RenderableType:
         ("centroid", f"{centroid} mm (the file's axes)"),
         ("pose", f"cost {cost}, margin {margin}, {sole}"),
     ]
+    if alignment.stance is not None:
+        rows += stance_rows(alignment.stance)
     if alignment.reference is not None:
         rows.append(("reference", cell(alignment.reference.last)))
     return facts(*rows, title=info.path or "standard input")
+
+
+def stance_rows(stance: results.LastStance) -> list[tuple[str, str | Text]]:
+    """How a last stands: its heel height and its toe spring, and what decides them."""
+    by = {"label": "by the label", "shape": "by the shape alone"}[stance.decided_by]
+    heel = results.Measured(stance.heel_height_mm, total_sd=stance.heel_height_sd_mm)
+    spring = results.Measured(stance.toe_spring_mm, total_sd=stance.toe_spring_sd_mm)
+    return [
+        ("heel height", f"{measured_text(heel, 'mm')} ({by})"),
+        ("toe spring", measured_text(spring, "mm")),
+        ("±", Text(SPREADS, "dim")),
+    ]
 
 
 def eigenvalue_words(frame: results.Eigenframe) -> str:
