@@ -21,11 +21,15 @@ class LengthSettings:
     """Where the shank takes up the length, and how a flow is followed.
 
     The seat lies behind ``shank``, the tread and the toes in front of it: shares of the line's run
-    along the ground. ``rounds`` bring the line to its length. The tread's lowest place lies in
-    front of ``behind``, and a heel's rise is taken up over a share ``taken_up`` of the way to it.
+    along the ground. What lies higher takes up the length over ``upper``, whose middle is the
+    instep: it goes over to that ``between`` two heights over the bottom. ``rounds`` bring the line
+    to its length. The tread's lowest place lies in front of ``behind``, and a heel's rise is taken
+    up over a share ``taken_up`` of the way to it.
     """
 
     shank: tuple[float, float] = (0.22, 0.60)
+    upper: tuple[float, float] = (0.22, 0.78)
+    between: tuple[float, float] = (0.03, 0.13)
     step_mm: float = 1.0
     rounds: int = 12
     behind: float = 0.4
@@ -36,8 +40,10 @@ class LengthSettings:
 LENGTHENING = LengthSettings()
 
 
-def ahead_mm(x_mm: Floats, new_z_mm: Floats, length_mm: float, *, shank_only: bool) -> Floats:
-    """How far places (n,) of a bottom's line go ahead along the ground, (n,).
+def ahead_mm(
+    x_mm: Floats, new_z_mm: Floats, length_mm: float, *, shank_only: bool
+) -> tuple[Floats, Floats]:
+    """How far places (n,) of a bottom's line, and what lies over it, go ahead along the ground.
 
     The line runs through ``x_mm`` (n,), which begins at 0, densely. Afterwards it has the heights
     ``new_z_mm`` (n,) and the length ``length_mm``.
@@ -45,14 +51,17 @@ def ahead_mm(x_mm: Floats, new_z_mm: Floats, length_mm: float, *, shank_only: bo
     Examples
     --------
     >>> x, z = np.array([0.0, 30.0, 60.0]), np.array([40.0, 0.0, 0.0])
-    >>> ahead_mm(x, z, 114.0, shank_only=False).round(1).tolist()
+    >>> ahead_mm(x, z, 114.0, shank_only=False)[0].round(1).tolist()
     [0.0, 20.0, 40.0]
     """
+    over = LENGTHENING.shank if shank_only else None
     by_mm = length_mm - _arc_mm(x_mm, new_z_mm)
     for _ in range(LENGTHENING.rounds):
-        moved = flowed_mm(x_mm, by_mm, shank_only=shank_only)
-        by_mm += length_mm - _arc_mm(moved, new_z_mm)
-    return flowed_mm(x_mm, by_mm, shank_only=shank_only) - x_mm
+        by_mm += length_mm - _arc_mm(flowed_mm(x_mm, by_mm, over), new_z_mm)
+    bottom = flowed_mm(x_mm, by_mm, over) - x_mm
+    if not shank_only:
+        return bottom, bottom
+    return bottom, flowed_mm(x_mm, by_mm, LENGTHENING.upper) - x_mm
 
 
 def _arc_mm(x_mm: Floats, z_mm: Floats) -> float:
@@ -60,21 +69,26 @@ def _arc_mm(x_mm: Floats, z_mm: Floats) -> float:
 
 
 def flowed_mm(
-    x_mm: Floats, by_mm: float, *, shank_only: bool, settings: LengthSettings = LENGTHENING
+    x_mm: Floats,
+    by_mm: float,
+    over: tuple[float, float] | None,
+    settings: LengthSettings = LENGTHENING,
 ) -> Floats:
     """Where places (n,) along the ground are when the last of them is ahead by ``by_mm``.
 
+    The length is taken up evenly, or ``over`` a stretch of the run alone.
+
     Examples
     --------
-    >>> flowed_mm(np.array([0.0, 100.0, 200.0]), 50.0, shank_only=False).tolist()
+    >>> flowed_mm(np.array([0.0, 100.0, 200.0]), 50.0, None).tolist()
     [0.0, 125.0, 250.0]
-    >>> flowed_mm(np.array([20.0, 180.0, 200.0]), 20.0, shank_only=True).tolist()
+    >>> flowed_mm(np.array([20.0, 180.0, 200.0]), 20.0, (0.22, 0.60)).tolist()
     [20.0, 200.0, 220.0]
     """
     whole_mm = float(x_mm[-1])
-    if not shank_only:
+    if over is None:
         return np.asarray(x_mm * (1.0 + by_mm / whole_mm))
-    start, end = settings.shank
+    start, end = over
     count = max(1, int(np.ceil(abs(by_mm) / settings.step_mm)))
     step = by_mm / count
 
@@ -110,20 +124,33 @@ def raised_mm(x_mm: Floats, z_mm: Floats, ratio: float, held: tuple[bool, bool])
     return np.where(kept, 0.0, (ratio - 1.0) * (z_mm - z_mm[lowest]))
 
 
-def lengthened_mm(chart: Chart, points_mm: Floats, ahead_mm: Floats, raised_mm: Floats) -> Floats:
+def lengthened_mm(
+    chart: Chart, points_mm: Floats, ahead_mm: tuple[Floats, Floats], raised_mm: Floats
+) -> Floats:
     """Points (n, 3) of the resting frame where the bottom's line goes ahead and is raised.
 
-    ``ahead_mm`` and ``raised_mm`` (k,) are given at the chart's stations. Each point moves by what
-    the line does that has its middle where the point has it, and is as free of a held top as there.
-    So the way back is the same one.
+    ``ahead_mm`` says how far the bottom, and what lies over it, go ahead; ``raised_mm`` is for
+    both: (k,) each, at the chart's stations. Each point moves by what the line does that has its
+    middle where the point has it, and is as free of a held top as there. So the way back is the
+    same one.
     """
     standing = chart.standing(points_mm)
-    half_mm = chart.arc.line.at(chart.stations * chart.arc.length_mm)[0] + 0.5 * ahead_mm
+    x, z = chart.arc.line.at(chart.stations * chart.arc.length_mm)
+    bottom_mm, upper_mm = (x + 0.5 * curve for curve in ahead_mm)
+    half_z_mm = z + 0.5 * raised_mm
+    low_mm, high_mm = (share * bottom_mm[-1] for share in LENGTHENING.between)
     shift = np.zeros_like(standing)
     for _ in range(LENGTHENING.even_rounds):
         half_way = standing + 0.5 * shift
         x_mm = half_way[:, 0]
-        ahead, raised = (np.interp(x_mm, half_mm, curve) for curve in (ahead_mm, raised_mm))
+        over_mm = half_way[:, 2] - np.interp(x_mm, bottom_mm, half_z_mm)
+        risen = eased((over_mm - low_mm) / (high_mm - low_mm))
+        bottom, upper = (
+            np.interp(x_mm, places, curve)
+            for places, curve in zip((bottom_mm, upper_mm), ahead_mm, strict=True)
+        )
+        raised = np.interp(x_mm, bottom_mm, raised_mm)
+        ahead = bottom + risen * (upper - bottom)
         shift = np.column_stack([ahead, np.zeros(len(x_mm)), raised])
         shift *= free_of_top(chart, half_way)[:, None]
     return chart.resting(standing + shift)

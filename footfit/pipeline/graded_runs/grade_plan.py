@@ -14,9 +14,7 @@ from footfit.geometry.stance.cues import StanceLabels
 from footfit.pipeline.graded_runs.grade_shape import (
     HELD,
     HELD_BY_DEFAULT,
-    INSTEP,
     THICKNESS,
-    WAIST,
 )
 from footfit.pipeline.graded_runs.run_sizes import width_numbers
 from footfit.pipeline.scan.standing import LABELLED_MM
@@ -27,8 +25,6 @@ MOST_LASTS = 200
 MOST_SIZES = 30
 """So far a run reaches from its base; adults' lasts of all sizes lie within 15."""
 HEEL, SPRING, GIRTH = "heel_height", "toe_spring_tip", "ball_girth_least"
-HALF_WAY = (INSTEP, WAIST)
-"""Girths at shares of the arc: if the shank alone takes up the length, these are other places."""
 NOTHING = "none"
 
 
@@ -214,14 +210,13 @@ def targets(
 ) -> dict[str, Planned]:
     """The target of each measure that is planned, so many sizes and widths from the base.
 
-    ``base_mm`` are the base's measures. What the rule does not name and nothing holds, follows; if
-    the bottom is held, so do the girths of `HALF_WAY`.
+    ``base_mm`` are the base's measures. What the rule does not name and nothing holds, follows.
     """
     result: dict[str, Planned] = {}
     bottom = "bottom" in plan.held
     for name, value in base_mm.items():
         planned = plan.rule.planned(name, value, sizes, widths)
-        if planned is not None and not (bottom and name in HALF_WAY):
+        if planned is not None:
             result[name] = Planned(planned, "rule")
     length = result["bottom_length"].target / base_mm["bottom_length"]
     thicker = result[GIRTH].target / base_mm[GIRTH] if GIRTH in result else length

@@ -21,7 +21,7 @@ from footfit.pipeline.graded_runs.grade_plan import (
     standing,
     targets,
 )
-from footfit.pipeline.graded_runs.grade_shape import HELD, LENGTH, GradeStep, graded
+from footfit.pipeline.graded_runs.grade_shape import HELD, LENGTH, GradeStep, graded, graded_mm
 from footfit.pipeline.graded_runs.run_increments import CHECKED
 from footfit.pipeline.last_making.base_last import BaseLast
 from footfit.pipeline.scan.preparation import right_copy
@@ -31,7 +31,10 @@ from footfit.results.last_making.graded_run import GradedLast, GradedMeasure, Gr
 
 REFINED_MM = 0.03
 """A last is graded again if a measure of its file is farther from the plan."""
-REFINEMENTS = 2
+REFINEMENTS = 4
+REFINED_BY = 0.85
+"""A refinement takes back this share of a miss: the file answers by a little more than the frame,
+and a reading may jump."""
 Place = tuple[float, float]
 """How many sizes and widths a last is from the base."""
 
@@ -154,7 +157,7 @@ class Grader:
                 break
             for each in last.measures:
                 if each.difference is not None:
-                    shift[each.name] = shift.get(each.name, 0.0) - each.difference
+                    shift[each.name] = shift.get(each.name, 0.0) - REFINED_BY * each.difference
         assert best is not None
         return best
 
@@ -227,8 +230,8 @@ def grader(base: BaseLast, plan: GradePlan, family: str) -> Grader:
             raise OutOfReach("its length along the bottom cannot be measured: take a whole last")
         stands = standing(targets(plan, base_mm, 0.0, 0.0), base.record.labels.platform_mm)
     own = Shape(base.shape.vertices_mm, base.shape.faces, "last", stands)
-    in_frame = {name: measure_named(name).value_of(own).value for name in base_mm}
-    kept = {name: value for name, value in in_frame.items() if value is not None}
+    in_frame = {name: graded_mm(own, name) for name in base_mm}
+    kept = {name: value for name, value in in_frame.items() if math.isfinite(value)}
     return Grader(
         base=base,
         plan=plan,

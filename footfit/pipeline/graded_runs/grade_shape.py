@@ -10,9 +10,10 @@ import numpy as np
 from footfit.errors import OutOfReach
 from footfit.geometry.deform.chart import CHART, Chart, chart_of
 from footfit.geometry.deform.field import Field, least_determinant
-from footfit.geometry.deform.probes import Probe, span_probe
+from footfit.geometry.deform.probes import DIRECTIONS, Probe, span_probe
 from footfit.geometry.deform.solver import SOLVER, Goal, Knob, solution
 from footfit.geometry.grading.length_flow import (
+    LENGTHENING,
     ahead_mm,
     ends_raised_mm,
     flowed_mm,
@@ -27,11 +28,12 @@ from footfit.geometry.grading.steady_lines import (
 )
 from footfit.geometry.measures.heights import HEIGHTS
 from footfit.geometry.measures.landmarks import AXES, Shape
+from footfit.geometry.measures.least_tape import RoughGirths
 from footfit.geometry.measures.measure_table import measure_named
 from footfit.geometry.numeric.arrays import Floats
 from footfit.geometry.stance.cues import StanceLabels
 from footfit.number_words import plain
-from footfit.pipeline.last_making.custom.custom_reading import probe_of
+from footfit.pipeline.last_making.custom.custom_reading import TAPES, probe_of, tape_plane
 
 
 @dataclass(frozen=True, slots=True)
@@ -94,6 +96,8 @@ GRADE_CHART = replace(CHART, knots=43)
 """With so many knots that the curves meet what a length does in the shank of a high heel."""
 LENGTH, HEEL_GIRTH = "bottom_length", "heel_girth_instep"
 INSTEP, WAIST = "instep_girth_least", "waist_girth_least"
+AT_JOINTS = ("ball_girth_least", WAIST)
+"""The girths that need the joints of the ball."""
 HELD = ("heel", "spring", "bottom", "toe", "top")
 """What can be held, each by itself."""
 HELD_BY_DEFAULT = ("heel", "spring", "toe")
@@ -142,7 +146,7 @@ def graded(shape: Shape, step: GradeStep) -> Shape:
 
     def read(vertices_mm: Floats) -> Floats:
         last = finished(vertices_mm)
-        return np.array([_value_mm(last, name) for name in names])
+        return np.array([graded_mm(last, name) for name in names])
 
     start, rise_mm = replace(Field.still(chart), even=True), 0.0
     for _ in range(2):  # the second time at the height that the cone has half-way
@@ -179,7 +183,7 @@ def _lengthened(shape: Shape, step: GradeStep) -> Shape:
     raised = raised_mm(x, z, step.ratio, held) + ends_raised_mm(x, z, step.more_mm)
     length_mm = step.ratio * chart.arc.length_mm
     ahead = ahead_mm(x, z + raised, length_mm, shank_only=bottom)
-    least = 1.0 + float((np.diff(ahead) / np.diff(x)).min())
+    least = 1.0 + min(float((np.diff(curve) / np.diff(x)).min()) for curve in ahead)
     if least < GRADE.determinant:
         words = "its shank is too steep to become so much shorter"
         raise OutOfReach(f"{words}: take fewer sizes, or hold neither bottom nor heel")
@@ -224,7 +228,7 @@ def _knobs(chart: Chart, cone_mm: Floats, step: GradeStep) -> list[Knob]:
         high = [*high, np.maximum(1.0 - chart.stations / GRADE.instep, 0.0)]
     arc_mm = chart.stations * chart.arc.length_mm
     x = chart.arc.line.at(arc_mm)[0]
-    ahead = flowed_mm(x, 1.0, shank_only="bottom" in step.held) - x
+    ahead = flowed_mm(x, 1.0, LENGTHENING.shank if "bottom" in step.held else None) - x
     return [
         *(Knob("wider", _curve(chart, tent)) for tent in wide),
         *(Knob("higher", _curve(chart, tent)) for tent in high),
@@ -263,7 +267,19 @@ def _tents(chart: Chart, at: Sequence[float]) -> list[Floats]:
     return [np.interp(chart.stations, at, row) for row in np.eye(len(at))]
 
 
-def _value_mm(shape: Shape, name: str) -> float:
+def graded_mm(shape: Shape, name: str) -> float:
+    """What grading brings to a target: a measure of a last in its frame; NaN if it has none.
+
+    A girth is that of its plane's own section. What `measure` takes for noise there changes by
+    0.1 mm from one smooth last to the next.
+    """
+    if name in TAPES:
+        if name in AT_JOINTS and shape.joints is None:
+            return np.nan
+        plane = tape_plane(shape, name)
+        assert plane is not None
+        girths = RoughGirths(shape, plane.origin, DIRECTIONS, plane.reach_mm)
+        return girths.at(plane.axes)
     value = measure_named(name).value_of(shape).value
     return np.nan if value is None else value
 
