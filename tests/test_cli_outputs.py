@@ -9,7 +9,14 @@ from pathlib import Path
 
 import pytest
 
-from footfit.cli.outputs import OutputFile, Outputs, refuse_existing, write_output, write_outputs
+from footfit.cli.outputs import (
+    OutputFile,
+    Outputs,
+    folder_made,
+    refuse_existing,
+    write_output,
+    write_outputs,
+)
 from footfit.errors import BadOption, OutputExists
 from footfit.whole_files import give_name, partial_beside
 from tests.conftest import Footfit
@@ -65,6 +72,17 @@ def test_several_files_are_written_all_or_none(
     monkeypatch.undo()
     write_outputs({first: b"a", second: b"b"}, force=False)
     assert sorted(tmp_path.iterdir()) == [first, second]
+
+
+def test_a_folder_that_was_made_for_files_goes_if_none_is_written(tmp_path: Path) -> None:
+    made, kept = tmp_path / "made", tmp_path / "kept"
+    kept.mkdir()
+    for folder in (made, kept):
+        with pytest.raises(FileNotFoundError), folder_made(folder):
+            (folder / "lost.stl").read_bytes()
+    assert list(tmp_path.iterdir()) == [kept]
+    with pytest.raises(BadOption, match="cannot be made"), folder_made(tmp_path / "a" / "b"):
+        pass
 
 
 def test_a_file_that_comes_while_ours_is_written_is_kept(

@@ -190,7 +190,7 @@ def test_a_run_reaches_its_plan_and_is_stored_with_its_parentage(
                 assert abs(measure["difference"]) < REACHED_MM, (last["last"], measure)
     even = ("--rule", "eu", "--tolerance", "girth=0.1,length=0.1,width=0.1,height=0.2")
     assert footfit("check-run", "derby", *even, "--catalogue", catalogue).code == 0
-    manifest = footfit("check-run", folder, "--manifest", folder / "run.csv", *even)
+    manifest = footfit("check-run", folder, *even)
     assert manifest.code == 0, manifest.err
     with open_catalogue(catalogue) as opened:
         record, made = opened.record("derby-eu43-G"), opened.parentage("derby-eu43-G")

@@ -178,7 +178,7 @@ def test_what_is_refused_takes_no_other_last_with_it(location: str, commits: lis
     assert [status for _, status, _ in said] == ["added", *["refused"] * 4, "added"]
     assert "is empty" in str(said[1][2])
     assert "'c', a name that differs only in case" in str(said[2][2])
-    assert "the same scan is in the catalogue as 'c'" in str(said[3][2])
+    assert "the same mesh is in the catalogue as 'c'" in str(said[3][2])
     assert "'a' is in the catalogue with another scan" in str(said[4][2])
     assert commits == [2, 2]
 

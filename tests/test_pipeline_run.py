@@ -218,6 +218,30 @@ def test_files_and_families_are_checked(footfit: Footfit, tmp_path: Path) -> Non
     assert "there is no such file" in missing.err
 
 
+def test_a_manifest_beside_the_files_says_their_sizes_and_how_they_stand(
+    footfit: Footfit, tmp_path: Path
+) -> None:
+    vertices, faces = last_mesh(LastSpec(flare_deg=6.0, rings=60, segments=48))
+    lines = ["path,size,heel_height_mm"]
+    for name, scale in (("a", 0.976), ("b", 1.0), ("c", 1.024)):
+        (tmp_path / f"{name}.stl").write_bytes(encoded_mesh(vertices * scale, faces, "stl"))
+        lines.append(f"{name}.stl,{40 + 'abc'.index(name)},31.5")
+    (tmp_path / "run.csv").write_text("\n".join(lines))
+    lasts = footfit("check-run", tmp_path, "--json").document["lasts"]
+    assert [(last["size"], last["size_from"]) for last in lasts] == [
+        (size, "manifest") for size in ("40", "41", "42")
+    ]
+    for last in lasts:  # which they do not have by their shapes
+        assert last["measures_mm"]["heel_height"] == pytest.approx(31.5, abs=0.1)
+    other = tmp_path / "other.csv"
+    other.write_text("\n".join(lines).replace(",4", ",3"))
+    named = footfit("check-run", *sorted(tmp_path.glob("*.stl")), "--manifest", other)
+    assert "3 lasts, sizes 30 to 32 by manifest" in named.out
+    (tmp_path / "run.csv").write_text("date,runner\n")
+    wrong = footfit("check-run", tmp_path)
+    assert (wrong.code, "run.csv" in wrong.err) == (3, True), wrong.err
+
+
 def test_the_table_shows_every_increment_and_marks_what_breaks() -> None:
     lasts = [*run(230.0, 235.0, 243.0, 245.0, width="F"), *run(235.0, 240.0, 245.0, width="G")]
     checked = run_check(lasts, TOLERANCE_MM)

@@ -131,7 +131,8 @@ def check_run(
     catalogue : path, optional
         Where families and names are looked for.
     manifest : path, optional
-        A CSV file with the sizes of the files; else their names say them.
+        A CSV file with the sizes of the files, and how they stand. Without it, ``run.csv`` in their
+        folder is read; else their names say the sizes.
     rule : str, optional
         A grading rule by its name or its file: the run is compared with it, else with itself.
     tolerance : str, optional
@@ -155,7 +156,7 @@ def check_run(
     names = [os.fspath(each) for each in given]
     tolerance_mm = tolerances(tolerance)
     stated = None if rule is None else grading_rule(rule)
-    rows = [] if manifest is None else read_manifest(Path(manifest))
+    rows = None if manifest is None else read_manifest(Path(manifest))
     stored = [name for name in names if is_no_path(name) and names_a_last(name)]
     if stored and catalogue is None:
         raise BadOption("is no file: name the catalogue that has it", stored[0])

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence, Sized
-from contextlib import ExitStack, contextmanager
+from contextlib import ExitStack, contextmanager, suppress
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -173,10 +173,10 @@ class Outputs:
                 target = file.target(self.stems[number] if self.stems else "")
                 kind = file_kind(target, file.kinds) if file.kinds else ""
                 contents.append((target, file.content(result, kind)))
-        for path, _ in contents:
-            if not path.parent.exists():
-                make_folder(path.parent)
-        write_outputs(dict(contents), force=self.force)
+        with ExitStack() as folders:
+            for path, _ in contents:
+                folders.enter_context(folder_made(path.parent))
+            write_outputs(dict(contents), force=self.force)
         return [path for path, _ in contents]
 
     def write_csv(self, results: Iterable[Any]) -> list[Path]:
@@ -228,18 +228,27 @@ def _known_file(name: str) -> tuple[int, int] | None:
         return None
 
 
-def make_folder(folder: Path) -> None:
-    """Make a folder for outputs, if it is not there.
+@contextmanager
+def folder_made(folder: Path) -> Iterator[None]:
+    """Make a folder for outputs, if it is not there; remove it again if nothing can be written.
 
     Raises
     ------
     BadOption
         The system refuses.
     """
+    is_new = not folder.exists()
     try:
         folder.mkdir(exist_ok=True)
     except OSError as error:
         raise BadOption(f"the folder cannot be made: {error.strerror}", str(folder)) from error
+    try:
+        yield
+    except BaseException:
+        with suppress(OSError):  # it holds a file
+            if is_new:
+                folder.rmdir()
+        raise
 
 
 def refuse_existing(path: Path | None, *, force: bool, kinds: tuple[str, ...] = ()) -> None:

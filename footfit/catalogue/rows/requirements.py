@@ -57,7 +57,7 @@ def place_of(connection: Driver, record: LastRecord, *, replace: bool) -> Place:
 
 def same_scan(holder: str) -> NameTaken:
     """The refusal of a file whose content the catalogue has under the name ``holder``."""
-    return NameTaken(f"the same scan is in the catalogue as {holder!r}; nothing was stored")
+    return NameTaken(f"the same mesh is in the catalogue as {holder!r}; nothing was stored")
 
 
 def require_storable(name: str) -> None:

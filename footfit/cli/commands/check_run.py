@@ -13,7 +13,10 @@ def check_run(
         "Give a family of the catalogue, or the lasts of a run: files, folders, globs or names.",
     ),
     manifest: Path | None = options.option(
-        "--manifest", "Take the sizes of files from this CSV. Else their names say them.", "CSV"
+        "--manifest",
+        "Take the sizes of files, and how they stand, from this CSV. Else from run.csv beside "
+        "them, or the sizes from their names.",
+        "CSV",
     ),
     rule: str | None = options.option(
         "--rule",
@@ -36,7 +39,7 @@ def check_run(
 
     It exits with 7 if an increment is farther off than the tolerance.
 
-    Example: footfit check-run run/*.stl --rule eu
+    Example: footfit check-run run/ --rule eu
     """
     from footfit.api.last_making import check_run as check
     from footfit.cli.answers import answer_result

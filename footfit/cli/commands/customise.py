@@ -84,7 +84,7 @@ def customise(
     """
     from footfit.api import custom_lasts, files
     from footfit.cli.answers import sources_of, tell
-    from footfit.cli.outputs import say_written, write_output
+    from footfit.cli.outputs import say_written, write_outputs
     from footfit.cli.progress import progress
     from footfit.errors import BadOption
 
@@ -123,8 +123,7 @@ def customise(
     ]
     if store is not None:
         made = stored(made, store, lasts, force=force)
-    for path, data in contents:  # before the answer, whose reader may be gone
-        write_output(path, data, force=force)
+    write_outputs(dict(contents), force=force)  # before the answer, whose reader may be gone
     say_written([path for path, _ in contents], quiet=mode.quiet)
     for custom in made:
         tell(custom, mode)

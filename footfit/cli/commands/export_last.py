@@ -50,7 +50,7 @@ def export_last(
     """
     from footfit.api import files
     from footfit.cli.answers import tell
-    from footfit.cli.outputs import OutputFile, make_folder, refuse_existing, write_output
+    from footfit.cli.outputs import OutputFile, folder_made, refuse_existing, write_outputs
     from footfit.errors import BadOption
     from footfit.pipeline.export import MESH_KINDS, file_kind, trade_name
     from footfit.report.csv import csv_text
@@ -89,8 +89,6 @@ def export_last(
         written.append((tables[0], csv_text(SectionTable, [table])))
         written.append((tables[1], csv_text(OutlineTable, [table.outlines()])))
         outcome = replace(outcome, sections=str(tables[0]), outlines=str(tables[1]))
-    if target.is_folder:
-        make_folder(output)
-    for file, content in written:
-        write_output(file, content, force=force)
+    with folder_made(path.parent):
+        write_outputs(dict(written), force=force)
     tell(outcome, mode)

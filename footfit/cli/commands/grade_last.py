@@ -7,8 +7,6 @@ from pathlib import Path
 from footfit.cli import options
 
 GRADING = "How it is graded"
-MANIFEST = "run.csv"
-"""The name of the manifest beside a run's files."""
 
 
 def grade_last(
@@ -71,7 +69,7 @@ def grade_last(
     from footfit.cli.answers import answer_result
     from footfit.cli.outputs import (
         Outputs,
-        make_folder,
+        folder_made,
         refuse_existing,
         say_written,
         write_outputs,
@@ -83,6 +81,7 @@ def grade_last(
         require_storable_run,
         store_run,
     )
+    from footfit.pipeline.graded_runs.run_lasts import RUN_MANIFEST
     from footfit.report.csv import csv_text
     from footfit.results import GradedRun
     from footfit.whole_files import require_folder, safe_file_name
@@ -108,7 +107,7 @@ def grade_last(
             **standing.keywords(),
         )
         files = {name: output / safe_file_name(name, ".stl") for name in grading.names()}
-        for path in (*files.values(), output / MANIFEST) if output.is_dir() else ():
+        for path in (*files.values(), output / RUN_MANIFEST) if output.is_dir() else ():
             refuse_existing(path, force=force)
             if path.exists() and Path(last).exists() and path.samefile(last):
                 raise BadOption("is the base itself: name another folder", str(path))
@@ -116,11 +115,11 @@ def grade_last(
             require_storable_run(lasts.path(), grading, replace_stored=force)
         made = [replace(each, output=str(files[each.last])) for each in grading.lasts()]
     run = replace(grading.run(made), folder=str(output))
-    make_folder(output)
     manifest = csv_text(RunManifest, [RunManifest(run.lasts, run.side)])
     meshes = {files[each.last]: each.data for each in run.lasts}
-    write_outputs({**meshes, output / MANIFEST: manifest}, force=force)
+    with folder_made(output):
+        write_outputs({**meshes, output / RUN_MANIFEST: manifest}, force=force)
     if store:
         run = store_run(lasts.path(), grading, run, replace_stored=force)
-    say_written([*meshes, output / MANIFEST], quiet=mode.quiet)
+    say_written([*meshes, output / RUN_MANIFEST], quiet=mode.quiet)
     answer_result(run, mode, outputs)

@@ -11,6 +11,7 @@ from footfit.geometry.measures.landmarks import Shape
 from footfit.geometry.measures.measure_table import measure_named
 from footfit.geometry.stance.cues import StanceLabels
 from footfit.meshes.write import encoded_mesh
+from footfit.number_words import signed
 from footfit.pipeline.batch.sources import ReadingOptions, Source
 from footfit.pipeline.graded_runs.grade_plan import (
     HEEL,
@@ -24,9 +25,10 @@ from footfit.pipeline.graded_runs.grade_plan import (
 from footfit.pipeline.graded_runs.grade_shape import HELD, LENGTH, GradeStep, graded, graded_mm
 from footfit.pipeline.graded_runs.run_increments import CHECKED
 from footfit.pipeline.last_making.base_last import BaseLast
+from footfit.pipeline.last_making.tolerances import TOLERANCE_MM
 from footfit.pipeline.scan.preparation import right_copy
 from footfit.pipeline.scan.reading import prepared_source
-from footfit.results import LastLabels
+from footfit.results import LastLabels, Notice
 from footfit.results.last_making.graded_run import GradedLast, GradedMeasure, GradedRun
 
 REFINED_MM = 0.03
@@ -89,6 +91,7 @@ class Grader:
     def run(self, lasts: Iterable[GradedLast]) -> GradedRun:
         """The whole run, the smallest size and the narrowest width first."""
         record, plan = self.base.record, self.plan
+        ordered = tuple(sorted(lasts, key=lambda last: (last.sizes, last.widths)))
         return GradedRun(
             base=self.base.name,
             base_sha256=record.info.sha256,
@@ -100,7 +103,8 @@ class Grader:
             size_system=plan.system.name,
             rule=plan.rule,
             held=tuple(name for name in HELD if name in plan.held),
-            lasts=tuple(sorted(lasts, key=lambda last: (last.sizes, last.widths))),
+            lasts=ordered,
+            warnings=read_otherwise(ordered),
         )
 
     def name_of(self, fitting: Fitting) -> str:
@@ -178,7 +182,8 @@ class Grader:
             platform_mm=said.platform_mm,
             family=self.family,
         )
-        reached = measures_of(data, self.base, stands)
+        shape = file_shape(data, self.base, stands)
+        reached = measures_of(shape)
         measures = tuple(
             GradedMeasure(
                 name=name,
@@ -199,6 +204,7 @@ class Grader:
             measures=measures,
             labels=labels,
             data=data,
+            heel_by_shape_mm=heel_by_shape_mm(shape, reached.get(HEEL)),
         )
 
 
@@ -225,7 +231,7 @@ def grader(base: BaseLast, plan: GradePlan, family: str) -> Grader:
     stands = base.shape.labels
     base_mm: dict[str, float] = {}
     for _ in range(2):  # the second time on the ground that its own heel and spring give
-        base_mm = measures_of(file_of(base.shape, base), base, stands)
+        base_mm = measures_of(file_shape(file_of(base.shape, base), base, stands))
         if LENGTH not in base_mm:
             raise OutOfReach("its length along the bottom cannot be measured: take a whole last")
         stands = standing(targets(plan, base_mm, 0.0, 0.0), base.record.labels.platform_mm)
@@ -247,10 +253,39 @@ def file_of(shape: Shape, base: BaseLast) -> bytes:
     return encoded_mesh(*right_copy(shape.vertices_mm, shape.faces, base.record.side.side), "stl")
 
 
-def measures_of(data: bytes, base: BaseLast, stands: StanceLabels) -> dict[str, float]:
-    """The measures of a last that is read from the content of its file, in mm by name."""
+def file_shape(data: bytes, base: BaseLast, stands: StanceLabels) -> Shape:
+    """The last that is read from the content of its file."""
     reading = reading_of(base, stands)
-    shape = replace(prepared_source(Source(None, data, "stl"), reading).shape, kind="last")
+    return replace(prepared_source(Source(None, data, "stl"), reading).shape, kind="last")
+
+
+def heel_by_shape_mm(shape: Shape, heel_mm: float | None) -> float | None:
+    """What the heel of a last reads without labels; ``heel_mm`` is what it reads with them."""
+    stance = shape.stance
+    grounds = [cue.ground for cue in stance.cues if cue.name == "shape"] if stance else []
+    if stance is None or heel_mm is None or not grounds:
+        return None
+    return heel_mm + stance.touching_x_mm * (grounds[0] - stance.ground)
+
+
+def read_otherwise(lasts: Iterable[GradedLast]) -> tuple[Notice, ...]:
+    """A warning if lasts stand as planned by their labels alone; it names the worst."""
+    off = {last.last: last.heel_off_mm for last in lasts}
+    off = {name: mm for name, mm in off.items() if abs(mm) > TOLERANCE_MM["height"]}
+    if not off:
+        return ()
+    name, mm = max(off.items(), key=lambda each: abs(each[1]))
+    count = "1 last" if len(off) == 1 else f"{len(off)} lasts"
+    words = (
+        f"without its label, the heel of {name!r} reads {signed(mm)} mm off ({count} of the run)"
+    )
+    return (
+        Notice("heel_by_label", f"{words}: give its heel height with each file, as run.csv does"),
+    )
+
+
+def measures_of(shape: Shape) -> dict[str, float]:
+    """The checked measures of a last, in mm by name."""
     values = {name: measure_named(name).value_of(shape).value for name in CHECKED}
     return {name: value for name, value in values.items() if value is not None}
 

@@ -15,11 +15,14 @@ from footfit.pipeline.batch.runs import HERE, outcomes
 from footfit.pipeline.batch.sources import ReadingOptions, Source
 from footfit.pipeline.graded_runs.run_increments import CHECKED
 from footfit.pipeline.graded_runs.run_sizes import SizeLabel, size_in_name, size_number
-from footfit.pipeline.library.manifest import LABEL_HEIGHTS, ManifestRow
+from footfit.pipeline.library.manifest import LABEL_HEIGHTS, ManifestRow, read_manifest
 from footfit.pipeline.scan.measure import measured_scan
 from footfit.pipeline.scan.reading import AS_FOUND, aligned_source
 from footfit.results import LastRecord, Measure, MeasuredScan
 from footfit.results.last_making.run_check import RunLast
+
+RUN_MANIFEST = "run.csv"
+"""The manifest beside a run's files: `grade-last` writes it, `check-run` reads it."""
 
 
 def family_lasts(catalogue: Location, family: str) -> tuple[RunLast, ...]:
@@ -68,18 +71,23 @@ def named_lasts(catalogue: Location, names: Sequence[str]) -> tuple[RunLast, ...
 
 
 def file_lasts(
-    sources: Sequence[Source], manifest: Sequence[ManifestRow] = (), jobs: int = HERE
+    sources: Sequence[Source], manifest: Sequence[ManifestRow] | None = None, jobs: int = HERE
 ) -> tuple[RunLast, ...]:
     """Files as a run has them: measured, with the sizes of a manifest, or else of their names.
+
+    Without a manifest, those that lie beside the files are read.
 
     Raises
     ------
     BadOption
         A file's size is not known.
+    BadManifest
+        A manifest beside the files is not understood.
     InputError, GeometryRefused
         A file cannot be read or measured.
     """
-    rows = {str(Path(row.path).resolve()): row for row in manifest}
+    known = _beside(sources) if manifest is None else manifest
+    rows = {str(Path(row.path).resolve()): row for row in known}
     labels = {source.path: _label(source, rows) for source in sources}
     readings = {source.path: _reading(source, rows) for source in sources}
     lasts = []
@@ -93,6 +101,13 @@ def file_lasts(
         number = size_number(label.size, system, name)
         lasts.append(_last(name, label, number, side, outcome.value.measures))
     return tuple(lasts)
+
+
+def _beside(sources: Iterable[Source]) -> list[ManifestRow]:
+    """The rows of the manifests in the folders of files."""
+    folders = dict.fromkeys(Path(source.path).parent for source in sources if source.path)
+    beside = (folder / RUN_MANIFEST for folder in folders)
+    return [row for path in beside if path.is_file() for row in read_manifest(path)]
 
 
 def _measured(source: Source, readings: Mapping[str | None, ReadingOptions]) -> MeasuredScan:

@@ -104,6 +104,6 @@ def scanned_base(source: Source, reading: ReadingOptions) -> BaseLast:
     """
     last = scanned_last(source, reading, "base")
     if last.record.pose.kind == "foot":
-        words = "its shape is a foot's, not a last's: name a last, from which the others are made"
+        words = "its shape is a foot's, not a last's: give the last that another one is made from"
         raise OtherKind(words, source.path)
     return BaseLast(last.record, last.shape, kept_sections(last.shape), BaseMesh("file", 0.0))

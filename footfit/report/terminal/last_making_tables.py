@@ -75,6 +75,7 @@ def _lasts_words(checked: results.RunCheck) -> Text:
     sizes = list(dict.fromkeys(last.size for last in checked.lasts))
     by = f"the rule {visible(checked.rule)}" if checked.rule else "the run itself"
     words = f"{name}{len(checked.lasts)} lasts, sizes {visible(sizes[0])} to {visible(sizes[-1])}"
+    words += f" by {' and '.join(sorted({last.size_from for last in checked.lasts}))}"
     return Text(f"{words}, {checked.law}, compared with {by}", "bold")
 
 

@@ -46,7 +46,8 @@ class GradedLast(Part):
     """One last of a graded run, ``sizes`` and ``widths`` from the base.
 
     ``output`` is its file, ``stored`` whether the catalogue has it now. ``data`` is the content of
-    the file, an STL in mm in the base's canonical frame.
+    the file, an STL in mm in the base's canonical frame. ``heel_by_shape_mm`` is what its heel
+    height reads without its labels.
     """
 
     last: str
@@ -59,9 +60,18 @@ class GradedLast(Part):
     data: bytes = field(repr=False)
     output: str | None = None
     stored: bool = False
+    heel_by_shape_mm: float | None = None
     warnings: tuple[Notice, ...] = ()
 
     not_written = ("labels", "data")
+
+    @property
+    def heel_off_mm(self) -> float:
+        """How far its heel height reads without its labels from what it reads with them."""
+        reached = next((each.reached for each in self.measures if each.name == "heel_height"), None)
+        if reached is None or self.heel_by_shape_mm is None:
+            return 0.0
+        return self.heel_by_shape_mm - reached
 
     @property
     def worst(self) -> GradedMeasure | None:
