@@ -21,7 +21,7 @@ from footfit.geometry.measures.landmarks import Shape
 from footfit.geometry.measures.measure_table import measure_named
 from footfit.geometry.stance.cues import StanceLabels
 from footfit.meshes.write import encoded_mesh
-from footfit.number_words import plain
+from footfit.number_words import plain, signed
 from footfit.pipeline.graded_runs.grade_plan import (
     HEEL,
     SPRING,
@@ -31,12 +31,14 @@ from footfit.pipeline.graded_runs.grade_plan import (
     standing,
     targets,
 )
+from footfit.pipeline.graded_runs.grade_run import heel_by_shape_mm, read_otherwise
 from footfit.pipeline.graded_runs.grade_shape import GradeStep, graded
 from footfit.pipeline.graded_runs.grading_rules import grading_rule
 from footfit.pipeline.graded_runs.run_increments import CHECKED
 from footfit.report.terminal.last_making_tables import graded_run_table
 from footfit.report.terminal.scan_tables import terminal_text
-from footfit.results import GradedRun
+from footfit.results import GradedRun, LastLabels
+from footfit.results.last_making.graded_run import GradedLast, GradedMeasure
 from tests.conftest import Footfit
 from tests.tape_peer import least_girths
 from tools.lasts import LastSpec, last_mesh
@@ -210,6 +212,38 @@ def test_a_run_reaches_its_plan_and_is_stored_with_its_parentage(
     own = footfit("grade-last", base, *known, *sizes, "-o", folder, "--force")
     assert (own.code, "is the base itself" in own.err) == (2, True), own.err
     assert base.read_bytes() == kept
+
+
+def test_a_last_that_stands_by_its_label_alone_is_said() -> None:
+    shape, base_mm = standing_base(15.0)
+    labels = StanceLabels(shape.labels.heel_height_mm + 4.0)
+    raised = Shape(shape.vertices_mm, shape.faces, "last", labels)
+    heel_mm = measured(raised)[HEEL]
+    by_shape_mm = heel_by_shape_mm(raised, heel_mm)
+    unlabelled_mm = measured(Shape(shape.vertices_mm, shape.faces, "last"))[HEEL]
+    assert by_shape_mm == pytest.approx(unlabelled_mm, abs=0.2)  # measured: 0.13
+    row = GradedMeasure(HEEL, "mm", base_mm[HEEL], heel_mm, heel_mm, "held")
+    last = GradedLast("derby-43", "43", None, 1.0, 0.0, (row,), LastLabels("derby-43"), b"")
+    (warning,) = read_otherwise([last, replace(last, heel_by_shape_mm=by_shape_mm)])
+    assert warning.code == "heel_by_label"
+    assert f"'derby-43' reads {signed(by_shape_mm - heel_mm)} mm off (1 last" in warning.message
+    assert read_otherwise([last, replace(last, heel_by_shape_mm=heel_mm - 1.4)]) == ()
+
+
+def test_an_instep_grows_by_the_rule_with_a_held_bottom_too() -> None:
+    """Half of the arc stays the same place of the cone, whose top rises no more than else."""
+    shape, base_mm = standing_base(60.0)
+    grown, top_mm = {}, {}
+    for hold in ("heel,spring,toe", "bottom,toe"):
+        larger = stepped(shape, base_mm, (0.0, 0.0), (1.0, 0.0), hold)
+        grown[hold] = measured(larger)
+        top_mm[hold] = float(larger.vertices_mm[:, 2].max() - shape.vertices_mm[:, 2].max())
+    for values in grown.values():
+        more_mm = values["instep_girth_least"] - base_mm["instep_girth_least"]
+        assert more_mm == pytest.approx(5.0, abs=REACHED_MM)
+    assert top_mm["bottom,toe"] == pytest.approx(top_mm["heel,spring,toe"], abs=0.9)  # measured: 0.45
+    heels = [values["heel_girth_instep"] for values in grown.values()]
+    assert heels[0] == pytest.approx(heels[1], abs=2.0)  # measured: 1.0
 
 
 def test_what_cannot_be_planned_is_refused_in_words(tmp_path: Path) -> None:
