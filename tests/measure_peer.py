@@ -270,6 +270,20 @@ def _heel_base(shape: Drafted) -> np.ndarray:
     return middle_of_cap(shape, direction, low, by_depth=True)
 
 
+def _cone_edge(shape: Drafted) -> np.ndarray:
+    """The middle of the cap farthest over the line down from the cone's top: that to the top at
+    half the length, or one 7 degrees flatter than that to .70, whichever is steeper.
+    """
+    shares = (0.15, 0.50, 0.70)
+    cone, instep, ball = ((shape.x_mm(s), shape.across(shape.x_mm(s))[:, 1].max()) for s in shares)
+    falls = [np.arctan2(cone[1] - z, x - cone[0]) for x, z in (instep, ball)]
+    lean = max(falls[0], falls[1] - np.radians(7.0))
+    x = shape.vertices_mm[:, 0]
+    between = (x > cone[0]) & (x < shape.x_mm(0.55))
+    direction = np.array([np.sin(lean), 0.0, np.cos(lean)])
+    return middle_of_cap(shape, direction, between, by_depth=True)
+
+
 def true_heel_girths(shape: Drafted) -> dict[str, float]:
     base = _heel_base(shape)
     top = np.array([shape.x_mm(0.5), shape.across(shape.x_mm(0.5))[:, 1].max()])
@@ -282,12 +296,7 @@ def true_heel_girths(shape: Drafted) -> dict[str, float]:
 
     steepest = 80.0
     if shape.kind == "last":
-        x, _, z = shape.vertices_mm.T
-        cone = np.array([shape.x_mm(0.15), shape.across(shape.x_mm(0.15))[:, 1].max()])
-        ball = np.array([shape.x_mm(0.70), shape.across(shape.x_mm(0.70))[:, 1].max()])
-        over = np.array([cone[1] - ball[1], ball[0] - cone[0]])
-        between = (x > cone[0]) & (x < shape.x_mm(0.55))
-        edge = shape.vertices_mm[between][np.argmax(np.column_stack([x, z])[between] @ over)]
+        edge = _cone_edge(shape)
         steepest = float(np.degrees(np.arctan2(edge[2] - base[2], edge[0] - base[0])))
     highest = shape.vertices_mm[:, 2].max() - 1.0
     girths: list[float] = []

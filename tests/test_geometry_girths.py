@@ -8,7 +8,7 @@ from hypothesis import given, settings
 from scipy.spatial import ConvexHull
 from scipy.special import ellipe
 
-from footfit.geometry.measures.girths import instep_girth, short_heel_girth
+from footfit.geometry.measures.girths import instep_girth, instep_girth_least, short_heel_girth
 from footfit.geometry.measures.landmarks import Shape
 from footfit.geometry.measures.tape import convex_hull, hull_girth
 from tests import shapes
@@ -56,8 +56,8 @@ def test_the_girth_of_an_ellipsoids_section_is_the_ellipses(share: float) -> Non
     )  # measured 0.066
 
 
-def test_a_tape_lies_over_a_sharp_edge() -> None:
-    # a box of 80 by 50 mm with a ridge of 20 mm: smoothing took 4 mm of its girth away
+def test_a_least_tape_lies_over_a_sharp_edge_which_other_girths_round_off() -> None:
+    # a box of 80 by 50 mm with a ridge of 20 mm
     tube, faces = shapes.cylinder(40.0, 260.0, 240, 60)
     angle = np.arctan2(tube[:, 1], tube[:, 0])
     across, up = np.cos(angle), np.sin(angle)
@@ -67,8 +67,9 @@ def test_a_tape_lies_over_a_sharp_edge() -> None:
     vertices = np.column_stack([tube[:, 2], y, z])
     vertices[-2:, 1:] = 0.0, 25.0  # the middles of the two ends
     girth = ConvexHull(vertices[:-2, 1:]).area
-    value = instep_girth(Shape(vertices - vertices.min(axis=0) * [1, 0, 1], faces, "last")).value
-    assert value == pytest.approx(girth, abs=0.02)
+    shape = Shape(vertices - vertices.min(axis=0) * [1, 0, 1], faces, "last")
+    assert instep_girth_least(shape).value == pytest.approx(girth, abs=0.02)
+    assert 1.3 < girth - instep_girth(shape).value < 5.2  # measured 2.6
 
 
 @pytest.mark.parametrize("cone", [0.27, 0.30, 0.36])
@@ -76,5 +77,5 @@ def test_the_short_heel_girth_goes_over_the_edge_of_low_and_high_cones(cone: flo
     spec = LastSpec(heel_height_mm=10.0, cone_height_mm=cone * 270.0, rings=120, segments=90)
     vertices, faces = last_mesh(spec)
     true_mm = true_heel_girths(Drafted(vertices, faces, "last", 0.0, {}))["short_heel_girth"]
-    # measured .85; it was up to 6 mm short where a low cone's edge was half-way to its middle
-    assert short_heel_girth(Shape(vertices, faces, "last")).value == pytest.approx(true_mm, abs=1.6)
+    # measured .46: smoothing takes that of the feather edge; the edge itself is read alike
+    assert short_heel_girth(Shape(vertices, faces, "last")).value == pytest.approx(true_mm, abs=0.9)

@@ -108,9 +108,7 @@ def test_the_hinged_last_of_a_user_reads_as_the_whole_one():
         for row in footfit.measure(CASES / "hinged_touching.stl").measures
     }
     read = [values[name] for name in GIRTHS[:3]]
-    # the case's table has 239.2, 352.8 and 321.4: sections had no feather edge, and the edge of the
-    # cone was half-way between two readings (docs/decisions/0201)
-    assert np.allclose(read, [240.1, 353.0, 325.4], atol=0.1)
+    assert np.allclose(read, [239.2, 352.8, 321.4], atol=0.3)  # the case's table; measured 0.22
 
 
 # ---------------------------------------------------------------- what is taken out

@@ -165,16 +165,12 @@ def test_a_foot_lies_in_every_last_that_is_good_for_it(name, feet, stocked):
         for profile in shipped()
         if profile != "sandal"  # it has no wall in front of the toes
     }
-    verdicts = {verdict for verdict, _ in by_verdict["walking"]}
-    assert "poor" in verdicts
+    assert {"good", "poor"} <= {verdict for verdict, _ in by_verdict["walking"]}
     good = {last for each in by_verdict.values() for verdict, last in each if verdict == "good"}
     for last in good:
         for question in (heel_question(), heel_question(as_scanned=True)):
             clearance_mm = compared(foot, stored_last(stocked, last), question).clearance_mm
             assert np.nanmin(clearance_mm) > -3.0, last  # measured: -2.87
-    if name == "mh008_R.stl" and "good" not in verdicts:
-        pytest.xfail("derby-43 is only acceptable since joints and girths are read more truly")
-    assert "good" in verdicts
 
 
 @pytest.mark.parametrize("name", maker.FEET)

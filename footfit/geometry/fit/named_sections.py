@@ -10,9 +10,7 @@ from footfit.errors import HalfScan
 from footfit.geometry.fit.paired_sections import station_plane
 from footfit.geometry.fit.stations import STATIONS, NamedSection
 from footfit.geometry.measures.landmarks import Shape
-from footfit.geometry.mesh.outlines import TAPE_OUTLINES
 from footfit.geometry.mesh.sections import extremes_below, sections_across
-from footfit.geometry.numeric.angles import turning_angle
 from footfit.geometry.numeric.arrays import Floats, Ints
 
 
@@ -39,8 +37,6 @@ class NamedSectionSettings:
 
 
 NAMED_SECTIONS = NamedSectionSettings()
-CORNER = np.radians(20.0)
-"""An outline that turns by more from one step to the next has a corner there."""
 
 
 def named_sections(
@@ -54,7 +50,7 @@ def named_sections(
     kept = {}
     for station in STATIONS:
         origin, axes = station_plane(shape, station)
-        section = shape.cut(origin, axes, TAPE_OUTLINES)
+        section = shape.cut(origin, axes)
         if shape.opened(section):
             continue
         plane = np.eye(4)
@@ -106,13 +102,8 @@ def _flat(shape: Shape) -> tuple[Floats, Ints, float]:
 
 
 def _evenly(loop: Floats, count: int) -> Floats:
-    """A closed loop (k, 2) as ``count`` points at equal steps; the nearest ones lie at corners."""
+    """A closed loop (k, 2) as ``count`` points at equal steps."""
     closed = np.concatenate([loop, loop[:1]])
     arc = np.concatenate([[0.0], np.cumsum(np.linalg.norm(np.diff(closed, axis=0), axis=1))])
     at = np.linspace(0.0, arc[-1], count, endpoint=False)
-    points = np.column_stack([np.interp(at, arc, closed[:, axis]) for axis in (0, 1)])
-    ahead = np.diff(closed, axis=0)
-    turn = turning_angle(np.roll(ahead, 1, axis=0), ahead)
-    for corner in np.flatnonzero(np.abs(turn) > CORNER):
-        points[round(arc[corner] / arc[-1] * count) % count] = loop[corner]
-    return points
+    return np.column_stack([np.interp(at, arc, closed[:, axis]) for axis in (0, 1)])

@@ -15,7 +15,6 @@ from footfit.geometry.measures.measure_value import (
     section_value,
 )
 from footfit.geometry.measures.tape import Crown, hull_girth
-from footfit.geometry.mesh.outlines import TAPE_OUTLINES
 
 
 def ball_girth(shape: Shape) -> MeasureValue:
@@ -23,7 +22,7 @@ def ball_girth(shape: Shape) -> MeasureValue:
     plane = shape.ball_plane
     if plane is None:
         return no_ball(shape)
-    return section_value(shape, shape.cut(*plane, TAPE_OUTLINES), "ball", hull_girth)
+    return section_value(shape, shape.cut(*plane), "ball", hull_girth)
 
 
 def waist_girth(shape: Shape) -> MeasureValue:
@@ -32,14 +31,13 @@ def waist_girth(shape: Shape) -> MeasureValue:
     if plane is None:
         return no_ball(shape)
     ball = (plane[0][0] - shape.x_mm(0.0)) / shape.length_mm
-    section = shape.across(0.5 * (ball + LANDMARKS.instep), TAPE_OUTLINES)
+    section = shape.across(0.5 * (ball + LANDMARKS.instep))
     return section_value(shape, section, "waist", hull_girth)
 
 
 def instep_girth(shape: Shape) -> MeasureValue:
     """Around the section across X at half the length."""
-    section = shape.across(LANDMARKS.instep, TAPE_OUTLINES)
-    return section_value(shape, section, "instep", hull_girth)
+    return section_value(shape, shape.at_instep, "instep", hull_girth)
 
 
 def long_heel_girth(shape: Shape) -> MeasureValue:
@@ -49,7 +47,7 @@ def long_heel_girth(shape: Shape) -> MeasureValue:
     missing = lacking(shape, shape.at_instep, "instep")
     if missing is not None:
         return MeasureValue(None, missing)
-    section = around_heel(shape, angle_to_deg(shape, shape.instep), TAPE_OUTLINES)
+    section = around_heel(shape, angle_to_deg(shape, shape.instep))
     return section_value(shape, section, "instep", hull_girth)
 
 

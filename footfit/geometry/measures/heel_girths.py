@@ -10,8 +10,7 @@ import numpy as np
 from footfit.geometry.measures.landmarks import AXES, LANDMARKS, Shape
 from footfit.geometry.measures.tape import hull_girth
 from footfit.geometry.mesh.outermost_point import tip
-from footfit.geometry.mesh.outlines import OUTLINES, TAPE_OUTLINES, Outline, OutlineSettings
-from footfit.geometry.mesh.surface import cross
+from footfit.geometry.mesh.outlines import Outline
 from footfit.geometry.numeric.arrays import Floats
 
 
@@ -24,12 +23,11 @@ class HeelSettings:
     beyond: float = 2.0  # the girth may turn so many steps after the last whole section
     flat: float = 0.003  # of the length: the last whole girth serves if the girth falls less
     ball: float = 0.70  # over the length: the line from the cone's top to here passes any cone
+    flatter_deg: float = 7.0  # the line to the instep is at most so much flatter than that one
     cone_end: float = 0.55  # a cone's front edge lies behind this place; a boot has none
-    turn_deg: float = 9.0  # the plane that touches the cone's edge is turned so far both ways
 
 
 HEEL = HeelSettings()
-TURNS = np.array([-1.0, 0.0, 1.0])
 
 
 def angle_to_deg(shape: Shape, place: Floats) -> float:
@@ -38,13 +36,13 @@ def angle_to_deg(shape: Shape, place: Floats) -> float:
     return float(np.degrees(np.arctan2(rise[2], rise[0])))
 
 
-def around_heel(shape: Shape, angle_deg: float, outlines: OutlineSettings = OUTLINES) -> Outline:
+def around_heel(shape: Shape, angle_deg: float) -> Outline:
     """The section by the plane across the foot through the heel's base that rises forward by an
     angle.
     """
     angle = np.radians(angle_deg)
     forward = np.cos(angle) * AXES[0] + np.sin(angle) * AXES[2]
-    return shape.cut(shape.heel_base, np.stack([AXES[1], forward]), outlines)
+    return shape.cut(shape.heel_base, np.stack([AXES[1], forward]))
 
 
 def shortest_around_heel(shape: Shape, settings: HeelSettings = HEEL) -> Outline | None:
@@ -60,38 +58,36 @@ def shortest_around_heel(shape: Shape, settings: HeelSettings = HEEL) -> Outline
     turn = _turn(angles, girths)
     if shape.kind == "last":
         reached = turn is not None and turn.steps_beyond <= settings.beyond
-        angle_deg = min(turn.angle_deg, edge_deg) if reached and turn else edge_deg
-        return around_heel(shape, angle_deg, TAPE_OUTLINES)
+        return around_heel(shape, min(turn.angle_deg, edge_deg) if reached and turn else edge_deg)
     if turn is None or turn.steps_beyond > settings.beyond:
         return None
-    section = around_heel(shape, turn.angle_deg, TAPE_OUTLINES)
+    section = around_heel(shape, turn.angle_deg)
     if not shape.topped(section):
         return section
     flat = turn.fall_mm <= settings.flat * shape.length_mm
-    return around_heel(shape, angles[-1], TAPE_OUTLINES) if flat else None
+    return around_heel(shape, angles[-1]) if flat else None
 
 
 def cone_edge(shape: Shape, settings: HeelSettings = HEEL) -> Floats:
-    """A last's upper front edge, (3,): where a plane touches that leads from the cone's top (.15 L)
-    down to the top of the ball.
+    """A last's upper front edge, (3,): the middle of the cap that lies farthest over the line from
+    the cone's top (.15 L) to the instep point.
 
-    A plane with the normal n has the distance h. As it turns, h changes by h' and n by n': it
-    touches at h n + h' n'.
+    The top of a low cone is nearly parallel to that line. So the line is at most 7 degrees flatter
+    than the one from the cone's top to the top of the section at .70 L.
     """
-    start_mm, end_mm = (shape.x_mm(share) for share in (LANDMARKS.cone, settings.ball))
-    tops_mm = [shape.across(share).points[:, 1].max() for share in (LANDMARKS.cone, settings.ball)]
+    start_mm = shape.x_mm(LANDMARKS.cone)
+    top_mm = shape.across(LANDMARKS.cone).points[:, 1].max()
+
+    def fall(share: float) -> float:
+        """How steeply the line from the cone's top to the top of a section falls, in radians."""
+        fall_mm = top_mm - shape.across(share).points[:, 1].max()
+        return float(np.arctan2(fall_mm, shape.x_mm(share) - start_mm))
+
+    lean = max(fall(LANDMARKS.instep), fall(settings.ball) - np.radians(settings.flatter_deg))
+    normal = np.array([np.sin(lean), 0.0, np.cos(lean)])
     x = shape.vertices_mm[:, 0]
     a, b, c = ((x > start_mm) & (x < shape.x_mm(settings.cone_end)))[shape.faces.T]
-    lean = np.arctan2(tops_mm[0] - tops_mm[1], end_mm - start_mm)
-    turn = np.radians(settings.turn_deg)
-    normals = [np.array([np.sin(at), 0.0, np.cos(at)]) for at in lean + turn * TURNS]
-    before, at, after = (
-        tip(shape.vertices_mm, shape.faces[a & b & c], normal, shape.length_mm)
-        for normal in normals
-    )
-    change = (after.reach - before.reach) / (2.0 * np.sin(turn))
-    onward = cross(AXES[1], normals[1])
-    return np.asarray(at.reach * normals[1] + change * onward + at.place * AXES[1])
+    return tip(shape.vertices_mm, shape.faces[a & b & c], normal, shape.length_mm).place
 
 
 def _whole_girths(

@@ -149,28 +149,28 @@ MEASURES: tuple[MeasureDefinition, ...] = (
     ),
     MeasureDefinition(
         girths.ball_girth,
-        2,
+        3,
         0.5,
         foot=off(-0.37, 0.81),
         last=off(0.41, 0.27, 0.75, 0.89, 1.01),
         usual_share=(0.77, 1.10),
     ),
     MeasureDefinition(
-        girths.waist_girth, 2, 0.3, foot=off(0.04, 0.00), last=off(0.03, 0.49, 0.21, 0.21, 0.33)
+        girths.waist_girth, 3, 0.3, foot=off(0.04, 0.00), last=off(0.03, 0.49, 0.21, 0.21, 0.33)
     ),
     MeasureDefinition(
-        girths.instep_girth, 2, 0.3, foot=off(0.14, 0.34), last=off(0.09, 0.66, 0.05, 0.00, 0.23)
+        girths.instep_girth, 3, 0.3, foot=off(0.14, 0.34), last=off(0.09, 0.66, 0.05, 0.00, 0.23)
     ),
     MeasureDefinition(
         girths.long_heel_girth,
-        2,
+        3,
         0.4,
         foot=off(0.17, 0.57),
         last=off(0.01, 0.57, 0.00, 0.30, 0.18),
     ),
     MeasureDefinition(
         girths.short_heel_girth,
-        3,
+        4,
         0.35,
         last_sd=0.8,
         foot=off(0.04, 0.00),
