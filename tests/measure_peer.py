@@ -271,15 +271,15 @@ def _heel_base(shape: Drafted) -> np.ndarray:
 
 
 def _cone_edge(shape: Drafted) -> np.ndarray:
-    """The middle of the cap farthest over the line down from the cone's top: that to the top at
-    half the length, or one 7 degrees flatter than that to .70, whichever is steeper.
+    """The middle of the cap farthest over a line down from the cone's top: that to the instep, or,
+    if it is flatter, one 14 degrees steeper than the top; no steeper than that to .70.
     """
-    shares = (0.15, 0.50, 0.70)
-    cone, instep, ball = ((shape.x_mm(s), shape.across(shape.x_mm(s))[:, 1].max()) for s in shares)
-    falls = [np.arctan2(cone[1] - z, x - cone[0]) for x, z in (instep, ball)]
-    lean = max(falls[0], falls[1] - np.radians(7.0))
+    shares = (0.15, 0.25, 0.50, 0.70)
+    start, *ends = ((shape.x_mm(s), shape.across(shape.x_mm(s))[:, 1].max()) for s in shares)
+    top, instep, ball = (np.arctan2(start[1] - z, x - start[0]) for x, z in ends)
+    lean = min(max(instep, top + np.radians(14.0)), ball)
     x = shape.vertices_mm[:, 0]
-    between = (x > cone[0]) & (x < shape.x_mm(0.55))
+    between = (x > start[0]) & (x < shape.x_mm(0.55))
     direction = np.array([np.sin(lean), 0.0, np.cos(lean)])
     return middle_of_cap(shape, direction, between, by_depth=True)
 

@@ -22,8 +22,9 @@ class HeelSettings:
     step_deg: float = 3.0
     beyond: float = 2.0  # the girth may turn so many steps after the last whole section
     flat: float = 0.003  # of the length: the last whole girth serves if the girth falls less
+    top: float = 0.25  # over the length: a cone's top reaches to here at least
+    steeper_deg: float = 14.0  # the line down from the cone's top is so much steeper than the top
     ball: float = 0.70  # over the length: the line from the cone's top to here passes any cone
-    flatter_deg: float = 7.0  # the line to the instep is at most so much flatter than that one
     cone_end: float = 0.55  # a cone's front edge lies behind this place; a boot has none
 
 
@@ -72,8 +73,9 @@ def cone_edge(shape: Shape, settings: HeelSettings = HEEL) -> Floats:
     """A last's upper front edge, (3,): the middle of the cap that lies farthest over the line from
     the cone's top (.15 L) to the instep point.
 
-    The top of a low cone is nearly parallel to that line. So the line is at most 7 degrees flatter
-    than the one from the cone's top to the top of the section at .70 L.
+    The top of a low cone is nearly parallel to that line, and a boot's shaft hides its edge from
+    it. So the line is 14 degrees steeper than the cone's top at least, but not steeper than the
+    line to the top of the section at .70 L.
     """
     start_mm = shape.x_mm(LANDMARKS.cone)
     top_mm = shape.across(LANDMARKS.cone).points[:, 1].max()
@@ -83,7 +85,8 @@ def cone_edge(shape: Shape, settings: HeelSettings = HEEL) -> Floats:
         fall_mm = top_mm - shape.across(share).points[:, 1].max()
         return float(np.arctan2(fall_mm, shape.x_mm(share) - start_mm))
 
-    lean = max(fall(LANDMARKS.instep), fall(settings.ball) - np.radians(settings.flatter_deg))
+    steep = max(fall(LANDMARKS.instep), fall(settings.top) + np.radians(settings.steeper_deg))
+    lean = min(steep, fall(settings.ball))
     normal = np.array([np.sin(lean), 0.0, np.cos(lean)])
     x = shape.vertices_mm[:, 0]
     a, b, c = ((x > start_mm) & (x < shape.x_mm(settings.cone_end)))[shape.faces.T]
