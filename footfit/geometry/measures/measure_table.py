@@ -151,30 +151,30 @@ MEASURES: tuple[MeasureDefinition, ...] = (
         girths.ball_girth,
         3,
         0.5,
-        foot=off(-0.37, 0.81),
-        last=off(0.41, 0.27, 0.75, 0.89, 1.01),
+        foot=off(-0.67, 1.04),
+        last=off(-0.02, 0.29, 0.61, 0.76, 1.02),
         usual_share=(0.77, 1.10),
     ),
     MeasureDefinition(
-        girths.waist_girth, 3, 0.3, foot=off(0.04, 0.00), last=off(0.03, 0.49, 0.21, 0.21, 0.33)
+        girths.waist_girth, 3, 0.3, foot=off(-0.29, 0.29), last=off(-0.46, 0.60, 0.54, 0.67, 0.62)
     ),
     MeasureDefinition(
-        girths.instep_girth, 3, 0.3, foot=off(0.14, 0.34), last=off(0.09, 0.66, 0.05, 0.00, 0.23)
+        girths.instep_girth, 3, 0.3, foot=off(-0.15, 0.39), last=off(-0.37, 0.34, 0.64, 0.59, 0.68)
     ),
     MeasureDefinition(
         girths.long_heel_girth,
         3,
         0.4,
-        foot=off(0.17, 0.57),
-        last=off(0.01, 0.57, 0.00, 0.30, 0.18),
+        foot=off(-0.28, 0.56),
+        last=off(-0.33, 0.94, 0.36, 0.27, 0.15),
     ),
     MeasureDefinition(
         girths.short_heel_girth,
         4,
         0.35,
         last_sd=0.8,
-        foot=off(0.04, 0.00),
-        last=off(-0.02, 0.85, 0.53, 0.64, 1.15),
+        foot=off(-0.37, 0.40),
+        last=off(-0.63, 0.42, 0.34, 0.65, 1.65),
         usual_share=(1.12, 1.47),
     ),
     MeasureDefinition(
