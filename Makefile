@@ -3,7 +3,7 @@ PYTHON ?= python3
 VENV := .venv
 BIN := $(VENV)/bin
 STAMP := $(VENV)/.ready
-BENCHMARKS := alignment poses stance flare heels curvature measures trueness tapes fit custom_lasts grading population coverage learning speed growth
+BENCHMARKS := alignment poses stance bent_lasts flare heels curvature measures trueness tapes fit custom_lasts grading population coverage learning speed growth
 
 .PHONY: demo test check format lint types contracts tests bench torture coverage mutants clean help
 

@@ -1,6 +1,6 @@
 """The flare of lasts by the height of their heel, on two families.
 
-    python -m benchmarks.heels [--count 8] [--seed 7] [--write]
+    python -m benchmarks.heels [--count 20] [--seed 7] [--write]
 
 The lasts lie in their resting frame, as drawn by ``tools.last_specs.wide`` and, where it stands
 beside the project, by ``../shared/tools/lasts2.py``. ``--write`` puts the table into docs/flare.md.
@@ -110,7 +110,7 @@ def _errors(cases: list[Case]) -> list[str]:
 def main() -> None:
     """Print the table."""
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("--count", type=int, default=8)
+    parser.add_argument("--count", type=int, default=20)
     parser.add_argument("--seed", type=int, default=7)
     parser.add_argument("--write", action="store_true")
     options = parser.parse_args()

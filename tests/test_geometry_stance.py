@@ -84,18 +84,24 @@ def test_a_cut_last_is_sound_and_smaller(cut, bodies):
     assert faces.max() == len(vertices) - 1
 
 
-def test_a_high_heel_is_not_taken_for_a_toe_that_springs_high():
-    """The best fit of this bottom has the toe 23 mm over the ground, and the heel under it."""
+@pytest.mark.parametrize(
+    ("seed", "length_mm", "heel_mm", "turning"),
+    [(2, None, 95.0, 1.0), (11, 231.0, 110.0, 0.5), (0, 231.0, 110.0, 1.0)],
+)
+def test_a_high_heel_is_not_taken_for_a_toe_that_springs_high(seed, length_mm, heel_mm, turning):
+    """The best fits of these bottoms have the toe 16 to 25 mm over the ground, and the heel low or
+    under it. One has a tread that is not level.
+    """
     if not benchmark.second_family():
         pytest.skip("../shared/tools/lasts2.py is not here; the project's own lasts are tested")
     import lasts2
 
-    spec = replace(lasts2.random_last(np.random.default_rng(2)), heel_height=0.0)
-    mesh = lasts2.mesh(spec, n_long=150, n_round=84)
+    drawn = lasts2.random_last(np.random.default_rng(seed), length=length_mm)
+    mesh = lasts2.mesh(replace(drawn, heel_height=0.0), n_long=110, n_round=64)
     vertices, faces = at_rest(np.array(mesh.vertices))[0], np.array(mesh.faces)
     stance = stance_of(vertices, faces, "last")
     stands = stance.standing_transform
     level = vertices @ stands[:3, :3].T + stands[:3, 3]
-    raised, _ = at_rest(bent(level, stance.length_mm, 95.0, 1.0))
+    raised, _ = at_rest(bent(level, stance.length_mm, heel_mm, turning))
     found = stance_of(raised, faces, "last")
-    assert found.heel_mm() == pytest.approx(95.0, abs=4.0)  # measured 1.9
+    assert found.heel_mm() == pytest.approx(heel_mm, abs=8.0)  # measured 1.4, 3.3 and 4.3

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import zlib
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -10,7 +11,10 @@ import pytest
 from benchmarks.poses.case import Case, outcome
 from benchmarks.poses.feet import of_kind
 from benchmarks.poses.lasts import cut_last
+from footfit.geometry.search.pose_search import rough_pose
+from footfit.pipeline.scan.shipped_templates import shipped_templates
 from tests.conftest import SAMPLES
+from tests.distortions import moved, random_pose
 from tests.reading import read_scan
 from tools.last_specs import wide
 from tools.lasts import last_mesh
@@ -19,6 +23,7 @@ from tools.resting import at_rest
 PITCH_DEG = 0.9  # of a heeled last against its resting line; measured: 0.45
 LOW_DEG = 3.2  # of a low last and of a foot against where they were drawn; measured: 1.6
 FLARE_DEG = 8.0
+WINDOW = ((100.0, 400.0),)
 LASTS = {
     "shoe with a low heel": ("shoe", 15.0, "none", {}),
     "boot": ("boot", 20.0, "none", {}),
@@ -71,3 +76,32 @@ def test_a_foot_of_every_kind_is_posed(kind):
     assert found.kind == "foot"
     assert found.side_right
     assert found.unit_right
+
+
+def test_a_foot_that_is_wider_than_half_of_its_length_is_posed():
+    """Every template starts too short on it. In this pose none but a last's reaches the right
+    valley by itself.
+    """
+    scan = read_scan(SAMPLES / "feet" / "mh008_R.stl")
+    low = scan.vertices_mm[scan.vertices_mm[:, 2] < scan.vertices_mm[:, 2].min() + 60.0]
+    length_mm, width_mm, _ = np.ptp(low, axis=0)
+    wide_foot = scan.vertices_mm * [1.0, 0.52 * length_mm / width_mm, 1.0]
+    for seed in range(3):
+        pose = random_pose(np.random.default_rng(seed))
+        found = rough_pose(moved(wide_foot, pose), scan.faces, shipped_templates(), WINDOW)
+        turn = found.rotation @ pose[:3, :3]
+        assert found.accepted
+        assert found.kind == "foot"
+        assert min(turn[0, 0], turn[2, 2]) > np.cos(np.radians(20.0))
+
+
+def test_a_high_boot_with_an_open_hinge_is_one_last():
+    """Its front part alone passes for a last, and costs .08 less than both parts together."""
+    rng = np.random.default_rng(2)
+    spec = wide(rng, "boot", (105.0, 105.0), rings=70, segments=50, length_mm=255.0)
+    vertices, faces = cut_last(*last_mesh(replace(spec, side="right")), "hinge open")
+    case = Case("own", "boot", "", "", vertices, faces, spec.flare_deg, spec.length_mm)
+    found = outcome(case, np.random.default_rng(2))
+    assert not found.refused, found.message
+    assert not found.wrong
+    assert found.kind == "last"

@@ -29,6 +29,9 @@ class TapeSettings:
         The plane tilts no farther than this from upright, and turns no farther in plan.
     step_deg : float
         From plane to plane, until the girth grows on both sides; then a parabola gives the least.
+    jump, least_step_deg : float
+        A girth that is so many times its neighbour is that of another part of the shape. There the
+        steps become smaller, down to this one.
     heel_starts_deg : tuple of float
         The search for the heel's tape begins at the best of these tilts.
     directions : int
@@ -39,6 +42,8 @@ class TapeSettings:
 
     most_deg: float = 45.0
     step_deg: float = 10.0
+    jump: float = 1.05
+    least_step_deg: float = 1.0
     heel_starts_deg: tuple[float, ...] = (0.0, -20.0, 20.0)
     directions: int = 90
     beyond: float = 0.1
@@ -168,8 +173,10 @@ def least_near(
 ) -> float:
     """The angle of the least girth: from the best of some starts downhill, then by a parabola.
 
-    It goes step by step until the girth grows on both sides, or a bound is passed. ``girth_at``
-    should keep its values, because it is asked for some of them again.
+    It goes step by step until the girth grows on both sides, or a bound is passed. If it jumps on a
+    side, the tape runs into another part there, a cone that leans over the ball: then it goes on
+    with quarter steps. ``girth_at`` should keep its values, because it is asked for some of them
+    again.
 
     Examples
     --------
@@ -184,6 +191,8 @@ def least_near(
         here = best
         best = min((here, here - step, here + step), key=girth_at)
     before, after = girth_at(here - step), girth_at(here + step)
+    if max(before, after) > TAPE.jump * girth_at(here) and step > TAPE.least_step_deg:
+        return least_near(girth_at, (here,), bounds, 0.25 * step)
     bend = before - 2.0 * girth_at(here) + after
     if 0.0 < bend < np.inf:
         least = here + 0.5 * step * (before - after) / bend

@@ -37,6 +37,7 @@ class PieceSettings:
     wide_open: float = 0.30  # an opening wider than this is named when a shape is refused
     sheet: float = 0.40  # |sum of area vectors| over the area; a foot cut at the leg has 0.1
     hinged: float = 0.06  # so much more may pieces cost together than the largest of them alone
+    hinged_beside: float = 0.12  # and if one goes on where another ends, as at the hinge of a boot
     closed: float = 1e-9  # by the same ratio, a surface with a wide opening has more
     shell: float = 0.20  # from here on, by the same ratio, a foot may lack its sole
     flat_shell: float = 0.60  # the most that a foot without sole has; a sheet has more

@@ -7,6 +7,7 @@ much the next best pose is worse. Left or right is decided afterwards (``side.py
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from itertools import product
 
 import numpy as np
 
@@ -49,6 +50,7 @@ class PoseSearchSettings:
     final_stride: int = 3
     rival_deg: float = 37.0
     rival_steps: int = 14
+    refit_steps: int = 20  # the best pose on other templates: a wide foot goes slowly
     rivals_finished: int = 2
     middle: tuple[float, float] = (0.5, 0.17)  # x and z that a rival is turned about
     reverse_height: float = 0.30
@@ -181,6 +183,7 @@ class _Search:
         if doubt:
             likely = self.likely_templates(candidates)
             candidates += limited.candidates(clouds, likely, settings.more_rotations)
+            candidates += limited.refitted(candidates, clouds, likely)
         if doubt or pose.margin == settings.margin_without_rival:
             candidates += limited.rivals(candidates)
             pose = _cheapest(candidates, settings)
@@ -224,6 +227,23 @@ class _Search:
                 mine = [pose for _, pose, owner in best if owner is cloud]
                 if mine:
                     result += self._finished(joined_poses(mine), cloud, template)
+        return result
+
+    def refitted(
+        self,
+        candidates: list[_Candidate],
+        clouds: tuple[Cloud, Cloud],
+        templates: tuple[Template, ...],
+    ) -> list[_Candidate]:
+        """The best pose fitted on each template, as it is and mirrored.
+
+        On a very wide foot one template may reach the right valley alone, which leads others there.
+        """
+        best, result = min(candidates, key=lambda each: each.cost), []
+        for template, cloud in product(templates, clouds):
+            pose = best.pose if cloud is best.cloud else mirror_image(best.pose, template.middle_y)
+            few, steps = (cloud.few, cloud.few_normals), self.settings.refit_steps
+            result += self._finished(icp_steps(pose, *few, template, steps), cloud, template)
         return result
 
     def rivals(self, candidates: list[_Candidate]) -> list[_Candidate]:

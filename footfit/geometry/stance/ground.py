@@ -37,9 +37,10 @@ class GroundSettings:
         A wrong fit has the toe rise far from the ground, because its ground is too low.
     starts_deg : tuple of float
         Else the grounds that more fits begin from; the least cost wins.
-    most_spring, spring_doubt : float
-        If the toe of the winner springs by more than this share of the length, the best fit whose
-        toe springs by less wins instead, up to so many times the winner's cost.
+    most_spring, most_uneven_deg, doubt : float
+        If the toe of the winner springs by more than this share of the length, or its tread is less
+        level than this, the best fit without such a fault wins instead, up to so many times the
+        winner's cost.
     range_deg : tuple of float
         A ground outside of this range is no ground.
     rounds, damping, settled_deg
@@ -73,7 +74,8 @@ class GroundSettings:
     low_spring: float = 0.06
     starts_deg: tuple[float, ...] = (1.0, 17.0, 25.0, 33.0, 41.0, 49.0)
     most_spring: float = 0.09
-    spring_doubt: float = 3.0
+    most_uneven_deg: float = 10.0
+    doubt: float = 6.0
     range_deg: tuple[float, float] = (-1.5, 60.0)
     rounds: int = 10
     damping: float = 0.8
@@ -158,12 +160,10 @@ def _rough_fit(trials: _Trials, settings: GroundSettings) -> TreadFit | None:
     fits = [fit, *(_fit(trials.near, start, start, settings) for start in starts)]
     least, most = np.radians(settings.range_deg)
     possible = [each for each in fits if each is not None and least < each.ground < most]
-    best = min(possible, key=lambda each: each.cost, default=None)
-    if best is None or _spring(best, trials) < settings.most_spring:
-        return best
-    near = (each for each in possible if each.cost < settings.spring_doubt * best.cost)
-    sound = (each for each in near if _spring(each, trials) < settings.most_spring)
-    return min(sound, key=lambda each: each.cost, default=best)
+    possible.sort(key=lambda each: each.cost)
+    near = (each for each in possible if each.cost < settings.doubt * possible[0].cost)
+    sound = (each for each in near if _is_sound(each, trials, settings))
+    return next(sound, possible[0] if possible else None)
 
 
 def _is_low(fit: TreadFit, trials: _Trials, settings: GroundSettings) -> bool:
@@ -171,6 +171,15 @@ def _is_low(fit: TreadFit, trials: _Trials, settings: GroundSettings) -> bool:
     lowest = np.radians(settings.range_deg[0])
     low = lowest < fit.ground < np.radians(settings.low_deg) and fit.cost < settings.low_cost
     return low and _spring(fit, trials) < settings.low_spring
+
+
+def _is_sound(fit: TreadFit, trials: _Trials, settings: GroundSettings) -> bool:
+    """Whether the toe of a fit springs as toes do, and its tread is about level."""
+    bottom = trials.near(fit.ground)
+    if bottom is None or _spring(fit, trials) > settings.most_spring:
+        return False
+    tread = _near_slope(bottom.line, fit.ground, settings)
+    return tread is not None and tread.sd < np.radians(settings.most_uneven_deg)
 
 
 def _spring(fit: TreadFit, trials: _Trials) -> float:

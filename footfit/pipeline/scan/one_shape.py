@@ -174,7 +174,9 @@ def _the_one_foot(body: _Body, alike: list[Piece], windows: Windows) -> PosedSha
     together = near_pieces(body.parts, best.vertices)
     if len(together) > 1:
         whole = _gathered(body, together, windows)
-        if whole.pose.accepted and whole.pose.cost <= best.pose.cost + PIECES.hinged:
+        goes_on = any(stand_apart(best.vertices, part.vertices) for part in together)
+        more = PIECES.hinged_beside if goes_on else PIECES.hinged
+        if whole.pose.accepted and whole.pose.cost <= best.pose.cost + more:
             return whole
     return replace(best, notices=(*best.notices, _PIECES_REMOVED))
 
