@@ -43,12 +43,15 @@ def right() -> Profiled:
     return profiled_source(Source(str(FEET / "mh008_R.stl")), ReadingOptions())
 
 
-def reshaped(foot: Profiled, *, toes_higher: float = 1.0, inward_mm: float = 0.0) -> Profiled:
-    """The foot, scanned again with other toes: higher ones, or a big toe further inside."""
+def reshaped(
+    foot: Profiled, *, toes_higher: float = 1.0, inward_mm: float = 0.0, held_up_mm: float = 0.0
+) -> Profiled:
+    """The foot, scanned again with other toes: higher ones, a big toe further inside, or held up."""
     vertices_mm, faces = foot.aligned.prepared.vertices_mm.copy(), foot.aligned.prepared.faces
     x = vertices_mm[:, 0] / vertices_mm[:, 0].max()
     toes = np.clip((x - 0.76) / 0.06, 0.0, 1.0)
     vertices_mm[:, 2] *= 1.0 + toes * (toes_higher - 1.0)
+    vertices_mm[:, 2] += held_up_mm * toes
     inner = np.clip((vertices_mm[:, 1] - 10.0) / 20.0, 0.0, 1.0)
     vertices_mm[:, 1] += inward_mm * toes * inner
     data = encoded_mesh(vertices_mm, faces, "stl")
@@ -252,3 +255,12 @@ def test_every_sample_customer_has_a_last_with_a_good_toe_box(stocked: Path) -> 
     for answer in (pair, single):
         zones = [zone(fit, name) for fit in answer.candidates[0].fits for name in TOE_BOX]
         assert {each.verdict for each in zones} == {"good"}
+
+
+def test_toes_that_are_held_up_are_judged_too(right: Profiled) -> None:
+    """They were said to be open, because nothing of them lies lower than a toe box is high."""
+    held_up = toe_box.plan_of_foot(reshaped(right, held_up_mm=25.0))
+    level = toe_box.plan_of_foot(right)
+    assert not isinstance(held_up, str) and not isinstance(level, str)
+    apart_mm = np.abs(held_up.edges_mm - level.edges_mm)
+    assert apart_mm.max() < 12.0  # measured 7.4: its frame turns by a degree

@@ -10,7 +10,7 @@ from footfit.errors import HalfScan
 from footfit.geometry.fit.paired_sections import station_plane
 from footfit.geometry.fit.stations import STATIONS, NamedSection
 from footfit.geometry.measures.landmarks import Shape
-from footfit.geometry.mesh.sections import extremes_below, sections_across
+from footfit.geometry.mesh.sections import extremes_below, lowest, sections_across
 from footfit.geometry.numeric.arrays import Floats, Ints
 
 
@@ -25,12 +25,15 @@ class NamedSectionSettings:
     toe_height : float
         The toes' outline is the widest of what lies lower than this over the bottom: a toe box is
         as high.
+    held_up : float
+        If the underside of the toes lies higher than this, they are held up, and so is that height.
     toes_from, toes_to, toe_stations
         Where along the flat bottom its edges are kept.
     """
 
     points: int = 120
     toe_height: float = 0.08
+    held_up: float = 0.02
     toes_from: float = 0.60
     toes_to: float = 0.998
     toe_stations: int = 80
@@ -76,10 +79,9 @@ def toes_outline_mm(shape: Shape, settings: NamedSectionSettings = NAMED_SECTION
         return None
     x = np.linspace(settings.toes_from, settings.toes_to, settings.toe_stations)
     segments = sections_across(vertices, faces, x)
-    limit = np.full(len(x), settings.toe_height)
-    lateral, medial = extremes_below(
-        segments.points[:, :, 1], segments.points[:, :, 2], limit, segments
-    )
+    across, height = segments.points[:, :, 1], segments.points[:, :, 2]
+    held_up = np.fmax(lowest(height, segments) - settings.held_up, 0.0)
+    lateral, medial = extremes_below(across, height, settings.toe_height + held_up, segments)
     known = np.isfinite(lateral) & np.isfinite(medial)
     if not known.any():
         return None
