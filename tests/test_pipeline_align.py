@@ -141,6 +141,15 @@ def test_extents_are_exact_along_x(last):
 # ---------------------------------------------------------------- units
 
 
+def test_the_extent_of_a_high_heel_reaches_to_its_toe():
+    """As it rests, its toe lies higher than .30 of its length: the extent was 2.1 mm short."""
+    spec = LastSpec(heel_height_mm=112.0, rings=90, segments=64)
+    scan = aligned(scan_of(*last_mesh(spec)), side="right")
+    extent_mm, shape = scan.alignment.extent_mm, scan.prepared.shape
+    assert shape.vertices_mm[np.argmax(shape.vertices_mm[:, 0]), 2] > 0.30 * extent_mm
+    assert 0.0 < extent_mm - shape.length_mm < 0.5
+
+
 @pytest.mark.parametrize(("taken_for", "truly"), [("cm", "in"), ("m", "mm"), ("mm", "cm")])
 def test_a_provisional_unit_is_corrected_by_the_length(last, taken_for, truly):
     """The reader saw a long leg, say, and took the file's numbers in another unit."""

@@ -37,6 +37,7 @@ class FrameSettings:
     axis_height: float = 0.15  # the plan axis is taken below, so that a leg does not move it
     axis_softness: float = 0.01
     length_height: float = 0.30
+    toes: float = 0.30  # so far back from the foremost low point a last has toes, at any height
     heeled_back: float = 0.10  # the back of a heeled last is taken below: over it, it leans back
     support_minimum: float = 0.05
     tilt_maximum_deg: float = 16.0
@@ -114,6 +115,16 @@ def length_of(points: Floats, ground: float, length: float, back_height: float) 
     x, height = points[:, 0], points[:, 2] - ground
     low, back = x[height < FRAME.length_height * length], x[height < back_height * length]
     return float(low.max() - back.min()) if len(back) else 0.0
+
+
+def toe_beyond(points: Floats, length: float) -> float:
+    """How far the toe of a last reaches beyond what is below ``length_height``, of points (n, 3).
+
+    As a last with a heel over 95 mm rests, its toe lies higher.
+    """
+    x = points[:, 0]
+    low = float(x[points[:, 2] < FRAME.length_height * length].max())
+    return float(x[x > low - FRAME.toes * length].max()) - low
 
 
 def _sole_plane(sample: SurfaceSample, length: float, start: Plane) -> tuple[Plane, float]:

@@ -18,7 +18,13 @@ from footfit.geometry.mesh.holes import ClosedMesh, closed_mesh
 from footfit.geometry.mesh.samples import SurfaceSample, gathered_sample, quadrature
 from footfit.geometry.numeric.arrays import Floats, Ints
 from footfit.geometry.numeric.rotations import moved_points, nearest_rotation, transform
-from footfit.geometry.pose.frame import FRAME, canonical_frame, length_of, turned_sample
+from footfit.geometry.pose.frame import (
+    FRAME,
+    canonical_frame,
+    length_of,
+    toe_beyond,
+    turned_sample,
+)
 from footfit.geometry.pose.missing_parts import doubtful_end, missing_part
 from footfit.geometry.pose.side import confidence, side_score
 from footfit.geometry.stance.cues import NO_LABELS, StanceLabels
@@ -191,9 +197,9 @@ class _Frame:
 
     ``closed`` is the shape with its holes closed, ``rims`` where it was open, ``surface`` the whole
     surface as points with areas, ``extent`` how far the mesh reaches along X below the leg, its
-    heel below ``back_height`` over the extent, ``length`` the measured length, whether or not its
-    ends were scanned, ``open_end`` the end that was not, ``top`` the height of the highest scanned
-    point.
+    heel below ``back_height`` over the extent and a last's toe at any height, ``length`` the
+    measured length, whether or not its ends were scanned, ``open_end`` the end that was not,
+    ``top`` the height of the highest scanned point.
     """
 
     closed: ClosedMesh
@@ -239,6 +245,8 @@ class _Frame:
         points = moved_points(transform(rotation, shift), closed.vertices)
         rims = [points[rim] for rim in closed.rims]
         extent = length_of(points, 0.0, fine.length, fine.back_height)
+        if is_last:
+            extent += toe_beyond(points, fine.length)
         missing = missing_part(surface, rims, extent, fine.back_height)
         if missing is not None:
             raise HalfScan(_MISSING[missing])
