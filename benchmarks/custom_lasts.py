@@ -2,9 +2,10 @@
 
     python -m benchmarks.custom_lasts [--count 200] [--seed 7] [--write]
 
-Bases are lasts of both families with heels of 0 to 80 mm; feet are those at hand, changed so that
-every target lies within 15 mm of the base. ``tests/custom_judge.py`` reads the written file and the
-JSON, and shares no code with the deformation. Once in ``SPARSE`` pairs the targets are the base's
+Bases are lasts of both families with heels of 0 to 80 mm. Feet are those at hand, changed so that
+every target lies within 15 mm of the base, and so that ball line, flare and heel are near to what
+the base keeps. The toes are the foot's own. ``tests/custom_judge.py`` reads the written file and
+the JSON, and shares no code with the deformation. Once in ``SPARSE`` pairs the targets are the base's
 own too, and the custom last is put into a catalogue with its base. ``--write`` puts the table into
 docs/custom-lasts.md. ``--part 1/2`` does one half of the pairs, and ``--rows FILE`` keeps what was
 found of them; with several ``--read FILE`` the table is made of such files.
@@ -29,11 +30,13 @@ import footfit
 from benchmarks import stance
 from benchmarks.tables import markdown, put
 from footfit.errors import FootfitError, OutOfReach
-from footfit.geometry.deform.chart import chart_of
+from footfit.geometry.deform.chart import chart_of, eased, eased_sum
 from footfit.geometry.fit.foot_in_heel import SurfaceChange, foot_in_heel
 from footfit.geometry.measures.landmarks import Shape
+from footfit.geometry.measures.measure_table import measure_named
+from footfit.geometry.numeric.arrays import Floats
 from footfit.pipeline.last_making.base_last import BaseLast, scanned_base
-from footfit.pipeline.last_making.custom.custom_aims import CustomQuestion, custom_aims
+from footfit.pipeline.last_making.custom.custom_aims import CustomQuestion, custom_aims, fit_in
 from footfit.pipeline.last_making.custom.custom_making import Making, customised
 from footfit.pipeline.last_making.custom.custom_reading import Carried, tape_plane
 from footfit.results import CustomLast, Profiled
@@ -46,8 +49,11 @@ ROOT = Path(__file__).resolve().parents[1]
 FOLDERS = (ROOT / "sample_data" / "feet", ROOT.parent / "shared" / "scans" / "makehuman")
 WITHIN_MM = 15.0
 LARGER_MM, SPREAD_MM = 7.0, 4.0
-"""A foot's girths are all larger or smaller by up to the first, and each by up to the second more:
-a wide foot is wide everywhere. Widths follow the girths by a third."""
+BALL_MM, FLARE_DEG, HEEL_MM = 6.0, (-7.0, 3.0), (-3.0, 4.0)
+"""How far the base's ball line, flare and short heel girth are from their targets, at most."""
+TURN_SHARE, HEIGHTS = 0.67, (-0.25, 0.25)
+"""The flare angle changes by so much more than a plan is bent; the heel's height changes by at most
+the others, as shares of it."""
 HEELS_MM = (0.0, 80.0)
 STYLES = ("shoe", "pump", "boot", "sandal")
 SPARSE = 10
@@ -139,7 +145,48 @@ def foot_for(rng: np.random.Generator, scan: Profiled, base: BaseLast) -> Profil
     )
     shape = scan.aligned.prepared.shape
     vertices_mm = foot_in_heel(Shape(shape.vertices_mm, shape.faces), lengths)
+    vertices_mm = _nearer(rng, scan, base, Shape(vertices_mm, shape.faces))
     return footfit.flare((vertices_mm, shape.faces), units="mm", side="right")
+
+
+def _nearer(rng: np.random.Generator, scan: Profiled, base: BaseLast, foot: Shape) -> Floats:
+    """The vertices (n, 3) of a changed scan, with ball line, flare and heel nearer to the base's.
+
+    The ball moves along the foot, the plan is bent between .30 and .55 of its length, and the heel
+    becomes higher or lower behind .30.
+    """
+    zones = {zone.zone: zone for zone in fit_in(scan, base.record, base, question()).zones}
+    off = {
+        name: np.nan if zone.clearance.value is None else zone.clearance.value - zone.target
+        for name, zone in zones.items()
+    }
+    x, y, z = foot.vertices_mm.T
+    start_mm, length_mm = foot.x_mm(0.0), foot.length_mm
+    place = (x - start_mm) / length_mm
+    turn_deg = float(np.nan_to_num(off["flare"] - rng.uniform(*FLARE_DEG)))
+    bend = 0.25 * length_mm * eased_sum((place - 0.30) / 0.25)
+    y = y + np.tan(np.radians(TURN_SHARE * turn_deg)) * bend
+    more_mm = _value_mm(base.shape, "ball_length") - _value_mm(foot, "ball_length")
+    if np.isfinite(off["ball_line"]) and np.isfinite(more_mm):
+        bump = np.cos(np.pi * np.clip((place - 0.72) / 0.56, -0.5, 0.5)) ** 2
+        x = x + (more_mm - rng.uniform(-BALL_MM, BALL_MM)) * bump
+    scanned_mm = {row.name: row.measured.value for row in scan.measures}["short_heel_girth"]
+    wanted_mm = (scanned_mm or np.nan) + off["short_heel_girth"] - rng.uniform(*HEEL_MM)
+    low = 1.0 - eased((place - 0.30) / 0.15)
+
+    def raised(share: float) -> Floats:
+        return np.column_stack([x, y, z * (1.0 + share * low)])
+
+    trials = (-0.05, 0.05)
+    girths = [_value_mm(Shape(raised(t), foot.faces), "short_heel_girth") for t in trials]
+    share = trials[0] + (wanted_mm - girths[0]) / (girths[1] - girths[0]) * np.ptp(trials)
+    return raised(float(np.clip(np.nan_to_num(share), *HEIGHTS)))
+
+
+def _value_mm(shape: Shape, measure: str) -> float:
+    """A measure; NaN if the shape does not have it."""
+    value = measure_named(measure).value_of(shape).value
+    return np.nan if value is None else value
 
 
 def pairs(rng: np.random.Generator, rings: int, segments: int) -> Iterator[Pair]:

@@ -24,7 +24,7 @@ from footfit.pipeline.fit.fit_profile import fit_profile
 from footfit.pipeline.fit.heel_model import heel_question
 from footfit.pipeline.last_making.custom.custom_aims import CustomAim, CustomQuestion
 from footfit.pipeline.last_making.custom.custom_field import CustomShape, refuse_missed
-from footfit.pipeline.last_making.custom.good_zones import zone_notices
+from footfit.pipeline.last_making.custom.good_zones import with_reasons, zone_notices
 from footfit.report.page.custom_page import custom_page
 from footfit.report.terminal.custom_tables import custom_table
 from footfit.report.terminal.scan_tables import terminal_text
@@ -181,12 +181,13 @@ def test_a_zone_that_is_not_good_is_named_with_its_reason() -> None:
         JudgedZone("heel_width", "heel width", "mm", -2.0, 3.0, "poor", 3.0, "poor"),
     ]
     asked = CustomQuestion(fit_profile("walking"), heel_question(), BAREFOOT)
-    (notice,) = zone_notices(zones, asked)
+    (notice,) = zone_notices(with_reasons(zones, asked), ())
     assert notice.message.startswith("not good in toes (the toe keeps its shape), flare (")
     assert "--flare-follow" in notice.message
-    (kept,) = zone_notices(zones[3:], replace(asked, bottom_kept=True))
+    (kept,) = zone_notices(with_reasons(zones[3:], replace(asked, bottom_kept=True)), ())
     assert "--keep bottom" in kept.message
-    assert zone_notices(zones[:1], asked) == ()
+    assert with_reasons(zones, asked)[1].to_dict()["why"] == "the toe keeps its shape"
+    assert zone_notices(with_reasons(zones[:1], asked), ()) == ()
 
 
 def test_the_ball_line_of_a_customer_stays_good() -> None:

@@ -13,6 +13,7 @@ import numpy as np
 
 from footfit.geometry.measures.bottom_arc import BottomArc
 from footfit.geometry.measures.landmarks import Shape
+from footfit.geometry.measures.top_cut import top_cut_faces
 from footfit.geometry.mesh.surface import area_vectors, face_normals
 from footfit.geometry.numeric.arrays import Bools, Floats, Ints
 from footfit.geometry.numeric.planes import Plane, robust_plane
@@ -38,6 +39,9 @@ class ChartSettings:
     low : float
         From the bottom's highest edge on, heights come to their full change over this share of the
         section's height.
+    gentle : bool
+        Whether the slope of that change rises smoothly and then stays. It is the gentlest way; else
+        the change itself rises, and its slope is steepest half-way.
     thin : float
         A section counts as at least so high.
     deep : float
@@ -58,10 +62,11 @@ class ChartSettings:
     smooth: float = 0.035
     wall: float = 0.13
     faces_down: float = 0.5
-    low: float = 0.35
+    low: float = 0.75
+    gentle: bool = True
     thin: float = 0.02
     deep: float = 1.0
-    fade: tuple[float, float] = (0.02, 0.30)
+    fade: tuple[float, float] = (0.02, 0.40)
     behind: float = 0.33
     flat: float = 0.004
     rounds: int = 12
@@ -83,6 +88,18 @@ def eased(share: Floats) -> Floats:
     return np.asarray(t**3 * (10.0 - 15.0 * t + 6.0 * t**2))
 
 
+def eased_sum(share: Floats) -> Floats:
+    """The integral of :func:`eased` from 0 on: it ends as a straight line.
+
+    Examples
+    --------
+    >>> eased_sum(np.array([-1.0, 1.0, 2.0])).tolist()
+    [0.0, 0.5, 1.5]
+    """
+    t = np.clip(share, 0.0, 1.0)
+    return np.asarray(t**4 * (2.5 - 3.0 * t + t**2) + np.maximum(share - 1.0, 0.0))
+
+
 @dataclass(frozen=True, slots=True)
 class Places:
     """Points of a last in its chart: what a field needs to move them.
@@ -97,6 +114,8 @@ class Places:
         From the middle line of the plan, and over the bottom's line.
     risen : (n,)
         0 on the bottom, 1 where heights change in full.
+    scaled_mm : (n,)
+        The height that scales of heights change; 0 on the bottom.
     free : (n,)
         0 on the top plane, 1 where nothing holds a point.
     """
@@ -106,6 +125,7 @@ class Places:
     across_mm: Floats
     over_mm: Floats
     risen: Floats
+    scaled_mm: Floats
     free: Floats
 
 
@@ -164,13 +184,17 @@ class Chart:
             np.interp(share, self.stations, curve)
             for curve in (self.middle_mm, self.edge_mm, self.height_mm)
         )
-        risen = eased((over_mm - edge) / (self.settings.low * height))
+        ramp_mm = self.settings.low * height
+        share_up = (over_mm - edge) / ramp_mm
+        risen = eased(share_up)
+        gentle = self.settings.gentle
         return Places(
             points_mm=points_mm,
             splines=self.splines(share),
             across_mm=y - middle,
             over_mm=over_mm,
             risen=risen,
+            scaled_mm=ramp_mm * eased_sum(share_up) if gentle else over_mm * risen,
             free=self._free(points_mm, share),
         )
 
@@ -178,7 +202,8 @@ class Chart:
         """How free of the top plane points (n, 3) are, (n,): 0 on it, 1 deep under it."""
         if self.top is None:
             return np.ones(len(points_mm))
-        held = 1.0 - eased(-self.top.heights(points_mm) / self.deep_mm)
+        deep = np.clip(-self.top.heights(points_mm) / self.deep_mm, 0.0, 1.0)
+        held = 1.0 - deep**2 * (3.0 - 2.0 * deep)  # the cubic shears least
         start, end = self.settings.fade
         held *= 1.0 - eased((share - self.front - start) / (end - start))
         free: Floats = 1.0 - held
@@ -218,10 +243,11 @@ def chart_of(shape: Shape, *, hold_top: bool = True, settings: ChartSettings = C
     height = cells.greatest(over, np.ones(len(over), dtype=bool)) * arc.length_mm - edge
     height = np.maximum(height, settings.thin * arc.length_mm)
     plain = Chart(arc, stations, middle, edge, height, None, 0.0, 0.0, settings)
-    if not hold_top or not (along[faces[shape.top_cut]] < settings.behind).any():
-        return plain
-    lid = faces[shape.top_cut]
+    # The top of a high heel looks backward as the last rests, so it is looked for as it stands.
+    lid = faces[top_cut_faces(standing, faces, float(np.ptp(standing[:, 0])), 0.0)]
     behind = lid[along[lid].mean(axis=1) < settings.behind]
+    if not hold_top or not len(behind):
+        return plain
     top = _top_plane(standing, behind, settings, arc)
     under_mm = -top.heights(standing[np.unique(behind)])
     low_mm, high_mm = (share * arc.length_mm for share in settings.rim)

@@ -92,8 +92,7 @@ class Field:
             [
                 splines @ self.ahead,
                 places.across_mm * np.expm1(width * (splines @ self.wider)),
-                splines @ self.raised
-                + places.over_mm * np.expm1(places.risen * (splines @ self.higher)),
+                splines @ self.raised + places.scaled_mm * np.expm1(splines @ self.higher),
             ]
         )
         if self.turned.any():
@@ -109,7 +108,8 @@ class Field:
         places = self.chart.places(self.chart.standing(points_mm))
         width = places.risen if self.bottom_kept else 1.0
         wider = np.expm1(width * (places.splines @ self.wider))
-        higher = np.expm1(places.risen * (places.splines @ self.higher))
+        higher = np.expm1(places.splines @ self.higher)
+        higher *= places.scaled_mm / np.maximum(places.over_mm, STEP_MM)
         return 1.0 + places.free * wider, 1.0 + places.free * higher
 
     def moved_points(self, points_mm: Floats) -> Floats:
@@ -130,7 +130,7 @@ class Field:
             rate = [
                 splines @ self.ahead,
                 places.across_mm * width * (splines @ self.wider),
-                splines @ self.raised + places.over_mm * places.risen * (splines @ self.higher),
+                splines @ self.raised + places.scaled_mm * (splines @ self.higher),
             ]
             shift = places.free[:, None] * np.column_stack(rate)
         return shift

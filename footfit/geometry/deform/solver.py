@@ -27,6 +27,8 @@ class SolverSettings:
     bend, size : float
         What costs as much as a goal's ``miss_mm``, of a logarithm of a scale: the second difference
         from knot to knot, and the value.
+    heights : float
+        What a scale of heights costs, over a scale of widths: it bends less of the surface.
     settled_mm, near_mm : float
         The search ends when no firm measure is farther from its target, and does not begin if none
         is farther than ``near_mm``: a last that fits is left as it is.
@@ -42,6 +44,7 @@ class SolverSettings:
 
     bend: float = 0.01
     size: float = 0.05
+    heights: float = 0.25
     settled_mm: float = 0.05
     near_mm: float = 0.1
     rounds: int = 12
@@ -135,8 +138,9 @@ def solution(
     miss = np.array([goal.miss_mm for goal in goals])
     firm = np.array([goal.firm for goal in goals], dtype=bool)
     units = np.array([knob.unit for knob in knobs])
+    cheaper = np.array([settings.heights if k.curve == "higher" else 1.0 for k in knobs])
     bends = [_bends(start, knobs, name) / settings.bend for name in SCALES]
-    own_costs = np.vstack([np.diag(1.0 / (settings.size * units)), *bends])
+    own_costs = np.vstack([np.diag(1.0 / (settings.size * units)), *bends]) * cheaper
     all_costs = own_costs if costs is None else np.vstack([own_costs, costs])
     values = np.array([knob.value for knob in knobs])
 

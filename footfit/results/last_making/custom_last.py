@@ -81,7 +81,10 @@ class CustomZone(Part):
 
 @dataclass(frozen=True, slots=True)
 class JudgedZone(Part):
-    """A zone of the fit profile in the base and in the custom last, as ``match`` judges it."""
+    """A zone of the fit profile in the base and in the custom last, as ``match`` judges it.
+
+    ``why`` says what a custom last keeps of its base, if the zone is not good in it.
+    """
 
     name: str
     label: str
@@ -91,6 +94,7 @@ class JudgedZone(Part):
     base_verdict: Verdict | None
     custom: float | None
     custom_verdict: Verdict | None
+    why: str | None = None
 
     def _keys(self) -> Json:
         return in_mm(fields(self))

@@ -9,6 +9,8 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 
+import numpy as np
+
 from footfit.geometry.measures.measure_table import measure_named
 from footfit.pipeline.fit.heels import Heels, full_change
 from footfit.pipeline.fit.judging.judged_lasts import JudgedLasts, asked_of
@@ -29,9 +31,9 @@ PULLED = ("ball_girth", "instep_girth", HEEL_GIRTH)
 FOLLOWING = ("heel_girth_instep",)
 """The girth without a target: the bottom, the back and the top, which are kept, nearly set it; and
 a foot that was scanned flat has another one in a heel."""
-INNER_GOOD, MOST_BALL_MM = 0.7, 6.0
+INNER_GOOD, MOST_BALL_MM, MOST_HEEL_MM = 0.7, 6.0, 3.0
 """A zone that is only pulled comes so far into its good range, as a share of that; the ball moves
-at most so far."""
+at most so far, and the short heel girth, which the kept parts nearly set."""
 LENGTH, BALL_LENGTH = "length", "ball_length"
 
 
@@ -53,8 +55,9 @@ class CustomAim:
     """A measure of the base and its target, in mm.
 
     ``zone`` is the zone whose allowance counts. An aim that is not ``firm`` is only pulled towards
-    its target. One that is ``pressed`` was only pulled before, and its zone was not good. ``foot``
-    is None where no measure of the foot is compared alone.
+    its target. One that is ``pressed`` was only pulled before, and its zone was not good. A least
+    tape's target may be ``moved_mm`` from the profile's, because its zone was not good. ``foot`` is
+    None where no measure of the foot is compared alone.
     """
 
     measure: str
@@ -65,6 +68,7 @@ class CustomAim:
     allowance: float | None = None
     firm: bool = True
     pressed: bool = False
+    moved_mm: float = 0.0
 
     @property
     def words(self) -> str:
@@ -109,7 +113,9 @@ def custom_aims(foot: Profiled, base: BaseLast, question: CustomQuestion) -> tup
             firm = name in WIDTHS
             if name in PULLED:  # where its least tape brings it, if that is good
                 grown = sum(a.target - a.base for a in aims if a.measure == f"{name}_least")
-                target = own + grown - inner_good(rules[name], stored + grown - target)
+                more = grown - inner_good(rules[name], stored + grown - target)
+                most = MOST_HEEL_MM if name == HEEL_GIRTH else np.inf
+                target = own + min(max(more, -most), most)
             aims.append(CustomAim(name, name, own, target, target - allowance, allowance, firm))
     return tuple(aims)
 

@@ -72,13 +72,13 @@ class CustomSettings:
     """
 
     free: tuple[float, float] = (0.05, 0.82)
-    shank: tuple[float, float] = (0.12, 0.60)
+    shank: tuple[float, float] = (0.08, 0.60)
     bend: tuple[float, float] = (0.28, 0.54)
     forepart: tuple[float, float] = (0.66, 0.82)
     forepart_mm: float = 2.0
     ball: tuple[float, float] = (0.55, 0.77)
-    slope: float = 0.003
-    pulled_mm: float = 1.0
+    slope: float = 0.012
+    pulled_mm: float = 2.0
     line_mm: float = 0.1
     met_mm: float = 0.5
     length_met_mm: float = 0.3

@@ -43,6 +43,7 @@ from footfit.pipeline.last_making.custom.good_zones import (
     faults,
     not_good,
     pressed_aims,
+    with_reasons,
     zone_notices,
 )
 from footfit.pipeline.scan.kept_sections import kept_sections
@@ -123,8 +124,9 @@ def customised(
     if foot.aligned.alignment.pose.kind == "last":
         words = "the foot has a shape like a last's: give the scan of a foot"
         notices.append(results.Notice("looks_like_a_last", words))
-    said = (*_notices(base), *zone_notices(made.judged, question, lost), *notices)
-    return replace(made, warnings=said)
+    judged = with_reasons(made.judged, question, lost)
+    said = (*_notices(base), *zone_notices(judged, attempt.aims), *notices)
+    return replace(made, judged=judged, warnings=said)
 
 
 def _flare_turn_deg(foot: Profiled, base: BaseLast, making: Making) -> float:

@@ -148,7 +148,7 @@ def attempt_at(given: Given, aims: Sequence[CustomAim], first: Attempt | None = 
         carried = turned.made.carried(base, turned.shape.vertices_mm)
         knobs = turned.shape.solved.knobs
     tries: list[Attempt] = []
-    pressed = any(aim.pressed for aim in aims)
+    pressed = any(aim.pressed or aim.moved_mm for aim in aims)
     for settled_mm in SETTLED_MM[: PRESSED_TRIES if pressed else None]:
         with suppress(FootfitError) if tries else nullcontext():
             tried = _tried(given, aims, 1.0, carried, knobs)

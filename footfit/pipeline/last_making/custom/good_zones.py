@@ -5,30 +5,35 @@ from __future__ import annotations
 from collections.abc import Collection, Sequence
 from dataclasses import replace
 
+from footfit.number_words import signed
 from footfit.pipeline.last_making.custom.custom_aims import (
     BALL_LENGTH,
+    HEEL_GIRTH,
+    INNER_GOOD,
     MOST_BALL_MM,
-    PULLED,
     CustomAim,
     CustomQuestion,
     inner_good,
 )
 from footfit.pipeline.last_making.custom.custom_reading import value_mm
 from footfit.pipeline.last_making.custom.custom_tries import Attempt, Given
-from footfit.results import JudgedZone, Notice, Profiled, Verdict
+from footfit.results import JudgedZone, Notice, Profiled, Verdict, ZoneRule
 
 NEAR = 0.5
 """A clearance that is farther outside of its good range, over the width of that, is not pressed;
 the ball line comes as near as the ball may move."""
 VERDICTS: tuple[Verdict, ...] = ("good", "acceptable", "poor", "reject")
-PRESSABLE = (BALL_LENGTH, *PULLED)
-PRESSED = (PRESSABLE, PRESSABLE, (BALL_LENGTH,))
-"""What is pressed: all that can be; what is then no longer good; or else the ball's place alone."""
+LEAST = {"ball_girth_least": "ball_girth", "instep_girth_least": "instep_girth"}
+"""The least tapes whose targets move if the upright girth of their zone is not good."""
+PRESSABLE = (BALL_LENGTH, HEEL_GIRTH, *LEAST)
+PRESSED = (PRESSABLE, PRESSABLE, tuple(LEAST), (BALL_LENGTH,))
+"""What is pressed: all that can be; what is then no longer good; or else girths, or the ball's
+place, alone."""
 WHY = {
     "length": "the toe room is kept, because a longer or shorter toe box would fit worse",
     "ball_line": f"the forepart keeps its length, but for {MOST_BALL_MM:g} mm",
-    "ball_girth": "its section keeps the shape that the base has: the least tape has its target",
-    "instep_girth": "its section keeps the shape that the base has: the least tape has its target",
+    "ball_girth": "its section keeps the shape of the base, and its least tape is good",
+    "instep_girth": "its section keeps the shape of the base, and its least tape is good",
     "short_heel_girth": "the bottom, the back and the top stay, and nearly set it",
     "toe_height": "the toe keeps its shape and its heights",
     "toes": "the toe keeps its shape",
@@ -58,7 +63,8 @@ def pressed_aims(
     names: Sequence[str],
 ) -> tuple[CustomAim, ...]:
     """The aims, with those of these names that were only pulled, and whose zones are not good, made
-    firm in the good range; none if there is nothing to press.
+    firm in the good range; none if there is nothing to press. Of a girth it is the target of its
+    least tape that moves.
     """
     rules = {rule.zone: rule for rule in question.profile.zones}
     more_mm = {}
@@ -70,12 +76,31 @@ def pressed_aims(
                 percent_mm = 0.01 * foot.aligned.alignment.extent_mm
                 more_mm[zone.name] = -off * (percent_mm if zone.unit == "percent" else 1.0)
     aims = [
-        _pressed(given, attempt, aim, more_mm[aim.zone])
-        if aim.measure in names and aim.zone in more_mm and not aim.firm
+        _aim(given, attempt, aim, rules[aim.zone], more_mm[aim.zone])
+        if aim.measure in names and aim.zone in more_mm
         else aim
         for aim in attempt.aims
     ]
-    return tuple(aims) if any(aim.pressed for aim in aims) else ()
+    return () if aims == list(attempt.aims) else tuple(aims)
+
+
+def _aim(
+    given: Given, attempt: Attempt, aim: CustomAim, rule: ZoneRule, more_mm: float
+) -> CustomAim:
+    """An aim whose zone should have so much more clearance."""
+    if aim.measure in LEAST:
+        return _moved(aim, rule, more_mm)
+    return aim if aim.firm else _pressed(given, attempt, aim, more_mm)
+
+
+def _moved(aim: CustomAim, rule: ZoneRule, more_mm: float) -> CustomAim:
+    """A least tape's aim with another allowance, which stays well within the zone's good range."""
+    assert aim.foot is not None
+    assert aim.allowance is not None
+    low, high = (rule.target + INNER_GOOD * (end - rule.target) for end in rule.good)
+    allowance = min(max(aim.allowance + more_mm, low + rule.cavity), high + rule.cavity)
+    moved_mm = aim.moved_mm + allowance - aim.allowance
+    return replace(aim, target=aim.foot + allowance, allowance=allowance, moved_mm=moved_mm)
 
 
 def _pressed(given: Given, attempt: Attempt, aim: CustomAim, more_mm: float) -> CustomAim:
@@ -88,21 +113,39 @@ def _pressed(given: Given, attempt: Attempt, aim: CustomAim, more_mm: float) -> 
     return replace(aim, target=aim.base + grown_mm, firm=True, pressed=True)
 
 
-def zone_notices(
+def with_reasons(
     judged: Sequence[JudgedZone], question: CustomQuestion, roomy: Collection[str] = ()
-) -> tuple[Notice, ...]:
-    """A warning that names the zones that are not good, with what is kept and so forbids it.
+) -> tuple[JudgedZone, ...]:
+    """The zones; those that are not good with what is kept and so forbids it.
 
     ``roomy`` are the zones that were good before room for single places was added.
     """
-    words = []
-    for zone in not_good(judged):
-        why = WHY.get(zone.name, "the base's shape is kept there")
-        if question.bottom_kept and zone.name.endswith("_width"):
-            why = "--keep bottom keeps the outline of the bottom"
-        elif zone.name in roomy:
-            why = "it was good before --room was given"
-        elif zone.name == "flare" and question.flare_follow == 0.0:
-            why += "; --flare-follow turns it"
-        words.append(f"{zone.label} ({why})")
-    return (Notice("not_good", f"not good in {', '.join(words)}"),) if words else ()
+    poor = not_good(judged)
+    return tuple(
+        replace(zone, why=_why(zone, question, roomy)) if zone in poor else zone for zone in judged
+    )
+
+
+def _why(zone: JudgedZone, question: CustomQuestion, roomy: Collection[str]) -> str:
+    """Why a zone is not good."""
+    if question.bottom_kept and zone.name.endswith("_width"):
+        return "--keep bottom keeps the outline of the bottom"
+    if zone.name in roomy:
+        return "it was good before --room was given"
+    why = WHY.get(zone.name, "the base's shape is kept there")
+    turnable = zone.name == "flare" and question.flare_follow == 0.0
+    return f"{why}; --flare-follow turns it" if turnable else why
+
+
+def zone_notices(judged: Sequence[JudgedZone], aims: Sequence[CustomAim]) -> tuple[Notice, ...]:
+    """Warnings that name the zones that are not good, and the girths whose targets moved.
+
+    ``aims`` are those that the custom last was made with.
+    """
+    poor = [f"{zone.label} ({zone.why})" for zone in judged if zone.why is not None]
+    notices = [Notice("not_good", f"not good in {', '.join(poor)}")] if poor else []
+    for aim in aims:
+        if aim.moved_mm:
+            words = f"the {aim.words} aims at {signed(aim.moved_mm)} mm from the profile's target"
+            notices.append(Notice("target_moved", f"{words}, so that the zone is good"))
+    return tuple(notices)
