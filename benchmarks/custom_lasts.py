@@ -5,10 +5,10 @@
 Bases are lasts of both families with heels of 0 to 80 mm. Feet are those at hand, changed so that
 every target lies within 15 mm of the base, and so that ball line, flare and heel are near to what
 the base keeps. The toes are the foot's own. ``tests/custom_judge.py`` reads the written file and
-the JSON, and shares no code with the deformation. Once in ``SPARSE`` pairs the targets are the base's
-own too, and the custom last is put into a catalogue with its base. ``--write`` puts the table into
-docs/custom-lasts.md. ``--part 1/2`` does one half of the pairs, and ``--rows FILE`` keeps what was
-found of them; with several ``--read FILE`` the table is made of such files.
+the JSON, and shares no code with the deformation. Once in ``SPARSE`` pairs the targets are the
+base's own too, and the custom last is put into a catalogue with its base. ``--write`` puts the
+table into docs/custom-lasts.md. ``--part 1/2`` does one half of the pairs, and ``--rows FILE``
+keeps what was found of them; with several ``--read FILE`` the table is made of such files.
 """
 
 from __future__ import annotations
@@ -18,6 +18,7 @@ import json
 import tempfile
 import textwrap
 import time
+import tomllib
 from collections import Counter
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
@@ -55,6 +56,9 @@ TURN_SHARE, HEIGHTS = 0.67, (-0.25, 0.25)
 """The flare angle changes by so much more than a plan is bent; the heel's height changes by at most
 the others, as shares of it."""
 HEELS_MM = (0.0, 80.0)
+PROFILE = tomllib.loads(
+    (ROOT / "footfit/pipeline/fit/profiles/walking.toml").read_text(encoding="utf-8")
+)
 STYLES = ("shoe", "pump", "boot", "sandal")
 SPARSE = 10
 LIMITS = {"widths": (1.0 / 1.25, 1.25), "heights": (1.0 / 1.4, 1.4)}
@@ -76,6 +80,7 @@ BARS = {
     "open edges, flipped faces, self-intersections": 0.0,
     "worst aspect over the base's": 2.0,
     "dihedral change, 99th percentile, deg": 2.0,
+    "zones set by the foot, not good": 0.0,
     "equal targets move, mm": 0.01,
     "rank in its catalogue (1: first or tied)": 1.0,
     "time over an align, 35k faces": 8.0,
@@ -172,10 +177,9 @@ def _nearer(rng: np.random.Generator, scan: Profiled, base: BaseLast, foot: Shap
         x = x + (more_mm - rng.uniform(-BALL_MM, BALL_MM)) * bump
     scanned_mm = {row.name: row.measured.value for row in scan.measures}["short_heel_girth"]
     wanted_mm = (scanned_mm or np.nan) + off["short_heel_girth"] - rng.uniform(*HEEL_MM)
-    low = 1.0 - eased((place - 0.30) / 0.15)
 
     def raised(share: float) -> Floats:
-        return np.column_stack([x, y, z * (1.0 + share * low)])
+        return np.column_stack([x, y, z * (1.0 + share * (1.0 - eased((place - 0.30) / 0.15)))])
 
     trials = (-0.05, 0.05)
     girths = [_value_mm(Shape(raised(t), foot.faces), "short_heel_girth") for t in trials]
@@ -212,11 +216,12 @@ def judged(pair: Pair, custom: CustomLast, *, full: bool) -> dict[str, float]:
     zones = {zone["name"]: zone for zone in document["zones"]}
     girths = custom_judge.girth_misses(data, document)
     heel = girths.pop("heel_girth_instep", 0.0)
-    least = custom_judge.least_misses(data, document)
     before, after = custom.base_vertices_mm, custom.vertices_mm
     changes = custom_judge.mesh_changes(before, after, custom.faces)
     kept = custom_judge.kept_moves(before, after, custom.faces, pair.base.shape.upright)
     again = footfit.measure(data, units="mm", side="right")
+    up = again.alignment.canonical_transform[2, :3]
+    least = custom_judge.least_misses(data, document, up)
     read = {row.name: row.measured.value or np.nan for row in again.measures}
     off = {name: abs(read[name] - zone["target"]) for name, zone in zones.items()}
     corners = welded(*custom_judge.stl_mesh(data))[1]
@@ -237,6 +242,9 @@ def judged(pair: Pair, custom: CustomLast, *, full: bool) -> dict[str, float]:
         + custom_judge.open_edges(corners),
         "worst aspect over the base's": changes["aspect"],
         "dihedral change, 99th percentile, deg": changes["dihedral_deg"],
+        "zones set by the foot, not good": len(
+            custom_judge.zones_not_good(data, document, PROFILE)
+        ),
     }
     if full:
         rows["equal targets move, mm"] = _moved_by_equal_targets(pair)
@@ -327,8 +335,9 @@ def found(options: argparse.Namespace) -> Iterator[dict[str, Any]]:
             yield {"pair": number, "refused": error.message, "shown": beyond_reach(pair)}
             continue
         rows = judged(pair, custom, full=number // parts % SPARSE == 0)
-        names = [z.name for z in custom.judged if z.custom_verdict not in (None, "good")]
-        yield {"pair": number, "rows": rows, "not good": names}
+        whys = {zone.name: zone.why for zone in custom.judged if zone.why is not None}
+        suits = {zone.base_verdict for zone in custom.judged if zone.name in KEPT} <= {None, "good"}
+        yield {"pair": number, "rows": rows, "not good": whys, "suits": suits}
 
 
 def table(pairs_found: Sequence[dict[str, Any]], ratio: float) -> str:
@@ -341,17 +350,24 @@ def table(pairs_found: Sequence[dict[str, Any]], ratio: float) -> str:
         if len(values):
             high = f"{np.percentile(values, 95):.3g}"
             cells.append([name, f"{values.max():.3g}", high, f"{BARS[name]:g}"])
-    zones = Counter(name for each in pairs_found for name in each.get("not good", ()))
-    free = sum(count for name, count in zones.items() if name not in KEPT)
-    cells.append(["zones not good that nothing kept sets", f"{free}", "", "0"])
     cells.append(["time over an align, 35k faces", f"{ratio:.1f}", "", "8"])
-    good = sum(not each["not good"] for each in pairs_found if "rows" in each)
+    done = [each for each in pairs_found if "rows" in each]
+    zones = Counter(name for each in done for name in each["not good"])
+    free = sum(count for name, count in zones.items() if name not in KEPT)
+    cells.append(["other zones that are not good", f"{free}", "", "0"])
+    good, suiting = (
+        [each for each in done if not each["not good"]],
+        [e for e in done if e["suits"]],
+    )
+    of_these = sum(not each["not good"] for each in suiting)
     shown = sum(each["shown"] is not None for each in refused)
     names = ", ".join(f"{name.replace('_', ' ')} {count}" for name, count in zones.most_common())
     bent = sum(row["dihedral change, 99th percentile, deg"] > 2.0 for row in rows)
     words = f"{len(pairs_found)} pairs; {len(refused)} refused, {shown} of them shown to be beyond"
-    words += f" the limits. {bent} exceed the dihedral bar. All zones are good in {good}; not good:"
-    words = textwrap.fill(f"{words} {names}.", 118)
+    words += f" the limits. {bent} exceed the dihedral bar. In {len(suiting)} the base's kept zones"
+    words += f" (toes, toe height, flare, plan, short heel girth) are good: all zones of {of_these}"
+    words += f" of these custom lasts are good, and of {len(good)} of all. Not good: {names}."
+    words = textwrap.fill(words, 118)
     return f"{markdown(['what', 'worst', '95 % within', 'bar'], cells)}\n{words}"
 
 

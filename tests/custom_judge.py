@@ -11,6 +11,8 @@ from tests.self_intersection import self_intersections, welded
 from tests.tape_peer import edges_of, hull_perimeter, turned
 
 TILTS_DEG = np.arange(-8.0, 8.1, 2.0)
+UPRIGHT = 0.005
+"""A plane whose normal rises by less over the resting plane does not lean back."""
 
 
 def stl_mesh(data: bytes):
@@ -32,10 +34,11 @@ def girth_misses(data: bytes, document) -> dict[str, float]:
     return misses
 
 
-def least_misses(data: bytes, document) -> dict[str, float]:
+def least_misses(data: bytes, document, up=(0.0, 0.0, 1.0)) -> dict[str, float]:
     """By girth, how far the least perimeter of planes through its point is from the target.
 
-    The planes are turned by a few degrees about the two level axes of the stated plane.
+    The planes are turned by a few degrees about the level axis of the stated plane. By definition a
+    tape does not lean back from ``up``, which is the normal of the plane that the last rests on.
     """
     vertices, faces = welded(*stl_mesh(data))
     edges = edges_of(faces)
@@ -44,11 +47,70 @@ def least_misses(data: bytes, document) -> dict[str, float]:
         if zone["plane"] is None or zone["name"] in ("ball_girth_least", "heel_girth_instep"):
             continue
         point, normal = (np.array(zone["plane"][key]) for key in ("point_mm", "normal"))
-        across = np.cross([0.0, 0.0, 1.0], normal)
-        planes = (turned(across, normal, tilt) for tilt in TILTS_DEG)
-        least = min(hull_perimeter(vertices, edges, point, plane) for plane in planes)
+        normal = normal * np.sign(normal[0])
+        across = np.cross(up, normal)
+        planes = [turned(across, normal, tilt) for tilt in TILTS_DEG]
+        forward = [plane for plane in planes if plane @ up < UPRIGHT] or [normal]
+        least = min(hull_perimeter(vertices, edges, point, plane) for plane in forward)
         misses[zone["name"]] = least - zone["target"]
     return misses
+
+
+def zones_not_good(data: bytes, document, profile) -> list[str]:
+    """The measures of the document whose clearance is not in its zone's good range.
+
+    ``profile`` is the fit profile's TOML. Girths are cut in their planes, widths are the extents of
+    sections, and the length is how far the file reaches along X. A waist's range is the mean of
+    those of ball and instep, and what follows has no range.
+    """
+    vertices, faces = welded(*stl_mesh(data))
+    edges = edges_of(faces)
+    zones = {zone["name"]: zone for zone in document["zones"] if not zone["follows"]}
+    own = {name: _own_mm(vertices, edges, name, zones) for name in zones}
+    result = []
+    for name, zone in zones.items():
+        if name == "length":
+            (room,) = (z["custom"] for z in document["judged"] if z["name"] == "length")
+            clearance = room + own[name] - zone["reached"]
+        else:
+            clearance = own[name] - zone["foot"]
+        parts = ("ball_girth", "instep_girth") if name.startswith("waist") else (zone["zone"],)
+        ranges = [profile["zones"][part]["good_mm"] for part in parts]
+        low, high = np.mean(ranges, axis=0)
+        if not low <= clearance <= high:
+            result.append(name)
+    return result
+
+
+def _own_mm(vertices, edges, name, zones) -> float:
+    """A measure of the written file: near enough to say in which range it is."""
+    low = vertices[:, 2] < vertices[:, 2].min() + 0.3 * np.ptp(vertices[:, 0])
+    rear, length = vertices[low, 0].min(), float(np.ptp(vertices[low, 0]))  # without a boot's shaft
+    if name == "length":
+        return length
+    if name == "heel_width":
+        plane = np.array([rear + length / 6.0, 0.0, 0.0]), np.array([1.0, 0.0, 0.0])
+        section = _section(vertices, edges, *plane)
+        low = section[section[:, 2] < section[:, 2].min() + 0.15 * length]
+        return float(np.ptp(low[:, 1]))
+    plane = (
+        np.array(zones["ball_girth_least" if name == "ball_width" else name]["plane"][key])
+        for key in ("point_mm", "normal")
+    )
+    point, normal = plane
+    if name == "ball_width":  # both joints lie in the plane of the ball's tape
+        across = np.cross([0.0, 0.0, 1.0], normal)
+        section = _section(vertices, edges, point, normal)
+        return float(np.ptp(section @ (across / np.linalg.norm(across))))
+    return hull_perimeter(vertices, edges, point, normal)
+
+
+def _section(vertices, edges, point, normal):
+    """Where edges cross a plane, (k, 3)."""
+    height = (vertices - point) @ normal
+    start, end = edges[height[edges[:, 0]] * height[edges[:, 1]] < 0.0].T
+    share = height[start] / (height[start] - height[end])
+    return vertices[start] + share[:, None] * (vertices[end] - vertices[start])
 
 
 def kept_moves(before, after, faces, up) -> dict[str, float]:

@@ -78,7 +78,7 @@ class CustomSettings:
     forepart_mm: float = 2.0
     ball: tuple[float, float] = (0.55, 0.77)
     slope: float = 0.012
-    pulled_mm: float = 2.0
+    pulled_mm: float = 1.0
     line_mm: float = 0.1
     met_mm: float = 0.5
     length_met_mm: float = 0.3
