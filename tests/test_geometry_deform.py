@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from functools import cache
 
 import numpy as np
 import pytest
 
+from benchmarks import stance
 from footfit.geometry.deform.chart import chart_of
 from footfit.geometry.deform.field import Bump, Field, least_determinant
 from footfit.geometry.deform.probes import girth_probe, span_probe
@@ -64,6 +66,35 @@ def test_what_a_last_maker_keeps_stays(heel_mm):
     left, _, right = np.linalg.svd(start.T @ end)
     assert np.linalg.norm(start @ left @ right - end, axis=1).max() < 0.02
     assert np.linalg.norm(shift[toe], axis=1).min() > 6.0
+
+
+def test_the_top_of_a_high_heel_is_seen():
+    """It looks backward as the last rests: then the instep was taken for it."""
+    if not stance.second_family():
+        pytest.skip("../shared/tools/lasts2.py is not here; the project's own lasts are tested")
+    case = stance.other(np.random.default_rng(2), (96.0, 100.0), 0)
+    shape = Shape(case.vertices_mm, case.faces, "last")
+    chart = chart_of(shape)
+    standing = chart.standing(shape.vertices_mm)
+    assert chart.top is not None
+    assert chart.top.normal[2] > 0.9
+    held = chart.top.heights(standing) > 0.0
+    assert standing[held, 2].min() > 0.8 * standing[:, 2].max()
+    assert held.sum() > 100
+
+
+def test_heights_change_by_the_gentlest_slope():
+    """The slope rises over .75 of the section's height, and stays: it never overshoots."""
+    shape = last()
+    chart = chart_of(shape)
+    still = Field.still(chart)
+    field = replace(still, chart=replace(chart, top=None), higher=np.full_like(still.higher, -0.2))
+    x_mm, z_mm = (float(value[0]) for value in chart.arc.line.at(np.array([120.0])))
+    up_mm = np.linspace(0.0, 90.0, 400)
+    ray = np.column_stack([np.full(400, x_mm), np.zeros(400), z_mm + up_mm])
+    slope = np.gradient(field.moved(field.chart.places(ray))[:, 2], up_mm)
+    assert (np.diff(slope) < 1e-9).all()
+    assert slope[-1] == pytest.approx(np.exp(-0.2), abs=1e-6)
 
 
 def test_the_determinant_says_how_far_a_field_is_from_a_fold():

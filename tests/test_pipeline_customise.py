@@ -7,6 +7,7 @@ import os
 import re
 import subprocess
 import sys
+import tomllib
 from dataclasses import replace
 from functools import cache
 
@@ -24,7 +25,7 @@ from footfit.pipeline.fit.fit_profile import fit_profile
 from footfit.pipeline.fit.heel_model import heel_question
 from footfit.pipeline.last_making.custom.custom_aims import CustomAim, CustomQuestion
 from footfit.pipeline.last_making.custom.custom_field import CustomShape, refuse_missed
-from footfit.pipeline.last_making.custom.good_zones import with_reasons, zone_notices
+from footfit.pipeline.last_making.custom.good_zones import moved_aim, with_reasons, zone_notices
 from footfit.report.page.custom_page import custom_page
 from footfit.report.terminal.custom_tables import custom_table
 from footfit.report.terminal.scan_tables import terminal_text
@@ -32,13 +33,20 @@ from footfit.results import JudgedZone
 from footfit.results.worn import BAREFOOT
 from tests import shapes
 from tests.conftest import ROOT, SAMPLES, Footfit
-from tests.custom_judge import girth_misses, kept_moves, least_misses, mesh_changes
+from tests.custom_judge import (
+    girth_misses,
+    kept_moves,
+    least_misses,
+    mesh_changes,
+    zones_not_good,
+)
 from tests.customs import custom_last
 from tests.distortions import random_pose
 from tests.self_intersection import self_intersections
 from tools.lasts import LastSpec, last_mesh
 
 FOOT = ROOT / "sample_data" / "feet" / "mh007_R.stl"
+WALKING = ROOT / "footfit" / "pipeline" / "fit" / "profiles" / "walking.toml"
 CLOSE_MM = 0.5
 """The bar for girths and widths on the written file, by a judge of its own."""
 
@@ -85,6 +93,10 @@ def test_the_written_file_meets_its_targets() -> None:
     assert len(misses) == 4
     assert max(map(abs, misses.values())) < CLOSE_MM
     assert max(map(abs, least_misses(data, document).values())) < CLOSE_MM
+    profile = tomllib.loads(WALKING.read_text(encoding="utf-8"))
+    assert zones_not_good(data, document, profile) == []
+    tight = [zone | {"foot": zone["foot"] and zone["foot"] + 12.0} for zone in document["zones"]]
+    assert len(zones_not_good(data, document | {"zones": tight}, profile)) == 5
     again = footfit.measure(data, units="mm", side="right")
     measured = {row.name: row.measured.value for row in again.measures}
     for zone in document["zones"]:
@@ -188,6 +200,22 @@ def test_a_zone_that_is_not_good_is_named_with_its_reason() -> None:
     assert "--keep bottom" in kept.message
     assert with_reasons(zones, asked)[1].to_dict()["why"] == "the toe keeps its shape"
     assert zone_notices(with_reasons(zones[:1], asked), ()) == ()
+
+
+def test_a_least_tape_moves_only_within_the_good_range() -> None:
+    """Walking: an instep is good from -2 to 6 mm, and well within that from -.8 to 4.8."""
+    (rule,) = (rule for rule in fit_profile("walking").zones if rule.zone == "instep_girth")
+    aim = CustomAim("instep_girth_least", "instep_girth", 250.0, 252.0, 250.0, 2.0)
+    for more_mm, moved_mm in ((1.5, 1.5), (5.0, 2.8), (-9.0, -2.8)):
+        moved = moved_aim(aim, rule, more_mm)
+        assert moved.moved_mm == pytest.approx(moved_mm)
+        assert moved.target == pytest.approx(252.0 + moved_mm)
+        assert moved.allowance == pytest.approx(2.0 + moved_mm)
+    (notice,) = zone_notices((), [moved])
+    assert notice.code == "target_moved"
+    assert "-2.8 mm" in notice.message
+    again = moved_aim(moved, rule, 5.6)
+    assert (again.target, again.moved_mm) == pytest.approx((254.8, 2.8))
 
 
 def test_the_ball_line_of_a_customer_stays_good() -> None:

@@ -89,11 +89,11 @@ def _aim(
 ) -> CustomAim:
     """An aim whose zone should have so much more clearance."""
     if aim.measure in LEAST:
-        return _moved(aim, rule, more_mm)
+        return moved_aim(aim, rule, more_mm)
     return aim if aim.firm else _pressed(given, attempt, aim, more_mm)
 
 
-def _moved(aim: CustomAim, rule: ZoneRule, more_mm: float) -> CustomAim:
+def moved_aim(aim: CustomAim, rule: ZoneRule, more_mm: float) -> CustomAim:
     """A least tape's aim with another allowance, which stays well within the zone's good range."""
     assert aim.foot is not None
     assert aim.allowance is not None
