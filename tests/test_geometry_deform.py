@@ -84,7 +84,7 @@ def test_the_top_of_a_high_heel_is_seen():
 
 
 def test_heights_change_by_the_gentlest_slope():
-    """The slope rises over .75 of the section's height, and stays: it never overshoots."""
+    """The slope rises over .35 of the section's height, and stays: it never overshoots."""
     shape = last()
     chart = chart_of(shape)
     still = Field.still(chart)

@@ -62,7 +62,7 @@ class ChartSettings:
     smooth: float = 0.035
     wall: float = 0.13
     faces_down: float = 0.5
-    low: float = 0.75
+    low: float = 0.35
     gentle: bool = True
     thin: float = 0.02
     deep: float = 1.0

@@ -93,7 +93,7 @@ GRADE_SOLVER = replace(
     size=GRADE.free_size,
     heights=1.0,
 )
-GRADE_CHART = replace(CHART, knots=43, low=0.35, gentle=False)
+GRADE_CHART = replace(CHART, knots=43, gentle=False)
 """With so many knots that the curves meet what a length does in the shank of a high heel."""
 LENGTH, HEEL_GIRTH = "bottom_length", "heel_girth_instep"
 INSTEP, WAIST = "instep_girth_least", "waist_girth_least"
