@@ -83,7 +83,7 @@ def test_the_top_of_a_high_heel_is_seen():
     assert held.sum() > 100
 
 
-def test_heights_change_by_the_gentlest_slope():
+def test_the_slope_of_heights_does_not_overshoot():
     """The slope rises over .35 of the section's height, and stays: it never overshoots."""
     shape = last()
     chart = chart_of(shape)

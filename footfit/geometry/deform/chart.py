@@ -40,7 +40,7 @@ class ChartSettings:
         From the bottom's highest edge on, heights come to their full change over this share of the
         section's height.
     gentle : bool
-        Whether the slope of that change rises smoothly and then stays. It is the gentlest way; else
+        Whether the slope of that change rises smoothly and then stays. It never overshoots; else
         the change itself rises, and its slope is steepest half-way.
     thin : float
         A section counts as at least so high.
