@@ -125,11 +125,11 @@ def test_the_judge_of_intersections_sees_one() -> None:
 
 
 def test_a_custom_last_needs_no_other_one() -> None:
-    """Targets that are the base's own move nothing."""
+    """Targets that are nearly the base's own move nearly nothing."""
     made = custom()
     data = footfit.mesh_file(made, "stl")
     (again,) = footfit.customise(foot(), data)
-    assert again.largest_move_mm < 0.25  # the first one met its targets within .05 mm
+    assert again.largest_move_mm < 0.5  # 0.31: the instep's target moved another way by .2 mm
     np.testing.assert_allclose(values(again)[:, 2], values(made)[:, 2], atol=0.3)
 
 
@@ -203,19 +203,19 @@ def test_a_zone_that_is_not_good_is_named_with_its_reason() -> None:
 
 
 def test_a_least_tape_moves_only_within_the_good_range() -> None:
-    """Walking: an instep is good from -2 to 6 mm, and well within that from -.8 to 4.8."""
+    """Walking: an instep is good from -2 to 6 mm, and .9 of that is -1.6 to 5.6 mm."""
     (rule,) = (rule for rule in fit_profile("walking").zones if rule.zone == "instep_girth")
     aim = CustomAim("instep_girth_least", "instep_girth", 250.0, 252.0, 250.0, 2.0)
-    for more_mm, moved_mm in ((1.5, 1.5), (5.0, 2.8), (-9.0, -2.8)):
+    for more_mm, moved_mm in ((1.4, 2.0), (5.0, 3.6), (-9.0, -3.6)):
         moved = moved_aim(aim, rule, more_mm)
         assert moved.moved_mm == pytest.approx(moved_mm)
         assert moved.target == pytest.approx(252.0 + moved_mm)
         assert moved.allowance == pytest.approx(2.0 + moved_mm)
     (notice,) = zone_notices((), [moved])
     assert notice.code == "target_moved"
-    assert "-2.8 mm" in notice.message
-    again = moved_aim(moved, rule, 5.6)
-    assert (again.target, again.moved_mm) == pytest.approx((254.8, 2.8))
+    assert "-3.6 mm" in notice.message
+    again = moved_aim(moved, rule, 7.0)
+    assert (again.target, again.moved_mm) == pytest.approx((255.6, 3.6))
 
 
 def test_the_ball_line_of_a_customer_stays_good() -> None:

@@ -9,7 +9,6 @@ from footfit.number_words import signed
 from footfit.pipeline.last_making.custom.custom_aims import (
     BALL_LENGTH,
     HEEL_GIRTH,
-    INNER_GOOD,
     MOST_BALL_MM,
     CustomAim,
     CustomQuestion,
@@ -25,6 +24,9 @@ the ball line comes as near as the ball may move."""
 VERDICTS: tuple[Verdict, ...] = ("good", "acceptable", "poor", "reject")
 LEAST = {"ball_girth_least": "ball_girth", "instep_girth_least": "instep_girth"}
 """The least tapes whose targets move if the upright girth of their zone is not good."""
+MOVED_GOOD, FOLLOWS = 0.9, 0.7
+"""A moved target stays so far in the zone's good range, as a share of that; the upright girth
+changes by about so much of its least tape."""
 PRESSABLE = (BALL_LENGTH, HEEL_GIRTH, *LEAST)
 PRESSED = (PRESSABLE, PRESSABLE, tuple(LEAST), (BALL_LENGTH,))
 """What is pressed: all that can be; what is then no longer good; or else girths, or the ball's
@@ -94,11 +96,14 @@ def _aim(
 
 
 def moved_aim(aim: CustomAim, rule: ZoneRule, more_mm: float) -> CustomAim:
-    """A least tape's aim with another allowance, which stays well within the zone's good range."""
+    """A least tape's aim with another allowance, which stays within the zone's good range.
+
+    The zone should have ``more_mm`` of clearance.
+    """
     assert aim.foot is not None
     assert aim.allowance is not None
-    low, high = (rule.target + INNER_GOOD * (end - rule.target) for end in rule.good)
-    allowance = min(max(aim.allowance + more_mm, low + rule.cavity), high + rule.cavity)
+    low, high = (rule.target + MOVED_GOOD * (end - rule.target) for end in rule.good)
+    allowance = min(max(aim.allowance + more_mm / FOLLOWS, low + rule.cavity), high + rule.cavity)
     moved_mm = aim.moved_mm + allowance - aim.allowance
     return replace(aim, target=aim.foot + allowance, allowance=allowance, moved_mm=moved_mm)
 
