@@ -44,7 +44,7 @@ class SolverSettings:
 
     bend: float = 0.01
     size: float = 0.05
-    heights: float = 0.25
+    heights: float = 0.5
     settled_mm: float = 0.05
     near_mm: float = 0.1
     rounds: int = 12

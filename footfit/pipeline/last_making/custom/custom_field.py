@@ -13,7 +13,6 @@ from footfit.geometry.deform.chart import Chart, eased
 from footfit.geometry.deform.field import Bump, Field, least_determinant
 from footfit.geometry.deform.probes import Probe
 from footfit.geometry.deform.solver import (
-    SCALES,
     SOLVER,
     Goal,
     Knob,
@@ -45,6 +44,8 @@ class CustomSettings:
     ----------
     free : tuple of float
         Widths and heights have knobs between these; in front of them the toe keeps its shape.
+    back : float
+        Heights have none behind this: the back curve would move.
     shank, bend : tuple of float
         The length, and the flare, change between these.
     forepart, forepart_mm : tuple of float, float
@@ -72,6 +73,7 @@ class CustomSettings:
     """
 
     free: tuple[float, float] = (0.05, 0.82)
+    back: float = 0.10
     shank: tuple[float, float] = (0.08, 0.60)
     bend: tuple[float, float] = (0.28, 0.54)
     forepart: tuple[float, float] = (0.66, 0.82)
@@ -200,7 +202,8 @@ def _knobs(chart: Chart, aims: Sequence[CustomAim]) -> list[Knob]:
     """What the search may turn: scales along the arc, and the length of shank and forepart."""
     at = chart.centres()
     inner = np.flatnonzero((at > CUSTOM.free[0]) & (at < CUSTOM.free[1]))
-    knobs = [Knob(name, np.eye(len(at))[k]) for name in SCALES for k in inner]
+    knobs = [Knob("wider", np.eye(len(at))[k]) for k in inner]
+    knobs += [Knob("higher", np.eye(len(at))[k]) for k in inner if at[k] > CUSTOM.back]
     knobs.append(Knob("ahead", _pattern(chart, CUSTOM.shank), FREE_MM))
     if any(aim.measure == BALL_LENGTH for aim in aims):
         knobs.append(Knob("ahead", _pattern(chart, CUSTOM.forepart), FREE_MM))
