@@ -129,8 +129,11 @@ def test_a_custom_last_needs_no_other_one() -> None:
     made = custom()
     data = footfit.mesh_file(made, "stl")
     (again,) = footfit.customise(foot(), data)
-    assert again.largest_move_mm < 0.5  # 0.31: the instep's target moved another way by .2 mm
-    np.testing.assert_allclose(values(again)[:, 2], values(made)[:, 2], atol=0.3)
+    assert again.largest_move_mm < 0.7  # the instep's target moves from where a try reads its zone
+    by_mm = np.abs(values(again)[:, 2] - values(made)[:, 2])
+    of_instep = np.array(["instep" in zone.name for zone in made.zones])
+    assert by_mm[~of_instep].max() < 0.3
+    assert by_mm[of_instep].max() < 0.7
 
 
 def test_a_mirrored_foot_gives_the_mirrored_last() -> None:
