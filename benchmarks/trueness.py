@@ -27,6 +27,7 @@ import numpy as np
 from benchmarks import measures, stance
 from benchmarks.alignment import scan_of
 from benchmarks.tables import markdown, put
+from benchmarks.trueness_fit import Fitted, heel_shares
 from footfit.errors import FootfitError
 from footfit.geometry.measures.measure_table import measure_named, of_kind
 from footfit.geometry.numeric.arrays import Floats, Ints
@@ -43,11 +44,8 @@ FINE = {"rings": 170, "segments": 120}
 FINE_OTHER = {"n_long": 170, "n_round": 104}
 FAMILIES = ("own", "lasts2", "feet")
 FEET = 24
-JOBS = 2
-WIDER = 1.15  # the total standard deviation over the errors of two families: others may differ more
 ASKED_INSIDE, ASKED_RATIO = 0.95, (0.8, 1.5)
 FEWEST = 5  # of so few lasts a cell says nothing
-RATIOS = (0.85, 1.45)  # of the mean total standard deviation to a family's error: within .8 to 1.5
 
 
 @dataclass(frozen=True)
@@ -83,7 +81,7 @@ class Case:
 @dataclass(frozen=True)
 class Error:
     """How far a value is from the true one, its total standard deviation, that without the part
-    of the trueness, and the band of the heel.
+    of the trueness, the band of the heel, and the heel by the shape.
     """
 
     family: str
@@ -91,6 +89,7 @@ class Error:
     error: float
     total_sd: float
     other_sd: float
+    heel_mm: float | None
 
 
 Errors = dict[str, list[Error]]
@@ -214,15 +213,15 @@ def errors_of(drawn: Drawn) -> dict[str, Error] | str:
         trueness = measure_named(name).trueness(case.draft.kind).sd_at(heel_mm)
         other_sd = float(np.sqrt(max(known.total_sd**2 - trueness**2, 0.0)))
         off = known.value - true_mm
-        errors[name] = Error(drawn.family, drawn.band, off, known.total_sd, other_sd)
+        errors[name] = Error(drawn.family, drawn.band, off, known.total_sd, other_sd, heel_mm)
     return errors
 
 
-def all_errors(count: int, seed: int) -> tuple[Errors, list[str]]:
+def all_errors(count: int, seed: int, jobs: int) -> tuple[Errors, list[str]]:
     """Every error by measure, and what was refused."""
     by_measure: Errors = defaultdict(list)
     refused = []
-    with ProcessPoolExecutor(JOBS) as pool:
+    with ProcessPoolExecutor(jobs) as pool:
         for errors in pool.map(errors_of, all_drawn(count, seed)):
             if isinstance(errors, str):
                 refused.append(errors)
@@ -237,36 +236,25 @@ def rms(numbers: Sequence[float]) -> float:
     return float(np.sqrt(np.mean(np.square(numbers))))
 
 
-def fitted_sd(groups: list[list[Error]]) -> float:
-    """The trueness that serves the families of a band, given each one's errors.
-
-    Their total is a little over the geometric mean of their errors, and not under the greater one
-    as long as it is within the asked ratio to both. If no number is, the greater error decides.
-    """
-    off = sorted(rms([e.error for e in group]) for group in groups)
-    least, greatest = off[0], off[-1]
-    total = max(WIDER * np.sqrt(least * greatest), greatest)
-    low, high = RATIOS[0] * greatest, RATIOS[1] * least
-    total = min(total, max(high, low)) if low <= high else greatest
-    worst = max(groups, key=lambda group: rms([e.error for e in group]))
-    others = float(np.median([e.other_sd for e in worst]))
-    return float(np.sqrt(max(total**2 - others**2, 0.0)))
-
-
 def fit_rows(by_measure: Errors, kind: str) -> Iterator[list[str]]:
-    """A row a measure: the mean error, and the trueness by band of heels."""
+    """A row a measure: the mean error, and the trueness by heel."""
     for entry in of_kind(kind):
         errors = [e for e in by_measure[entry.name] if (e.family == "feet") == (kind == "foot")]
         if not errors:
             continue
-        bands = []
-        for band in sorted({e.band for e in errors}):
-            near = [e for e in errors if e.band == band]
-            families = [[e for e in near if e.family == family] for family in FAMILIES]
-            bands.append(f"{fitted_sd([group for group in families if group]):.2f}")
+        where = [(e.family, e.band) for e in errors]
+        cells = [np.flatnonzero([at == cell for at in where]) for cell in _groups(kind)]
+        fitted = Fitted(
+            error=np.array([e.error for e in errors]),
+            other_sd=np.array([e.other_sd for e in errors]),
+            shares=heel_shares([e.heel_mm for e in errors], kind),
+            cells=[cell for cell in cells if len(cell) >= FEWEST],
+            ratios=ASKED_RATIO,
+            missed=1.0 - ASKED_INSIDE,
+        )
         groups = [[e.error for e in errors if e.family == family] for family in FAMILIES]
         bias = np.mean([np.mean(group) for group in groups if group])
-        yield [entry.name, f"{bias:+.2f}", *bands]
+        yield [entry.name, f"{bias:+.2f}", *(f"{sd:.2f}" for sd in fitted.sds())]
 
 
 def trueness_rows(by_measure: Errors, kind: str) -> Iterator[list[str]]:
@@ -359,10 +347,11 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--count", type=int, default=20)
     parser.add_argument("--seed", type=int, default=202)
+    parser.add_argument("--jobs", type=int, default=2)
     parser.add_argument("--fit", action="store_true")
     parser.add_argument("--write", action="store_true")
     options = parser.parse_args()
-    by_measure, refused = all_errors(options.count, options.seed)
+    by_measure, refused = all_errors(options.count, options.seed, options.jobs)
     for name, text in tables(by_measure).items():
         print(f"{name}\n{text}")
         if options.write:

@@ -12,7 +12,7 @@ from footfit.errors import BadOption
 from footfit.geometry.measures.measure_table import HEELS_MM, MEASURES, measure_named, of_kind
 from footfit.geometry.measures.measure_value import MeasureValue
 from footfit.pipeline.scan.measure import scan_measures
-from footfit.pipeline.scan.trueness import OPEN_SHARE, SCANNER_SD_MM, check_scanner, measured
+from footfit.pipeline.scan.trueness import SCANNER_SD_MM, check_scanner, measured
 from tests import answers
 from tests.measure_peer import Drafted, true_measures
 from tests.scans import aligned, cleaned
@@ -32,9 +32,9 @@ def test_every_measure_states_a_trueness_for_each_kind_and_heel() -> None:
 def test_the_squares_of_all_parts_are_added() -> None:
     trueness = GIRTH.last
     info = replace(answers.info(), step=0.4, scanner="phone")
-    value = measured(GIRTH, MeasureValue(240.0, convention_sd=0.7), "last", HEELS_MM[1], info)
+    value = measured(GIRTH, MeasureValue(240.0, convention_sd=0.7, tilt_mm=-0.2), "last", HEELS_MM[1], info)
     scanner_sd = SCANNER_SD_MM["phone"]["girth"]
-    parts = (GIRTH.sd, trueness.sd[1], OPEN_SHARE * 0.7, 0.65 * 0.4, scanner_sd)
+    parts = (GIRTH.sd, trueness.sd[1], 0.7, 0.2, 0.65 * 0.4, scanner_sd)
     assert value.total_sd == pytest.approx(math.hypot(*parts))
     assert (value.value, value.sd, value.bias) == (240.0, GIRTH.sd, trueness.bias)
 

@@ -61,10 +61,15 @@ def toe_spring(shape: Shape) -> MeasureValue:
     middle_mm = float(section.points[:, 1].min() + 0.5 * np.ptp(section.points[:, 1]))
     if shape.unscanned(section, below_mm=middle_mm):
         return MeasureValue(None, UNSCANNED)
-    x_mm, z_mm = shape.x_mm(HEIGHTS.toe_spring), float(section.points[:, 1].min())
-    place_mm = shape.stance.along_ground_mm(x_mm, z_mm)
-    height_mm = shape.stance.over_ground_mm(x_mm, z_mm)
-    return MeasureValue(height_mm, convention_sd=shape.stance.height_sd_mm(place_mm))
+    height_mm = shape.stance.over_ground_mm(*toe_bottom_mm(shape))
+    place_mm = shape.stance.along_ground_mm(*toe_bottom_mm(shape))
+    return MeasureValue(height_mm, convention_sd=shape.stance.level_sd_mm(place_mm))
+
+
+def toe_bottom_mm(shape: Shape) -> tuple[float, float]:
+    """The place, x and z, whose height over the ground is the toe spring."""
+    lowest_mm = shape.across(HEIGHTS.toe_spring).points[:, 1].min(initial=np.inf)
+    return shape.x_mm(HEIGHTS.toe_spring), float(lowest_mm)
 
 
 def heel_height(shape: Shape) -> MeasureValue:
@@ -76,7 +81,7 @@ def heel_height(shape: Shape) -> MeasureValue:
     heel_mm = None if shape.stance is None else shape.stance.heel_mm()
     if shape.stance is None or heel_mm is None:
         return MeasureValue(None, NO_SOLE.format(place="heel or the ball"))
-    return MeasureValue(heel_mm, convention_sd=shape.stance.height_sd_mm(0.0))
+    return MeasureValue(heel_mm, convention_sd=shape.stance.level_sd_mm(0.0))
 
 
 def toe_spring_tip(shape: Shape) -> MeasureValue:
@@ -87,7 +92,7 @@ def toe_spring_tip(shape: Shape) -> MeasureValue:
     tip_mm = None if shape.stance is None else shape.stance.tip_mm()
     if shape.stance is None or tip_mm is None:
         return MeasureValue(None, NO_SOLE.format(place="toes or the ball"))
-    sd_mm = shape.stance.height_sd_mm(shape.stance.length_mm)
+    sd_mm = shape.stance.level_sd_mm(shape.stance.length_mm)
     return MeasureValue(tip_mm, convention_sd=sd_mm)
 
 
@@ -96,5 +101,5 @@ def seat_angle_deg(shape: Shape) -> MeasureValue:
     seat = None if shape.stance is None else shape.stance.seat_line()
     if shape.stance is None or seat is None:
         return MeasureValue(None, NO_SOLE.format(place="heel or the ball"))
-    sd_deg = float(np.degrees(shape.stance.ground_sd))
+    sd_deg = float(np.degrees(shape.stance.level_sd))
     return MeasureValue(-float(np.degrees(np.arctan(seat[0]))), convention_sd=sd_deg)

@@ -38,6 +38,7 @@ class LandmarkSettings:
     inner_joint: tuple[float, float] = (0.60, 0.82)  # MT1 of a foot lies at .72, MT5 at .63
     outer_joint: tuple[float, float] = (0.52, 0.76)
     joint_edge: float = 0.008  # a joint this close to the edge of its search window is rejected
+    waist: float = 0.40
     instep: float = 0.50
     cone: float = 0.15  # a place on a last's cone
     top_crossed: float = 0.05  # a section that runs farther over the top cut is not measured

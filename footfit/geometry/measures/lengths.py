@@ -37,7 +37,9 @@ class AlongSettings:
     from the rearmost place, over the length; its faces look back by ``wall_back`` in plan.
     Where the bottom lies less than ``tread_height`` of the standing length over the ground, it is
     tread; it is read at ``tread_points`` places from ``tread_reach``. A second scan of a last
-    moves such a height by ``tread_noise``, and the tread's ends by what this makes of it.
+    moves such a height by ``tread_noise``, and the tread's ends by what this makes of it. Of what
+    the ground's own doubt moves an end by, ``tread_open`` counts: a flat tread ends nowhere sure,
+    and an end that moves far one way moves less the other way.
     """
 
     line_window: tuple[float, float] = (0.06, 0.965)
@@ -47,7 +49,8 @@ class AlongSettings:
     wall_deep: float = 0.12
     wall_back: float = 0.7
     tread_height: float = 0.002
-    tread_noise: float = 0.0004
+    tread_noise: float = 0.0003
+    tread_open: float = 0.7
     tread_least_sd_mm: float = 0.3
     tread_reach: tuple[float, float] = (0.40, 0.95)
     tread_points: int = 276
@@ -115,7 +118,7 @@ def stick_length(shape: Shape) -> MeasureValue:
     front = tip(shape.vertices_mm, low, along, shape.length_mm, shape.tips)
     rise_mm = float((front.place - rear.place) @ up)
     return MeasureValue(
-        rear.reach + front.reach, convention_sd=abs(rise_mm) * shape.stance.ground_sd
+        rear.reach + front.reach, convention_sd=abs(rise_mm) * shape.stance.level_sd
     )
 
 
@@ -244,14 +247,14 @@ def _tread_end(shape: Shape, end: int) -> MeasureValue:
     height = ALONG.tread_height
     value, low, high = (
         _low_stretch(place, over - by * tilt, height)[end] * stance.length_mm
-        for by in (0.0, -stance.ground_sd, stance.ground_sd)
+        for by in (0.0, -stance.level_sd, stance.level_sd)
     )
     under, above = (
         _low_stretch(place, over, height + by)[end] * stance.length_mm
         for by in (-ALONG.tread_noise, ALONG.tread_noise)
     )
     sd = max(0.5 * abs(above - under), ALONG.tread_least_sd_mm)
-    return MeasureValue(value, convention_sd=0.5 * abs(high - low), sd=sd)
+    return MeasureValue(value, convention_sd=ALONG.tread_open * 0.5 * abs(high - low), sd=sd)
 
 
 def _low_stretch(place: Floats, over: Floats, height: float) -> tuple[float, float]:

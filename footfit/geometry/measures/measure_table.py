@@ -13,13 +13,16 @@ from typing import NamedTuple
 import numpy as np
 
 from footfit.geometry.measures import girths, heights, lengths, widths
-from footfit.geometry.measures.landmarks import Shape
+from footfit.geometry.measures.landmarks import LANDMARKS, Shape
 from footfit.geometry.measures.measure_value import MeasureValue
+from footfit.geometry.stance.resting_tilt import RestingTilt, resting_tilt
 from footfit.number_words import plain
 
 BOTH, LAST = ("foot", "last"), ("last",)
 HEELS_MM = (15.0, 45.0, 75.0, 105.0)
 """The heels of lasts for which a trueness is stated; it is interpolated between them."""
+LEAST_TILT = 0.001
+"""Radians: a last that is turned by less rests on seat and tread as well as a scan tells."""
 
 
 class Trueness(NamedTuple):
@@ -66,6 +69,7 @@ class MeasureDefinition:
     differs: its surface is smoother. ``foot`` and ``last`` are the trueness of
     each kind (benchmarks/trueness.py). ``usual_mm`` in mm, or ``usual_share``
     over the length, is the range of the feet of a survey's 6,068 people [ansur2].
+    ``tilts``: of a last it is measured twice, in its frame and as it rests on seat and tread.
     """
 
     value_of: Callable[[Shape], MeasureValue]
@@ -77,6 +81,7 @@ class MeasureDefinition:
     usual_mm: tuple[float, float] | None = None
     usual_share: tuple[float, float] | None = None
     last_sd: float | None = None
+    tilts: bool = False
 
     @property
     def name(self) -> str:
@@ -87,8 +92,17 @@ class MeasureDefinition:
         """The measure of a shape: it is taken once, and kept with what was found on the shape."""
         taken: dict[str, MeasureValue] = vars(shape).setdefault("taken", {})
         if self.name not in taken:
-            taken[self.name] = self.value_of(shape)
+            value = self.value_of(shape)
+            taken[self.name] = self._with_tilt(shape, value) if self.tilts else value
         return taken[self.name]
+
+    def _with_tilt(self, shape: Shape, value: MeasureValue) -> MeasureValue:
+        """A value, with what it changes by if a last lies on seat and tread."""
+        rests = at_rest(shape)
+        there = MeasureValue(None) if rests is None else self.value_of(rests)
+        if value.value is None or there.value is None:
+            return value
+        return value._replace(tilt_mm=there.value - value.value)
 
     @property
     def definition_id(self) -> str:
@@ -156,10 +170,20 @@ MEASURES: tuple[MeasureDefinition, ...] = (
         usual_share=(0.77, 1.10),
     ),
     MeasureDefinition(
-        girths.waist_girth, 3, 0.3, foot=off(-0.29, 0.29), last=off(-0.46, 0.60, 0.54, 0.67, 0.62)
+        girths.waist_girth,
+        3,
+        0.3,
+        foot=off(-0.29, 0.29),
+        last=off(-0.46, 0.60, 0.54, 0.67, 0.62),
+        tilts=True,
     ),
     MeasureDefinition(
-        girths.instep_girth, 3, 0.3, foot=off(-0.15, 0.39), last=off(-0.37, 0.34, 0.64, 0.59, 0.68)
+        girths.instep_girth,
+        3,
+        0.3,
+        foot=off(-0.15, 0.39),
+        last=off(-0.37, 0.34, 0.64, 0.59, 0.68),
+        tilts=True,
     ),
     MeasureDefinition(
         girths.long_heel_girth,
@@ -167,6 +191,7 @@ MEASURES: tuple[MeasureDefinition, ...] = (
         0.4,
         foot=off(-0.28, 0.56),
         last=off(-0.33, 0.94, 0.36, 0.27, 0.15),
+        tilts=True,
     ),
     MeasureDefinition(
         girths.short_heel_girth,
@@ -190,6 +215,7 @@ MEASURES: tuple[MeasureDefinition, ...] = (
         0.3,
         foot=off(0.04, 0.00),
         last=off(-0.14, 0.64, 0.23, 0.46, 0.59),
+        tilts=True,
     ),
     MeasureDefinition(
         girths.instep_girth_least,
@@ -198,6 +224,7 @@ MEASURES: tuple[MeasureDefinition, ...] = (
         last_sd=0.25,
         foot=off(0.07, 0.22),
         last=off(0.03, 0.43, 0.12, 0.00, 0.20),
+        tilts=True,
     ),
     MeasureDefinition(
         girths.heel_girth_instep,
@@ -206,6 +233,7 @@ MEASURES: tuple[MeasureDefinition, ...] = (
         last_sd=0.55,
         foot=off(0.24, 0.49),
         last=off(-0.30, 1.48, 0.64, 0.46, 0.69),
+        tilts=True,
     ),
     MeasureDefinition(
         widths.heel_width,
@@ -217,7 +245,12 @@ MEASURES: tuple[MeasureDefinition, ...] = (
         usual_share=(0.19, 0.35),
     ),
     MeasureDefinition(
-        heights.arch_height, 1, 0.2, foot=off(-0.41, 0.60), last=off(0.13, 1.02, 0.34, 0.00, 0.06)
+        heights.arch_height,
+        1,
+        0.2,
+        foot=off(-0.41, 0.60),
+        last=off(0.13, 1.02, 0.34, 0.00, 0.06),
+        tilts=True,
     ),
     MeasureDefinition(
         heights.instep_height,
@@ -226,6 +259,7 @@ MEASURES: tuple[MeasureDefinition, ...] = (
         last_sd=0.2,
         foot=off(-0.51, 0.79),
         last=off(0.10, 0.75, 0.18, 0.14, 0.30),
+        tilts=True,
     ),
     MeasureDefinition(
         heights.toe_height, 1, 0.25, foot=off(-0.12, 0.20), last=off(0.10, 0.21, 0.33, 0.32, 0.44)
@@ -255,6 +289,31 @@ MEASURES: tuple[MeasureDefinition, ...] = (
     MeasureDefinition(lengths.tread_to, 1, 2.0, LAST, last=off(-0.31, 5.55, 3.71, 0.00, 0.84)),
     MeasureDefinition(heights.seat_angle_deg, 1, 0.4, LAST, last=off(0.03, 0.00, 0.31, 0.08, 0.55)),
 )
+
+
+def at_rest(shape: Shape) -> Shape | None:
+    """A last as it rests on its seat and its tread; None of a foot and of an open bottom.
+
+    Its standing pose stays.
+    """
+    if shape.kind == "foot" or shape.stance is None:
+        return None
+    if "at_rest" not in vars(shape):
+        waist_mm = shape.x_mm(LANDMARKS.waist)
+        tilt = resting_tilt(shape.vertices_mm, shape.low, waist_mm, shape.length_mm)
+        vars(shape)["at_rest"] = (
+            _laid(shape, tilt) if tilt is not None and abs(tilt.angle) > LEAST_TILT else None
+        )
+    rests: Shape | None = vars(shape)["at_rest"]
+    return rests
+
+
+def _laid(shape: Shape, tilt: RestingTilt) -> Shape:
+    """A last, turned in the side view until it rests on its seat and its tread."""
+    assert shape.stance is not None
+    rests = Shape(tilt.levelled(shape.vertices_mm), shape.faces, shape.kind, shape.labels)
+    vars(rests)["stance"] = shape.stance.turned(tilt.angle, tilt.height_mm)
+    return rests
 
 
 def measure_named(name: str) -> MeasureDefinition:

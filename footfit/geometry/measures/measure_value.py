@@ -23,12 +23,15 @@ class MeasureValue(NamedTuple):
     ``convention_sd`` is how much the value would vary with what this very shape leaves open, such
     as the ground that a last stands on. It is no repeatability. ``sd`` is the repeatability, where
     it depends on the shape: where a flat tread ends is less sure than where a crisp one does.
+    ``tilt_mm`` is how much the value changes if a last lies on seat and tread instead of on its
+    sole plane.
     """
 
     value: float | None
     reason: str | None = None
     convention_sd: float = 0.0
     sd: float | None = None
+    tilt_mm: float = 0.0
 
 
 def no_ball(shape: Shape) -> MeasureValue:

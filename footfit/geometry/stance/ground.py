@@ -90,6 +90,12 @@ class GroundSettings:
     near_sd_deg: float = 0.5
     near_level_deg: float = 2.5
     fit_doubt: float = 4.0
+    level_break_deg: float = 4.0
+    level_behind: float = 0.12
+    level_reach: float = 0.05
+    level_deg: float = 1.0
+    level_doubt: float = 9.0
+    level_least_deg: float = 0.25
 
 
 GROUND = GroundSettings()
@@ -98,11 +104,15 @@ _TIP = 0.94  # the toe spring is read at this place
 
 @dataclass(frozen=True, slots=True)
 class BottomCues:
-    """The ground by the tread and by the whole bottom, and the middle line cut close to both."""
+    """The ground by the tread and by the whole bottom, and the middle line cut close to both.
+
+    ``level_sd`` (radians) is how sure the shape of this very tread makes its level.
+    """
 
     tread: Cue
     bottom: Cue
     line: MiddleLine
+    level_sd: float
 
 
 def bottom_cues(
@@ -121,10 +131,12 @@ def bottom_cues(
     if rough is None or line is None or bottom is None:
         return None
     fit = _fit(lambda _: bottom, rough.ground, rough.parameters, settings)
-    tread = None if fit is None else _near_slope(line, fit.ground, settings)
-    if fit is None or tread is None:
+    near = None if fit is None else _near_slope(line, fit.ground, settings)
+    if fit is None or near is None:
         return None
-    return BottomCues(tread, Cue("bottom", fit.ground, settings.fit_doubt * fit.ground_sd), line)
+    tread, level_sd = near
+    whole = Cue("bottom", fit.ground, settings.fit_doubt * fit.ground_sd)
+    return BottomCues(tread, whole, line, level_sd)
 
 
 @dataclass
@@ -214,8 +226,10 @@ def _fit(
     return fit
 
 
-def _near_slope(line: MiddleLine, ground: float, settings: GroundSettings) -> Cue | None:
-    """The mean slope near the tread's usual place."""
+def _near_slope(
+    line: MiddleLine, ground: float, settings: GroundSettings
+) -> tuple[Cue, float] | None:
+    """The mean slope near the tread's usual place, and how sure the tread's level is."""
     arc = np.linspace(*settings.near_window, settings.near_samples)
     bottom = sloped(line, arc, settings.near_bandwidth)
     if bottom is None:
@@ -224,10 +238,31 @@ def _near_slope(line: MiddleLine, ground: float, settings: GroundSettings) -> Cu
     if smooth is None:
         return None
     bend = np.gradient(smooth.slope, arc)
-    off = (bottom.places(ground) - TREAD_FIT.tread[0]) / settings.near_reach
-    weight = np.exp(-0.5 * (off**2 + (bend / settings.near_bend) ** 2))
+    off = bottom.places(ground) - TREAD_FIT.tread[0]
+    weight = np.exp(-0.5 * ((off / settings.near_reach) ** 2 + (bend / settings.near_bend) ** 2))
     weight /= weight.sum()
     mean = float(weight @ bottom.slope)
     spread = float(np.sqrt(weight @ (bottom.slope - mean) ** 2))
     uneven = spread * min(1.0, spread / np.radians(settings.near_level_deg))
-    return Cue("tread", mean, float(np.hypot(np.radians(settings.near_sd_deg), uneven)))
+    cue = Cue("tread", mean, float(np.hypot(np.radians(settings.near_sd_deg), uneven)))
+    return cue, _level_sd(off, bottom.slope - mean, settings)
+
+
+def _level_sd(off: Floats, slope: Floats, settings: GroundSettings) -> float:
+    """How sure the level of a tread is, radians.
+
+    Parameters
+    ----------
+    off : (k,)
+        Places along the bottom, from the tread's usual one, over the length.
+    slope : (k,)
+        From the ground, radians.
+    """
+    steep = off[(off < 0.0) & (slope < -np.radians(settings.level_break_deg))]
+    behind = float(min(-steep.max(initial=-np.inf), settings.level_behind))
+    by_slope = slope / np.radians(settings.level_deg)
+    weight = np.exp(-0.5 * ((off / settings.level_reach) ** 2 + by_slope**2))
+    uneven = float(np.sqrt(weight @ slope**2 / weight.sum()))
+    return float(
+        np.hypot(np.radians(settings.level_least_deg), settings.level_doubt * behind * uneven)
+    )

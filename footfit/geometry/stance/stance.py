@@ -7,7 +7,7 @@ stands on its heel with its tread level. A label decides how; else the shape of 
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -15,7 +15,7 @@ from footfit.geometry.numeric.arrays import Floats, Ints
 from footfit.geometry.numeric.smoothing import local_quadratic
 from footfit.geometry.stance.cues import NO_LABELS, Cue, StanceLabels, combined
 from footfit.geometry.stance.ground import BottomCues, bottom_cues
-from footfit.geometry.stance.middle_line import MiddleLine, low_points, middle_line
+from footfit.geometry.stance.middle_line import MiddleLine, low_points, middle_line, turned
 
 
 @dataclass(frozen=True, slots=True)
@@ -89,6 +89,9 @@ class Stance:
         What the ground is by: a foot's contact plane, a last's shape, or its label.
     cues : tuple of Cue
         What each cue says of a last's ground; the shape's mean is among them.
+    level_sd : float
+        How far the ground may be from where this very tread lies level, radians; with a label, the
+        standard deviation of what the label says. ``ground_sd`` also holds how lasts differ.
     """
 
     ground: float
@@ -99,6 +102,7 @@ class Stance:
     middle_mm: Floats
     decided_by: str = "contact"
     cues: tuple[Cue, ...] = ()
+    level_sd: float = 0.0
 
     @property
     def standing_transform(self) -> Floats:
@@ -114,6 +118,19 @@ class Stance:
         result[0, 3], result[2, 3] = -self.rear_mm, sine * x_mm - cosine * z_mm
         return result
 
+    def turned(self, angle: float, height_mm: float) -> Stance:
+        """The same stance beside a resting frame that is turned by an angle (radians, + lowers
+        what lies in front) and then lowered by a height.
+        """
+        ground = self.ground - angle
+        x, _, z = turned(np.array([[self.touching_mm[0], 0.0, self.touching_mm[1]]]), angle)[0]
+        return replace(
+            self,
+            ground=ground,
+            touching_mm=(float(x), float(z) - height_mm),
+            rear_mm=self.rear_mm - height_mm * float(np.sin(ground)),
+        )
+
     def height_sd_mm(self, place_mm: float) -> float:
         """The standard deviation of a height at a place along the ground, by that of the ground.
 
@@ -122,6 +139,10 @@ class Stance:
         if self.decided_by == "contact":
             return 0.0
         return float(np.hypot((place_mm - self.touching_x_mm) * self.ground_sd, LINE_SD_MM))
+
+    def level_sd_mm(self, place_mm: float) -> float:
+        """How sure a height at a place along the ground is, by how sure the tread's level is."""
+        return abs(place_mm - self.touching_x_mm) * self.level_sd
 
     @property
     def touching_x_mm(self) -> float:
@@ -215,8 +236,8 @@ def stance_of(
     cues = _shape_cues(last, bottom)
     label = _label_cue(last, labels, cues[-1].ground)
     if label is None:
-        return last.on(cues[-1], "shape", cues)
-    return last.on(label, "label", (*cues, label))
+        return replace(last.on(cues[-1], "shape", cues), level_sd=bottom.level_sd)
+    return replace(last.on(label, "label", (*cues, label)), level_sd=label.sd)
 
 
 @dataclass

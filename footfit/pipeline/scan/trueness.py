@@ -21,9 +21,6 @@ SCANNER_SD_MM = {  # lengths, widths and heights, girths
     "photos": {"length": 6.0, "width": 4.0, "height": 4.0, "girth": 8.0},
 }
 """What is assumed of a kind of scanner; no source gives heights, which get what widths have."""
-OPEN_SHARE = 0.7
-"""Of the standard deviation of what a shape leaves open: what was measured on two families of lasts
-is that much of what the stance states for lasts of all kinds (decision 0200)."""
 STEP_SHARE = {"length": 0.45, "width": 0.45, "height": 0.45, "girth": 0.65}
 """The standard deviation by the step of a file's coordinates, over the step (decision 0184)."""
 
@@ -50,9 +47,14 @@ def measured(
     if taken.value is None:
         return Measured(None, reason=taken.reason)
     trueness = entry.trueness(kind)
-    open_sd = OPEN_SHARE * taken.convention_sd
     sd = entry.sd_of(kind) if taken.sd is None else taken.sd
-    parts = (sd, trueness.sd_at(heel_mm), open_sd, scan_sd_mm(entry.name, info))
+    parts = (
+        sd,
+        trueness.sd_at(heel_mm),
+        taken.convention_sd,
+        taken.tilt_mm,
+        scan_sd_mm(entry.name, info),
+    )
     total_sd = math.hypot(*parts)
     return Measured(taken.value, sd, None, total_sd, trueness.bias)
 

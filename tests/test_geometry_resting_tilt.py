@@ -1,0 +1,77 @@
+"""How a low last rests on a table, how sure its tread is level, and what measures make of both."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from footfit.geometry.measures.landmarks import Shape
+from footfit.geometry.measures.measure_table import at_rest, measure_named
+from footfit.geometry.numeric.arrays import Floats, Ints
+from footfit.geometry.stance.middle_line import turned
+from tools.last_specs import LastSpec
+from tools.lasts import last_mesh
+from tools.resting import at_rest as laid_down
+
+SMALL = {"rings": 90, "segments": 64}
+LOW = LastSpec(level_tread=True, **SMALL)
+TILT_DEG = 0.1  # of the angle of a last's resting line; measured: .03
+TILTED_MM = 0.2  # of a height over that line; measured: .1
+SAME_MM = 0.02  # of a height over the ground; measured: .001
+
+
+@pytest.fixture(scope="module")
+def low() -> Shape:
+    """A low last on its resting line, turned from there by a degree: its toes are lowered."""
+    vertices, faces = straight_mesh()
+    return Shape(turned(vertices, np.radians(1.0)), faces, "last")
+
+
+def straight_mesh() -> tuple[Floats, Ints]:
+    """A low last on the longest lower edge of its side view."""
+    vertices, faces = last_mesh(LOW)
+    return laid_down(vertices)[0], faces
+
+
+def test_a_last_that_was_turned_is_turned_back(low: Shape) -> None:
+    rests = at_rest(low)
+    assert rests is not None
+    heel = np.argmin(low.vertices_mm[:, 0])
+    toe = np.argmax(low.vertices_mm[:, 0])
+    off = [shape.vertices_mm[toe] - shape.vertices_mm[heel] for shape in (low, rests)]
+    angles = [np.degrees(np.arctan2(z, x)) for x, _, z in off]
+    assert angles[1] - angles[0] == pytest.approx(1.0, abs=TILT_DEG)
+
+
+def test_what_a_height_would_change_by_is_told(low: Shape) -> None:
+    straight = Shape(*straight_mesh(), "last")
+    height = measure_named("instep_height")
+    value = height.taken_of(low)
+    assert value.value is not None
+    right_mm = height.value_of(straight).value
+    assert value.value + value.tilt_mm == pytest.approx(right_mm, abs=TILTED_MM)
+    assert abs(value.tilt_mm) > TILTED_MM
+
+
+def test_a_last_that_is_laid_down_stands_as_before(low: Shape) -> None:
+    rests = at_rest(low)
+    assert rests is not None
+    for name in ("heel_height", "toe_spring_tip", "bottom_length"):
+        before, after = (measure_named(name).value_of(shape).value for shape in (low, rests))
+        assert after == pytest.approx(before, abs=SAME_MM)
+
+
+def test_a_foot_rests_as_it_stands(low: Shape) -> None:
+    assert at_rest(Shape(low.vertices_mm, low.faces, "foot")) is None
+
+
+def test_the_level_of_a_tread_behind_a_crisp_break_is_surer() -> None:
+    level = []
+    for length in (0.05, 0.10, 0.20):
+        spec = replace(LOW, heel_height_mm=60.0, break_length=length)
+        stance = Shape(*last_mesh(spec), "last").stance
+        assert stance is not None
+        level.append(stance.level_sd)
+    assert level[0] < level[1] < level[2]
