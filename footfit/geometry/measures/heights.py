@@ -61,15 +61,10 @@ def toe_spring(shape: Shape) -> MeasureValue:
     middle_mm = float(section.points[:, 1].min() + 0.5 * np.ptp(section.points[:, 1]))
     if shape.unscanned(section, below_mm=middle_mm):
         return MeasureValue(None, UNSCANNED)
-    height_mm = shape.stance.over_ground_mm(*toe_bottom_mm(shape))
-    place_mm = shape.stance.along_ground_mm(*toe_bottom_mm(shape))
+    x_mm, z_mm = shape.x_mm(HEIGHTS.toe_spring), float(section.points[:, 1].min())
+    place_mm = shape.stance.along_ground_mm(x_mm, z_mm)
+    height_mm = shape.stance.over_ground_mm(x_mm, z_mm)
     return MeasureValue(height_mm, convention_sd=shape.stance.level_sd_mm(place_mm))
-
-
-def toe_bottom_mm(shape: Shape) -> tuple[float, float]:
-    """The place, x and z, whose height over the ground is the toe spring."""
-    lowest_mm = shape.across(HEIGHTS.toe_spring).points[:, 1].min(initial=np.inf)
-    return shape.x_mm(HEIGHTS.toe_spring), float(lowest_mm)
 
 
 def heel_height(shape: Shape) -> MeasureValue:

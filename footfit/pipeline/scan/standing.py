@@ -7,7 +7,7 @@ import math
 import numpy as np
 
 from footfit.errors import BadOption
-from footfit.geometry.measures.heights import HEIGHTS, heel_height, toe_bottom_mm, toe_spring
+from footfit.geometry.measures.heights import HEIGHTS, heel_height, toe_spring
 from footfit.geometry.measures.landmarks import Shape
 from footfit.geometry.measures.measure_table import measure_named
 from footfit.geometry.stance.cues import StanceLabels
@@ -50,30 +50,19 @@ def last_stance(shape: Shape, info: MeshInfo | None = None) -> LastStance | None
     stance = shape.stance
     if stance is None or shape.kind == "foot":
         return None
-<<<<<<< HEAD
     heel, spring = (
         measured(measure_named(name), value, shape.kind, shape.shape_heel_mm, info)
         for name, value in (("heel_height", heel_height(shape)), ("toe_spring", toe_spring(shape)))
     )
-=======
-    heel, spring = heel_height(shape), toe_spring(shape)
-    toe_mm = stance.along_ground_mm(*toe_bottom_mm(shape))
->>>>>>> e2696d15 (State how far a last is from resting on seat and tread, and how sure its tread's level is, in the uncertainty of its measures)
     return LastStance(
         decided_by=stance.decided_by,
         ground_deg=math.degrees(stance.ground),
         ground_sd_deg=math.degrees(stance.ground_sd),
         length_mm=stance.length_mm,
         heel_height_mm=heel.value,
-<<<<<<< HEAD
         heel_height_sd_mm=heel.total_sd,
         toe_spring_mm=spring.value,
         toe_spring_sd_mm=spring.total_sd,
-=======
-        heel_height_sd_mm=0.0 if heel.value is None else stance.height_sd_mm(0.0),
-        toe_spring_mm=spring.value,
-        toe_spring_sd_mm=0.0 if spring.value is None else stance.height_sd_mm(toe_mm),
->>>>>>> e2696d15 (State how far a last is from resting on seat and tread, and how sure its tread's level is, in the uncertainty of its measures)
         spring_per_heel=1.0 - HEIGHTS.toe_spring * shape.length_mm / stance.touching_x_mm,
         cues=tuple(
             GroundCue(cue.name, math.degrees(cue.ground), math.degrees(cue.sd))
