@@ -121,9 +121,9 @@ def _reading(case: Case) -> tuple[float, ...] | None:
         return None
     return (
         heel_mm - case.heel_mm,
-        by_shape.height_sd_mm(0.0),
+        by_shape.level_sd_mm(0.0),
         tip_mm - case.spring_mm,
-        by_label.height_sd_mm(by_label.length_mm),
+        by_label.level_sd_mm(by_label.length_mm),
     )
 
 

@@ -19,7 +19,7 @@ from footfit.geometry.numeric.arrays import Floats, Ints
 RATIO_SD = 0.13  # of the ratio of a cell of 40 lasts, in its logarithm
 SOFT = 0.25  # how softly an error over its total counts as more than 2
 UNLIKELY = 0.02  # no number serves every cell: one that is lost counts no more than this
-MISSED_COST = 20.0  # of each true value that a cell misses beyond what it may, over its number
+MISSED_COST = 10.0  # of each true value that a cell misses beyond what it may, over its number
 ALL_COST = 60.0  # the same, over all cells
 STARTS = (0.3, 0.7, 1.1)  # over the errors' root mean square
 

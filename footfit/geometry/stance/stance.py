@@ -61,8 +61,6 @@ class StanceSettings:
 STANCE = StanceSettings()
 SEAT_TO_TREAD = 0.62
 """From the seat to where the ground touches the tread, over the length, about."""
-LINE_SD_MM = 0.5
-"""How far a line that is drawn on from the bottom may pass the end that it is drawn to."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -131,17 +129,10 @@ class Stance:
             rear_mm=self.rear_mm - height_mm * float(np.sin(ground)),
         )
 
-    def height_sd_mm(self, place_mm: float) -> float:
-        """The standard deviation of a height at a place along the ground, by that of the ground.
-
-        It is 0 of a foot, which stands on the ground that it was scanned on.
-        """
-        if self.decided_by == "contact":
-            return 0.0
-        return float(np.hypot((place_mm - self.touching_x_mm) * self.ground_sd, LINE_SD_MM))
-
     def level_sd_mm(self, place_mm: float) -> float:
-        """How sure a height at a place along the ground is, by how sure the tread's level is."""
+        """The standard deviation of a height at a place along the ground, by how sure the tread's
+        level is. It is 0 of a foot, which stands on the ground that it was scanned on.
+        """
         return abs(place_mm - self.touching_x_mm) * self.level_sd
 
     @property
