@@ -8,6 +8,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from benchmarks.trueness import laid_down
 from footfit.errors import BadOption
 from footfit.geometry.measures.measure_table import HEELS_MM, MEASURES, measure_named, of_kind
 from footfit.geometry.measures.measure_value import MeasureValue
@@ -18,6 +19,7 @@ from tests.measure_peer import Drafted, true_measures
 from tests.scans import aligned, cleaned
 from tools.last_specs import LastSpec
 from tools.lasts import last_mesh, standing
+from tools.resting import pitched
 
 GIRTH = measure_named("ball_girth")
 
@@ -32,7 +34,8 @@ def test_every_measure_states_a_trueness_for_each_kind_and_heel() -> None:
 def test_the_squares_of_all_parts_are_added() -> None:
     trueness = GIRTH.last
     info = replace(answers.info(), step=0.4, scanner="phone")
-    value = measured(GIRTH, MeasureValue(240.0, convention_sd=0.7, tilt_mm=-0.2), "last", HEELS_MM[1], info)
+    taken = MeasureValue(240.0, convention_sd=0.7, tilt_mm=-0.2)
+    value = measured(GIRTH, taken, "last", HEELS_MM[1], info)
     scanner_sd = SCANNER_SD_MM["phone"]["girth"]
     parts = (GIRTH.sd, trueness.sd[1], 0.7, 0.2, 0.65 * 0.4, scanner_sd)
     assert value.total_sd == pytest.approx(math.hypot(*parts))
@@ -71,10 +74,11 @@ def test_true_values_lie_within_two_total_sd(heel_mm: float) -> None:
     place = (x - x[0]) / np.ptp(x)
     seat = (place >= 0.06) & (place <= 0.14)
     heel = np.polyfit(x[seat] - x[0], z[seat] - z.min(), 1)[1]
-    fine = last_mesh(replace(spec, rings=120, segments=90))
-    pitch = float(np.radians(drafted.pitch_deg))
+    vertices, faces = last_mesh(replace(spec, rings=120, segments=90))
+    stands = pitched(vertices, float(np.radians(drafted.pitch_deg)))
+    resting, pitch = laid_down(stands, faces)
     planted = {"heel_height": float(heel), "toe_spring_tip": drafted.tip_mm}
-    truth = true_measures(Drafted(*fine, "last", pitch, planted))
+    truth = true_measures(Drafted(resting, faces, "last", pitch, planted))
     rows = scan_measures(aligned(cleaned(*last_mesh(spec)), side="right").prepared)
     values = {row.name: row.measured for row in rows}
     assert set(truth) == {entry.name for entry in MEASURES}

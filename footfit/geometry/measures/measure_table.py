@@ -15,7 +15,7 @@ import numpy as np
 from footfit.geometry.measures import girths, heights, lengths, widths
 from footfit.geometry.measures.landmarks import LANDMARKS, Shape
 from footfit.geometry.measures.measure_value import MeasureValue
-from footfit.geometry.stance.resting_tilt import RestingTilt, resting_tilt
+from footfit.geometry.stance.resting_tilt import resting_tilt
 from footfit.number_words import plain
 
 BOTH, LAST = ("foot", "last"), ("last",)
@@ -124,7 +124,7 @@ MEASURES: tuple[MeasureDefinition, ...] = (
         3,
         0.25,
         foot=off(-0.31, 0.35),
-        last=off(-0.11, 0.00, 0.13, 0.24, 0.23),
+        last=off(-0.12, 0.03, 0.17, 0.29, 0.18),
         usual_mm=(200.0, 310.0),
     ),
     MeasureDefinition(
@@ -132,7 +132,7 @@ MEASURES: tuple[MeasureDefinition, ...] = (
         2,
         0.25,
         foot=off(-0.31, 0.37),
-        last=off(-0.13, 0.00, 0.19, 0.27, 0.25),
+        last=off(-0.15, 0.00, 0.18, 0.31, 0.25),
     ),
     MeasureDefinition(
         lengths.ball_length,
@@ -140,7 +140,7 @@ MEASURES: tuple[MeasureDefinition, ...] = (
         0.45,
         last_sd=0.6,
         foot=off(0.79, 0.92),
-        last=off(0.04, 1.43, 1.07, 1.43, 3.01),
+        last=off(0.04, 1.34, 0.92, 1.37, 2.14),
         usual_share=(0.66, 0.80),
     ),
     MeasureDefinition(
@@ -149,7 +149,7 @@ MEASURES: tuple[MeasureDefinition, ...] = (
         0.25,
         last_sd=0.15,
         foot=off(-0.22, 0.39),
-        last=off(-0.03, 0.26, 0.35, 0.32, 0.60),
+        last=off(-0.03, 0.25, 0.32, 0.24, 0.65),
         usual_share=(0.31, 0.46),
     ),
     MeasureDefinition(
@@ -158,7 +158,7 @@ MEASURES: tuple[MeasureDefinition, ...] = (
         0.2,
         last_sd=0.15,
         foot=off(-0.35, 0.42),
-        last=off(-0.13, 0.28, 0.22, 0.30, 0.25),
+        last=off(-0.13, 0.20, 0.20, 0.29, 0.12),
         usual_share=(0.31, 0.46),
     ),
     MeasureDefinition(
@@ -166,7 +166,7 @@ MEASURES: tuple[MeasureDefinition, ...] = (
         3,
         0.5,
         foot=off(-0.67, 1.04),
-        last=off(-0.02, 0.29, 0.61, 0.76, 1.02),
+        last=off(-0.07, 0.35, 0.74, 0.45, 1.09),
         usual_share=(0.77, 1.10),
     ),
     MeasureDefinition(
@@ -174,7 +174,7 @@ MEASURES: tuple[MeasureDefinition, ...] = (
         3,
         0.3,
         foot=off(-0.29, 0.29),
-        last=off(-0.46, 0.60, 0.54, 0.67, 0.62),
+        last=off(-0.37, 0.25, 0.49, 0.54, 0.67),
         tilts=True,
     ),
     MeasureDefinition(
@@ -182,7 +182,7 @@ MEASURES: tuple[MeasureDefinition, ...] = (
         3,
         0.3,
         foot=off(-0.15, 0.39),
-        last=off(-0.37, 0.34, 0.64, 0.59, 0.68),
+        last=off(-0.39, 0.14, 0.49, 0.58, 0.61),
         tilts=True,
     ),
     MeasureDefinition(
@@ -190,7 +190,7 @@ MEASURES: tuple[MeasureDefinition, ...] = (
         3,
         0.4,
         foot=off(-0.28, 0.56),
-        last=off(-0.33, 0.94, 0.36, 0.27, 0.15),
+        last=off(-0.51, 0.81, 0.78, 0.11, 0.56),
         tilts=True,
     ),
     MeasureDefinition(
@@ -199,7 +199,7 @@ MEASURES: tuple[MeasureDefinition, ...] = (
         0.35,
         last_sd=0.8,
         foot=off(-0.37, 0.40),
-        last=off(-0.63, 0.42, 0.34, 0.65, 1.65),
+        last=off(-0.52, 0.97, 0.43, 0.00, 1.65),
         usual_share=(1.12, 1.47),
     ),
     MeasureDefinition(
@@ -207,14 +207,14 @@ MEASURES: tuple[MeasureDefinition, ...] = (
         2,
         0.5,
         foot=off(-0.26, 0.72),
-        last=off(0.36, 0.20, 0.71, 1.00, 0.73),
+        last=off(0.34, 0.35, 0.62, 0.69, 1.06),
     ),
     MeasureDefinition(
         girths.waist_girth_least,
         3,
         0.3,
         foot=off(0.04, 0.00),
-        last=off(-0.14, 0.64, 0.23, 0.46, 0.59),
+        last=off(-0.15, 0.44, 0.23, 0.43, 0.45),
         tilts=True,
     ),
     MeasureDefinition(
@@ -223,7 +223,7 @@ MEASURES: tuple[MeasureDefinition, ...] = (
         0.3,
         last_sd=0.25,
         foot=off(0.07, 0.22),
-        last=off(0.03, 0.43, 0.12, 0.00, 0.20),
+        last=off(0.01, 0.20, 0.12, 0.22, 0.17),
         tilts=True,
     ),
     MeasureDefinition(
@@ -232,7 +232,7 @@ MEASURES: tuple[MeasureDefinition, ...] = (
         0.45,
         last_sd=0.55,
         foot=off(0.24, 0.49),
-        last=off(-0.30, 1.48, 0.64, 0.46, 0.69),
+        last=off(-0.28, 0.74, 0.57, 0.33, 0.73),
         tilts=True,
     ),
     MeasureDefinition(
@@ -241,7 +241,7 @@ MEASURES: tuple[MeasureDefinition, ...] = (
         0.2,
         last_sd=0.1,
         foot=off(-0.07, 0.25),
-        last=off(-0.03, 0.14, 0.14, 0.14, 0.15),
+        last=off(-0.02, 0.13, 0.15, 0.16, 0.10),
         usual_share=(0.19, 0.35),
     ),
     MeasureDefinition(
@@ -249,7 +249,7 @@ MEASURES: tuple[MeasureDefinition, ...] = (
         1,
         0.2,
         foot=off(-0.41, 0.60),
-        last=off(0.13, 1.02, 0.34, 0.00, 0.06),
+        last=off(0.18, 0.00, 0.17, 0.00, 0.04),
         tilts=True,
     ),
     MeasureDefinition(
@@ -258,11 +258,11 @@ MEASURES: tuple[MeasureDefinition, ...] = (
         0.25,
         last_sd=0.2,
         foot=off(-0.51, 0.79),
-        last=off(0.10, 0.75, 0.18, 0.14, 0.30),
+        last=off(0.12, 0.22, 0.19, 0.19, 0.25),
         tilts=True,
     ),
     MeasureDefinition(
-        heights.toe_height, 1, 0.25, foot=off(-0.12, 0.20), last=off(0.10, 0.21, 0.33, 0.32, 0.44)
+        heights.toe_height, 1, 0.25, foot=off(-0.12, 0.20), last=off(0.10, 0.24, 0.24, 0.26, 0.37)
     ),
     MeasureDefinition(
         heights.toe_spring,
@@ -270,47 +270,46 @@ MEASURES: tuple[MeasureDefinition, ...] = (
         0.2,
         last_sd=0.25,
         foot=off(-0.18, 0.55),
-        last=off(-0.15, 0.00, 0.60, 0.06, 0.46),
+        last=off(-0.16, 0.20, 0.00, 0.02, 0.31),
     ),
-    MeasureDefinition(heights.heel_height, 3, 0.5, last=off(-0.28, 0.00, 0.98, 0.00, 0.18)),
+    MeasureDefinition(heights.heel_height, 3, 0.5, last=off(-0.29, 0.84, 0.21, 0.00, 0.00)),
     MeasureDefinition(
-        widths.bottom_width_ball, 2, 0.3, LAST, last=off(0.22, 0.29, 0.26, 0.29, 0.35)
+        widths.bottom_width_ball, 2, 0.3, LAST, last=off(0.21, 0.29, 0.40, 0.27, 0.28)
     ),
     MeasureDefinition(
-        widths.bottom_width_heel, 2, 0.2, LAST, last=off(-0.03, 0.00, 0.00, 0.00, 0.03)
+        widths.bottom_width_heel, 2, 0.2, LAST, last=off(-0.02, 0.00, 0.00, 0.00, 0.06)
     ),
-    MeasureDefinition(lengths.tape_length, 3, 0.3, LAST, last=off(-0.26, 0.00, 0.57, 0.64, 0.45)),
-    MeasureDefinition(lengths.stick_length, 2, 0.3, LAST, last=off(-0.18, 0.23, 0.44, 0.60, 1.13)),
-    MeasureDefinition(lengths.bottom_length, 2, 0.35, LAST, last=off(0.15, 0.62, 0.38, 0.34, 0.78)),
+    MeasureDefinition(lengths.tape_length, 3, 0.3, LAST, last=off(-0.25, 0.09, 0.39, 0.47, 0.48)),
+    MeasureDefinition(lengths.stick_length, 2, 0.3, LAST, last=off(-0.19, 0.19, 0.28, 0.36, 0.53)),
+    MeasureDefinition(lengths.bottom_length, 2, 0.35, LAST, last=off(0.17, 0.39, 0.51, 0.32, 0.66)),
     MeasureDefinition(
-        heights.toe_spring_tip, 1, 0.45, LAST, last=off(0.19, 0.41, 0.80, 0.92, 0.00)
+        heights.toe_spring_tip, 1, 0.45, LAST, last=off(-0.03, 0.61, 0.35, 0.10, 0.00)
     ),
-    MeasureDefinition(lengths.tread_from, 1, 2.0, LAST, last=off(0.92, 2.42, 1.49, 2.17, 0.00)),
-    MeasureDefinition(lengths.tread_to, 1, 2.0, LAST, last=off(-0.31, 5.55, 3.71, 0.00, 0.84)),
-    MeasureDefinition(heights.seat_angle_deg, 1, 0.4, LAST, last=off(0.03, 0.00, 0.31, 0.08, 0.55)),
+    MeasureDefinition(lengths.tread_from, 1, 2.0, LAST, last=off(0.93, 1.42, 0.00, 0.89, 0.15)),
+    MeasureDefinition(lengths.tread_to, 1, 2.0, LAST, last=off(-0.40, 5.13, 3.14, 2.38, 0.00)),
+    MeasureDefinition(heights.seat_angle_deg, 1, 0.4, LAST, last=off(0.04, 0.36, 0.10, 0.00, 0.00)),
 )
 
 
 def at_rest(shape: Shape) -> Shape | None:
-    """A last as it rests on its seat and its tread; None of a foot and of an open bottom.
+    """A last as it rests on its seat and its tread; how it stands stays. It is kept.
 
-    Its standing pose stays.
+    None if it rests there already, of a foot, and of an open bottom.
     """
+    kept: dict[str, Shape | None] = vars(shape)
+    if "at_rest" not in kept:
+        kept["at_rest"] = _laid_down(shape)
+    return kept["at_rest"]
+
+
+def _laid_down(shape: Shape) -> Shape | None:
+    """A last, turned in the side view until it rests on its seat and its tread."""
     if shape.kind == "foot" or shape.stance is None:
         return None
-    if "at_rest" not in vars(shape):
-        waist_mm = shape.x_mm(LANDMARKS.waist)
-        tilt = resting_tilt(shape.vertices_mm, shape.low, waist_mm, shape.length_mm)
-        vars(shape)["at_rest"] = (
-            _laid(shape, tilt) if tilt is not None and abs(tilt.angle) > LEAST_TILT else None
-        )
-    rests: Shape | None = vars(shape)["at_rest"]
-    return rests
-
-
-def _laid(shape: Shape, tilt: RestingTilt) -> Shape:
-    """A last, turned in the side view until it rests on its seat and its tread."""
-    assert shape.stance is not None
+    waist_mm = shape.x_mm(LANDMARKS.waist)
+    tilt = resting_tilt(shape.vertices_mm, shape.low, waist_mm, shape.length_mm)
+    if tilt is None or abs(tilt.angle) < LEAST_TILT:
+        return None
     rests = Shape(tilt.levelled(shape.vertices_mm), shape.faces, shape.kind, shape.labels)
     vars(rests)["stance"] = shape.stance.turned(tilt.angle, tilt.height_mm)
     return rests

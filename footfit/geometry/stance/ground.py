@@ -191,7 +191,7 @@ def _is_sound(fit: TreadFit, trials: _Trials, settings: GroundSettings) -> bool:
     if bottom is None or _spring(fit, trials) > settings.most_spring:
         return False
     tread = _near_slope(bottom.line, fit.ground, settings)
-    return tread is not None and tread.sd < np.radians(settings.most_uneven_deg)
+    return tread is not None and tread[0].sd < np.radians(settings.most_uneven_deg)
 
 
 def _spring(fit: TreadFit, trials: _Trials) -> float:
