@@ -7,7 +7,7 @@ import io
 import os
 import subprocess
 import sys
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from typing import Any
 
 import numpy as np
@@ -54,6 +54,84 @@ def brep_model(patches: Patches, unit: str = "Millimeters") -> bytes:
     np.savez(memory, **arrays)
     command = [sys.executable, "-m", "tests.rhino_models", unit]
     return subprocess.run(command, input=memory.getvalue(), capture_output=True, check=True).stdout
+
+
+RADIUS_MM, HEIGHT_MM = 40.0, 250.0
+
+
+def grid(u_count: int, v_count: int, place: Callable[..., Any]) -> tuple[np.ndarray, np.ndarray]:
+    """A render mesh of quads as Rhino makes it: a seam has its vertices twice, a pole many times.
+
+    ``place`` takes ``u`` and ``v`` from 0 to 1, both included.
+    """
+    u, v = np.meshgrid(np.linspace(0, 1, u_count), np.linspace(0, 1, v_count), indexing="ij")
+    number = np.arange(u.size).reshape(u.shape)
+    corners = number[:-1, :-1], number[1:, :-1], number[1:, 1:], number[:-1, 1:]
+    return np.stack(place(u, v), axis=2).reshape(-1, 3), np.stack(corners, axis=2).reshape(-1, 4)
+
+
+def around(u: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """The unit circle, once around; it ends where it began, to the bit."""
+    turn = 2.0 * np.pi * (u % 1.0)
+    return np.cos(turn), np.sin(turn)
+
+
+def render_meshes(kind: str) -> Patches:
+    """The render meshes of a whole solid; the caps of a cylinder are coarser than its side.
+
+    An extrusion has one mesh for all its faces, whose edges Rhino divides alike.
+    """
+    if kind == "sphere":
+
+        def ball(u: np.ndarray, v: np.ndarray) -> tuple[np.ndarray, ...]:
+            (x, y), ring = around(u), np.sin(np.pi * v) * (v % 1.0 > 0.0)
+            return RADIUS_MM * ring * x, RADIUS_MM * ring * y, -RADIUS_MM * np.cos(np.pi * v)
+
+        return [grid(49, 25, ball)]
+
+    def side(u: np.ndarray, v: np.ndarray) -> tuple[np.ndarray, ...]:
+        x, y = around(u)
+        return RADIUS_MM * x, RADIUS_MM * y, HEIGHT_MM * v
+
+    def cap(up: float) -> tuple[np.ndarray, np.ndarray]:
+        def disc(u: np.ndarray, v: np.ndarray) -> tuple[np.ndarray, ...]:
+            x, y = around(u)
+            outward = 1.0 - v if up else v
+            return RADIUS_MM * outward * x, RADIUS_MM * outward * y, np.full_like(u, up * HEIGHT_MM)
+
+        return grid(65 if kind == "extrusion" else 41, 4, disc)
+
+    return [grid(65, 9, side), cap(0.0), cap(1.0)]
+
+
+def solid(kind: str) -> Any:
+    """A sphere, a cylinder or an extrusion that rhino3dm itself made, with its render meshes."""
+    origin = rhino3dm.Point3d(0, 0, 0)
+    circle = rhino3dm.Circle(origin, RADIUS_MM)
+    meshes = [mesh(*patch) for patch in render_meshes(kind)]
+    KEPT.extend(meshes)
+    if kind == "extrusion":
+        made = rhino3dm.Extrusion.Create(circle.ToNurbsCurve(), HEIGHT_MM, True)
+        for part in meshes[1:]:
+            meshes[0].Append(part)
+        made.SetMesh(meshes[0], rhino3dm.MeshType.Render)
+    elif kind == "cylinder":
+        whole = rhino3dm.Cylinder(circle, HEIGHT_MM)
+        made = rhino3dm.Brep.CreateFromCylinder(whole, True, True)
+    else:
+        made = rhino3dm.Brep.CreateFromSphere(rhino3dm.Sphere(origin, RADIUS_MM))
+    if kind != "extrusion":
+        assert len(made.Faces) == len(meshes)
+        for index, part in enumerate(meshes):
+            made.Faces[index].SetMesh(part, rhino3dm.MeshType.Render)
+    KEPT.append(made)
+    return made
+
+
+def solid_model(kind: str) -> bytes:
+    """A ``.3dm`` with a solid, made in a process that ends without clearing up."""
+    command = [sys.executable, "-m", "tests.rhino_models", "solid", kind]
+    return subprocess.run(command, capture_output=True, check=True).stdout
 
 
 def attributes(layer: int = -1, *, visible: bool = True) -> Any:
@@ -126,9 +204,13 @@ def hidden_model() -> bytes:
 
 
 def main() -> None:
-    with np.load(io.BytesIO(sys.stdin.buffer.read())) as arrays:
-        patches = [(arrays[f"v{k}"], arrays[f"f{k}"]) for k in range(len(arrays.files) // 2)]
-    sys.stdout.buffer.write(model(brep(patches), unit=sys.argv[1]))
+    if sys.argv[1] == "solid":
+        data = model(solid(sys.argv[2]))
+    else:
+        with np.load(io.BytesIO(sys.stdin.buffer.read())) as arrays:
+            patches = [(arrays[f"v{k}"], arrays[f"f{k}"]) for k in range(len(arrays.files) // 2)]
+        data = model(brep(patches), unit=sys.argv[1])
+    sys.stdout.buffer.write(data)
     sys.stdout.buffer.flush()
     os._exit(0)
 

@@ -128,6 +128,17 @@ def test_gaps_between_patches_are_closed(gap):
     assert signed_volume(raw.vertices, raw.faces) == pytest.approx(whole, rel=gap / 35.0)
 
 
+@pytest.mark.parametrize("kind", ["sphere", "cylinder", "extrusion"])
+def test_the_solids_of_rhino_are_read_by_their_render_meshes(kind):
+    """Seams have their vertices twice, poles many times, and caps other ones than the side."""
+    mesh = file_mesh(rhino.solid_model(kind), "solid.3dm").mesh
+    radius, height = rhino.RADIUS_MM, rhino.HEIGHT_MM
+    whole = 4.0 / 3.0 * radius if kind == "sphere" else height
+    assert is_closed(mesh.faces)
+    volume = signed_volume(mesh.vertices, mesh.faces)
+    assert volume == pytest.approx(np.pi * radius**2 * whole, rel=0.02)  # of chords: 0.002 to 0.01
+
+
 def test_a_wide_gap_stays_open():
     raw = read(rhino.brep_model(patches(3.0)))
     assert len(boundary_edges(raw.faces)) > 100
