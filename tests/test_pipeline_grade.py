@@ -204,6 +204,8 @@ def test_a_run_reaches_its_plan_and_is_stored_with_its_parentage(
     again = footfit(*command, "--catalogue", catalogue, "--store")
     assert again.code == 2
     assert "--force" in again.err
+    no_folder = footfit("grade-last", mesh, "--sizes", "42", "-o", tmp_path / "derby-43.stl")
+    assert (no_folder.code, "name a folder" in no_folder.err) == (2, True)
     base = folder / "derby-eu42-G.stl"
     kept, known = base.read_bytes(), ("--base-size", "42", "--size-system", "eu")
     own = footfit("grade-last", base, "--sizes", "42", *known, "--family", "derby", "-o", folder)
@@ -274,6 +276,8 @@ def test_what_cannot_be_planned_is_refused_in_words(tmp_path: Path) -> None:
             plan(sizes=sizes)
     with pytest.raises(OutOfReach, match="longer or shorter than any last"):
         footfit.grade(mesh, "62", **known)
+    with pytest.raises(BadOption, match="'forty', which is no number"):
+        footfit.grade(mesh, "42", size_system="eu", base_size="forty")
     with pytest.raises(BadOption, match="names no width"):
         plan(widths=" , ")
     with pytest.raises(UnreadableFile, match="no such file"):

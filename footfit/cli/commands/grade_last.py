@@ -76,6 +76,7 @@ def grade_last(
     )
     from footfit.cli.progress import progress
     from footfit.errors import BadOption
+    from footfit.pipeline.batch.sources import MESH_SUFFIXES
     from footfit.pipeline.graded_runs.grade_store import (
         RunManifest,
         require_storable_run,
@@ -89,8 +90,11 @@ def grade_last(
     outputs = Outputs(table=GradedRun, csv=csv, force=force)
     outputs.refuse(as_json=mode.json)
     require_folder(output)
-    if output.exists() and not output.is_dir():
-        raise BadOption("is a file: name a folder for the lasts of the run", str(output))
+    is_file = output.suffix.lower() in MESH_SUFFIXES or output.exists()
+    if is_file and not output.is_dir():
+        raise BadOption(
+            "is the name of a file: name a folder for the lasts of the run", str(output)
+        )
     with progress(mode) as bar:
         bar.show()
         grading = grader_of(

@@ -84,8 +84,11 @@ def grade_plan(
         lasts, or one is too far from the base.
     """
     base_size, base_width = base
-    if base_size is None or label_number(base_size) is None:
+    if base_size is None:
         raise BadOption("the size of the base is not known: add --base-size, such as 42")
+    if label_number(base_size) is None:
+        words = f"the size of the base is {base_size!r}, which is no number"
+        raise BadOption(f"{words}: add --base-size, such as 42")
     start = _number(base_size, system)
     sizes = _sizes(asked[0], rule.size_step, system)
     widths = _widths(asked[1], base_width, rule)
