@@ -148,6 +148,15 @@ def test_a_mirrored_last_is_graded_to_the_mirror_image(tmp_path: Path) -> None:
     assert cKDTree(made["right"]).query(mirrored)[0].max() < REACHED_MM
 
 
+def test_a_last_is_the_same_whether_those_before_it_are_asked_for_or_not(tmp_path: Path) -> None:
+    """Else two sizes there and back came to 0.09 mm, and not to 0.01."""
+    path = tmp_path / "derby.stl"
+    path.write_bytes(encoded_mesh(*base_mesh(60.0), "stl"))
+    known = {"size_system": "eu", "base_size": "42", "hold": "heel"}
+    alone, among = (footfit.grade(path, sizes, **known).lasts[-1] for sizes in ("44", "43:44"))
+    assert alone.data == among.data
+
+
 def test_a_held_bottom_goes_ahead_as_it_is_and_the_shank_takes_up_the_length() -> None:
     shape, base_mm = standing_base(60.0)
     longer = stepped(shape, base_mm, (0.0, 0.0), (1.0, 0.0), "bottom,toe")

@@ -114,10 +114,10 @@ class Grader:
         return f"{self.family}-{self.plan.system.name}{size}{width}"
 
     def _node(self, made: dict[Place, Node], sizes: float, widths: float) -> Node:
-        """The last in a place, which is made from the one before it."""
+        """The last in a place, which is made from the one before it, asked for or not."""
         if (sizes, widths) not in made:
             before = self._node(made, *_before(sizes, widths))
-            made[sizes, widths] = self._step(before, sizes, widths)
+            made[sizes, widths], _ = self._last(before, Fitting("", None, sizes, widths))
         return made[sizes, widths]
 
     def _step(
