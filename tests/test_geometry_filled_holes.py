@@ -12,7 +12,10 @@ from manifold3d import CrossSection, FillRule
 from scipy.spatial import Delaunay
 
 import footfit
+from footfit.geometry.fit.clearance import foot_clearance, zone_clearances
+from footfit.geometry.fit.paired_sections import section_pairs
 from footfit.geometry.measures.landmarks import Shape
+from footfit.geometry.measures.measure_value import MeasureValue
 from footfit.geometry.mesh.surface import area_vectors
 from footfit.geometry.mesh.topology import boundary_loops
 from footfit.geometry.mesh.welding import without_unused_vertices
@@ -257,6 +260,23 @@ def test_from_a_scan_the_reason_reaches_the_answer():
     assert rows["instep_girth"].value is None
     assert rows["instep_girth"].reason == NOT_SCANNED
     assert rows["length"].value == pytest.approx(foot()[2], abs=1.0)
+
+
+@pytest.mark.parametrize("filling", FILLINGS)
+def test_no_room_is_read_over_a_hole_that_was_closed(filling):
+    last = Shape(*last_mesh(LastSpec(length_mm=290.0, rings=60, segments=48)), "last")
+    whole, closed = Shape(*foot()[:2]), Shape(*with_filling("dorsum", filling))
+    sizes = {pair.station.name: pair.foot_sizes for pair in section_pairs(closed, last)}
+    for name in ("instep", "waist", "ball"):
+        assert sizes[name]["height"] == MeasureValue(None, NOT_SCANNED)
+    assert sizes["heel"]["width"].value is not None
+    rooms, true = (
+        {zone.zone: zone for zone in zone_clearances(shape, foot_clearance(shape, last))}
+        for shape in (closed, whole)
+    )
+    for zone in rooms:  # the rim's triangles count a little more than before
+        assert rooms[zone].area_cm2 < true[zone].area_cm2 + 1.0
+    assert rooms["dorsal"].area_cm2 < 0.3 * true["dorsal"].area_cm2
 
 
 @pytest.mark.skipif(not CASES.exists(), reason="the cases beside the project are not here")

@@ -121,7 +121,7 @@ def foot_clearance(foot: Shape, last: Shape) -> Floats:
     """The clearance (n,) at each vertex of a foot that lies in a last, mm.
 
     NaN where the shoe does not reach: over the topline, at the foot's own top cut, where the last's
-    top or an open rim is nearest, and at vertices without a face.
+    top or an open rim is nearest, and at vertices without a face that was scanned.
     """
     return clearance_at(foot, last, in_shoe(foot))
 
@@ -136,13 +136,13 @@ def clearance_at(shape: Shape, other: Shape, compared: Bools) -> Floats:
 
 
 def in_shoe(foot: Shape) -> Bools:
-    """Which vertices (n,) lie under the topline and are not part of a leg's top cut."""
+    """Which vertices (n,) lie under the topline and are scanned, not part of a leg's top cut."""
     share, height = np.array(CLEARANCE.topline).T
     at = (foot.vertices_mm[:, 0] - foot.x_mm(0.0)) / foot.length_mm
     limit = np.interp(at, share, height, right=np.inf) * foot.length_mm
     inside = foot.vertices_mm[:, 2] <= limit
     used = np.zeros(len(inside), dtype=bool)
-    used[foot.faces[~foot.top_cut]] = True
+    used[foot.faces[~foot.top_cut & ~foot.filled]] = True
     return np.asarray(inside & used)
 
 
@@ -152,7 +152,7 @@ def zone_of(foot: Shape) -> Ints:
     By where the surface looks: down is bottom, up is dorsal, else medial or lateral. In front of
     ``toe_from`` everything but the bottom is toe.
     """
-    normals = vertex_normals(foot.vertices_mm, foot.faces)
+    normals = vertex_normals(foot.vertices_mm, foot.faces[~foot.filled])
     zone = np.where(normals[:, 1] > 0.0, ZONES.index("medial"), ZONES.index("lateral"))
     zone[normals[:, 2] > CLEARANCE.facing_up] = ZONES.index("dorsal")
     zone[foot.vertices_mm[:, 0] > foot.x_mm(CLEARANCE.toe_from)] = ZONES.index("toe")
@@ -162,7 +162,8 @@ def zone_of(foot: Shape) -> Ints:
 
 def zone_clearances(foot: Shape, clearance_mm: Floats) -> tuple[ZoneClearance, ...]:
     """The clearance of each zone, from the clearance (n,) at the foot's vertices."""
-    zone, areas = zone_of(foot), vertex_areas(foot.vertices_mm, foot.faces)
+    scanned = foot.faces[~foot.filled]
+    zone, areas = zone_of(foot), vertex_areas(foot.vertices_mm, scanned)
     known = np.isfinite(clearance_mm) & (areas > 0.0)
     return tuple(
         _zone_clearance(name, clearance_mm[chosen], areas[chosen])

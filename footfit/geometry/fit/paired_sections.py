@@ -12,7 +12,7 @@ import numpy as np
 
 from footfit.geometry.fit.stations import STATIONS, Station
 from footfit.geometry.measures.landmarks import AXES, Shape
-from footfit.geometry.measures.measure_value import MeasureValue
+from footfit.geometry.measures.measure_value import UNSCANNED, MeasureValue
 from footfit.geometry.mesh.outlines import Outline
 from footfit.geometry.numeric.arrays import Floats
 
@@ -83,10 +83,15 @@ def _sizes(
     if not len(points):
         missing = MeasureValue(None, f"the {shape.kind} does not reach so far")
         return dict.fromkeys(SIZES, missing)
-    low = points[points[:, 1] <= points[:, 1].min() + band_mm, 0]
+    below_mm = float(points[:, 1].min()) + band_mm
+    low = points[points[:, 1] <= below_mm, 0]
     medial, lateral = float(low.max()), float(low.min())
     height = MeasureValue(float(np.ptp(points[:, 1])))
     if shape.topped(section):
         height = MeasureValue(None, CUT.format(kind=shape.kind, place=station.name))
+    elif shape.unscanned(section):
+        height = MeasureValue(None, UNSCANNED)
     values = (MeasureValue(medial - lateral), MeasureValue(medial), MeasureValue(lateral))
+    if shape.unscanned(section, upright=True, below_mm=below_mm):
+        values = (MeasureValue(None, UNSCANNED),) * 3
     return dict(zip(SIZES, (*values, height), strict=True))
