@@ -16,7 +16,7 @@ from footfit.geometry.flare.leaning_shank import heel_end
 from footfit.geometry.flare.levelled_bottom import low_length
 from footfit.geometry.measures.bottom_arc import BottomArc, bottom_arc
 from footfit.geometry.measures.tape import Crown, convex_hull, depth_under_hull
-from footfit.geometry.measures.top_cut import runs_over_cut, top_cut_faces
+from footfit.geometry.measures.top_cut import TOP_CUT, runs_over_cut, top_cut_faces
 from footfit.geometry.mesh.filled_holes import filled_faces
 from footfit.geometry.mesh.outermost_point import LAST_TIPS, TIPS, Tip, TipSettings, tip
 from footfit.geometry.mesh.outlines import OUTLINES, Outline, OutlineSettings, outline
@@ -371,13 +371,16 @@ class Shape:
     def topped(self, section: Outline) -> bool:
         """Whether a section runs over the shape's top cut, or out of its open top.
 
-        The round instep of a last may lie in the plane of its cone's top. It is no cut.
+        The round instep of a last may lie in the plane of its cone's top. It is no cut. Farther
+        back the top is one, also if it is round.
         """
         over_top = self.top_cut[section.face]
         top_mm = float(section.length_mm[over_top].sum())
         closed = top_mm > LANDMARKS.top_crossed * self.length_mm
         if closed and self.kind == "last":
-            closed = runs_over_cut(section.segments, over_top, self.length_mm)
+            places = self.vertices_mm[self.faces[section.face[over_top]], 0]
+            if places.mean() > self.x_mm(TOP_CUT.front):
+                closed = runs_over_cut(section.segments, over_top, self.length_mm)
         return closed or self.opened(section)
 
     @cached_property
