@@ -4,8 +4,8 @@
 
 The lasts lie in their resting frame, as drafted by ``tools.last_specs.wide`` and, where it stands
 beside the project, by ``../shared/tools/lasts2.py``. Errors are in mm: of the heel height by the
-shape alone, and of the toe spring at the tip if the heel is labelled. ``sd`` is the mean standard
-deviation that the stance states; ``ms`` is the time of the stance by the shape.
+shape alone, and of the toe spring at the tip if the heel is labelled. ``sd`` is the mean of the
+total standard deviation that is stated; ``ms`` is the time of the stance by the shape.
 """
 
 from __future__ import annotations
@@ -20,9 +20,12 @@ from typing import Any
 import numpy as np
 
 from benchmarks.tables import markdown, put
+from footfit.geometry.measures.measure_table import measure_named
+from footfit.geometry.measures.measure_value import MeasureValue
 from footfit.geometry.numeric.arrays import Floats, Ints
 from footfit.geometry.stance.cues import StanceLabels
 from footfit.geometry.stance.stance import STANCE, stance_of
+from footfit.pipeline.scan.trueness import measured
 from tools.last_specs import HEEL_BANDS_MM, STYLES, wide
 from tools.lasts import last_mesh, standing
 from tools.resting import at_rest
@@ -119,12 +122,17 @@ def _reading(case: Case) -> tuple[float, ...] | None:
     heel_mm, tip_mm = by_shape.heel_mm(), by_label.tip_mm()
     if heel_mm is None or tip_mm is None:
         return None
-    return (
-        heel_mm - case.heel_mm,
-        by_shape.level_sd_mm(0.0),
-        tip_mm - case.spring_mm,
-        by_label.level_sd_mm(by_label.length_mm),
+    length_mm = float(np.ptp(case.vertices_mm[:, 0]))
+    shape_heel_mm = by_shape.shape_heel_mm(length_mm)
+    sds = (
+        measured(measure_named(name), MeasureValue(0.0, convention_sd=sd), "last", shape_heel_mm)
+        for name, sd in (
+            ("heel_height", by_shape.level_sd_mm(0.0)),
+            ("toe_spring_tip", by_label.level_sd_mm(by_label.length_mm)),
+        )
     )
+    heel_sd, tip_sd = (float(value.total_sd or 0.0) for value in sds)
+    return heel_mm - case.heel_mm, heel_sd, tip_mm - case.spring_mm, tip_sd
 
 
 def main() -> None:
