@@ -156,7 +156,7 @@ def graded(shape: Shape, step: GradeStep) -> Shape:
         rise_mm = _rise_mm(solved.field, top + 0.5 * rise_mm)
         if abs(rise_mm) < GRADE.small_rise_mm:
             break
-    _refuse_missed(step.targets_mm, solved.values_mm)
+    _refuse_missed(step, solved.values_mm)
     least = least_determinant(solved.field, first.vertices_mm)
     if least < GRADE.determinant:
         words = f"only {plain(least, 2)} of its volume would be left somewhere"
@@ -164,14 +164,16 @@ def graded(shape: Shape, step: GradeStep) -> Shape:
     return finished(solved.vertices_mm)
 
 
-def _refuse_missed(targets_mm: Mapping[str, float], values_mm: Floats) -> None:
+def _refuse_missed(step: GradeStep, values_mm: Floats) -> None:
     """Raise OutOfReach for the target that is missed most, if one is."""
+    targets_mm = step.targets_mm
     miss = np.array(list(targets_mm.values())) - values_mm
     worst = int(np.argmax(np.abs(miss)))
     if abs(miss[worst]) > GRADE.met_mm:
         name, target = list(targets_mm.items())[worst]
         words = f"comes to {plain(target - miss[worst])} mm and not to {plain(target)} mm"
-        raise OutOfReach(f"the {name.replace('_', ' ')} {words}: take fewer sizes or another rule")
+        hint = "do not hold the top" if "top" in step.held else "take fewer sizes or another rule"
+        raise OutOfReach(f"the {name.replace('_', ' ')} {words}: {hint}")
 
 
 def _lengthened(shape: Shape, step: GradeStep) -> Shape:
