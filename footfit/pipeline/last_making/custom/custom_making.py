@@ -90,8 +90,10 @@ def customised(
     given = Given(base, chart, side or own, making.name, _flare_turn_deg(foot, base, making))
     given = replace(given, bottom_kept=question.bottom_kept)
 
+    before = fit_in(foot, base.record, base, question)
+
     def answer(attempt: Attempt) -> CustomLast:
-        return _answer(foot, given, making, attempt)
+        return _answer(foot, given, making, attempt, before)
 
     attempt = attempt_at(given, aims)
     made, notices, lost = answer(attempt), [], set[str]()
@@ -142,12 +144,13 @@ def _flare_turn_deg(foot: Profiled, base: BaseLast, making: Making) -> float:
     return float(np.clip(turn_deg, -CUSTOM.flare_deg, CUSTOM.flare_deg))
 
 
-def _answer(foot: Profiled, given: Given, making: Making, attempt: Attempt) -> CustomLast:
-    """The result of what was made, without its warnings."""
+def _answer(
+    foot: Profiled, given: Given, making: Making, attempt: Attempt, before: results.FootFit
+) -> CustomLast:
+    """The result of what was made, without its warnings; ``before`` is the fit of the base."""
     question, profile, base = making.question, making.question.profile, given.base
     made, shape = attempt.made, attempt.shape
     sections = kept_sections(made.shape)
-    before = fit_in(foot, base.record, base, question)
     kept_base = replace(base, sections=sections)
     after = fit_in(foot, made.record, kept_base, question)
     judged, zones = _judged(before, after), _zones(base, attempt)

@@ -46,7 +46,7 @@ from footfit.results import LastLabels, PreparedScan, SideName
 
 SETTLED_MM = (0.15, 0.15, 0.15, 0.3, 0.3, 0.3)
 """The finished last is made again if it reads so far from a target: by the tries before."""
-PRESSED_TRIES = 3
+PRESSED_TRIES = 2
 """So many tries at most, if zones are pressed: there is a good last already."""
 TURN_DEG = 2.5
 """The flare is turned in steps of at most so much; each step begins where the last one ended."""

@@ -10,6 +10,7 @@ from footfit.pipeline.last_making.custom.custom_aims import (
     BALL_LENGTH,
     HEEL_GIRTH,
     MOST_BALL_MM,
+    MOST_HEEL_MM,
     CustomAim,
     CustomQuestion,
     inner_good,
@@ -20,7 +21,7 @@ from footfit.results import JudgedZone, Notice, Profiled, Verdict, ZoneRule
 
 NEAR = 0.5
 """A clearance that is farther outside of its good range, over the width of that, is not pressed;
-the ball line comes as near as the ball may move."""
+the ball line comes as near as the ball may move, and what is kept leaves less to the heel."""
 VERDICTS: tuple[Verdict, ...] = ("good", "acceptable", "poor", "reject")
 LEAST = {"ball_girth_least": "ball_girth", "instep_girth_least": "instep_girth"}
 """The least tapes whose targets move if the upright girth of their zone is not good."""
@@ -74,7 +75,9 @@ def pressed_aims(
         if zone.custom is not None:
             rule = rules[zone.name]
             off = inner_good(rule, zone.custom - zone.target)
-            if zone.name == "ball_line" or abs(off) <= NEAR * (rule.good[1] - rule.good[0]):
+            near = NEAR * (rule.good[1] - rule.good[0])
+            near = min(near, MOST_HEEL_MM) if zone.name == HEEL_GIRTH else near
+            if zone.name == "ball_line" or abs(off) <= near:
                 percent_mm = 0.01 * foot.aligned.alignment.extent_mm
                 more_mm[zone.name] = -off * (percent_mm if zone.unit == "percent" else 1.0)
     aims = [
