@@ -5,16 +5,19 @@ from __future__ import annotations
 import re
 from dataclasses import replace
 from functools import cache
+from itertools import count
 
 import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from footfit.geometry.measures.heel_girths import shortest_around_heel
 from footfit.geometry.measures.heights import toe_height
 from footfit.geometry.measures.landmarks import Shape
 from footfit.geometry.measures.lengths import length, tread_from
 from footfit.geometry.measures.measure_table import BOTH, MEASURES, measure_named, of_kind, unusual
+from footfit.geometry.measures.tape import hull_girth
 from footfit.geometry.stance.middle_line import low_points, turned
 from footfit.geometry.stance.stance import STANCE
 from tests.bounds import ROUNDING
@@ -28,6 +31,7 @@ from tools.last_specs import ToeShape
 from tools.lasts import LastSpec, half_width_mm, last_mesh, standing, true_heading_deg, varied
 
 SPEC = LastSpec(length_mm=270.0, rings=110, segments=80)
+HEELED = replace(SPEC, heel_height_mm=80.0)
 LEVEL = replace(SPEC, level_tread=True)
 STRAIGHT = replace(
     SPEC, flare_deg=0.0, waist_cut_mm=0.0, joint_bulge_mm=0.0, toe_turn_deg=0.0, ridge_mm=0.0
@@ -369,3 +373,15 @@ def test_a_toe_that_is_open_has_no_height_but_a_reason() -> None:
     assert height.value is None
     assert height.reason is not None
     assert "open at the toes" in height.reason
+
+
+def test_the_search_for_the_shortest_girth_of_a_last_goes_on_over_its_cone(monkeypatch) -> None:
+    """On a rippled scan, a round instep may pass for the top of the cone."""
+    girths = []
+    for whole in (99, 6):  # sections until one seems to run over the top
+        calls = count()
+        monkeypatch.setattr(Shape, "topped", lambda *_, calls=calls, n=whole: next(calls) >= n)
+        section = shortest_around_heel(Shape(*last_of(HEELED), "last"))
+        assert section is not None
+        girths.append(hull_girth(section.points))
+    assert girths[0] == girths[1]

@@ -96,13 +96,16 @@ def cone_edge(shape: Shape, settings: HeelSettings = HEEL) -> Floats:
 def _whole_girths(
     shape: Shape, steepest_deg: float, step_deg: float
 ) -> tuple[list[float], list[float]]:
-    """Angles and girths of steeper and steeper sections, until one grows or is not whole."""
+    """Angles and girths of steeper and steeper sections, until one grows or is not whole.
+
+    A last's section may run over its cone.
+    """
     angles: list[float] = []
     girths: list[float] = []
     angle = angle_to_deg(shape, shape.instep)
     while angle <= steepest_deg:
         section = around_heel(shape, angle)
-        if shape.topped(section):
+        if shape.opened(section) if shape.kind == "last" else shape.topped(section):
             break
         angles.append(angle)
         girths.append(hull_girth(section.points))

@@ -199,7 +199,7 @@ MEASURES: tuple[MeasureDefinition, ...] = (
         0.35,
         last_sd=0.8,
         foot=off(-0.37, 0.40),
-        last=off(-0.52, 0.97, 0.43, 0.00, 1.65),
+        last=off(-0.62, 0.97, 0.44, 0.00, 1.49),
         usual_share=(1.12, 1.47),
     ),
     MeasureDefinition(
