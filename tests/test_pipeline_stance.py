@@ -85,6 +85,41 @@ def test_the_standing_transform_puts_the_ground_under_the_last():
         assert points[:, 2].min() == pytest.approx(0.0, abs=0.8)  # the crown of the tread
 
 
+def contradiction(labels):
+    notices = stands(labels).warnings
+    return next((n.message for n in notices if n.code == "stance_label_contradicted"), "")
+
+
+def test_two_labels_that_do_not_go_together_are_named():
+    drafted = standing(SPEC)
+    heel_mm = drafted.height_mm(0.0) - drafted.middle_mm[:, 1].min()
+    labels = StanceLabels(heel_mm, toe_spring_mm=drafted.tip_mm + 15.0)
+    stance = stands(labels).stance
+    assert "agrees better with the heel height: check both" in contradiction(labels)
+    assert stance.heel_height_sd_mm > 0.4 * abs(stance.heel_height_mm - heel_mm)
+    assert [cue.name for cue in stance.cues][-3:] == ["heel_label", "spring_label", "label"]
+    assert contradiction(StanceLabels(heel_mm, toe_spring_mm=drafted.tip_mm)) == ""
+
+
+def test_the_advice_is_for_the_label_that_was_given():
+    heel_mm = stands().stance.heel_height_mm
+    assert "--platform" in contradiction(StanceLabels(heel_mm + 20.0))
+    assert "higher than the label says" in contradiction(StanceLabels(heel_mm - 15.0))
+    assert "--platform" not in contradiction(StanceLabels(heel_mm - 15.0))
+    assert "--platform" not in contradiction(StanceLabels(heel_mm + 25.0, platform_mm=5.0))
+    assert "stand its toe" in contradiction(StanceLabels(None, toe_spring_mm=40.0))
+
+
+def test_a_label_that_no_ground_gives_widens_the_uncertainty():
+    stance = stands(StanceLabels(200.0)).stance
+    assert stance.heel_height_mm < 195.0
+    assert stance.heel_height_sd_mm > 0.5 * (200.0 - stance.heel_height_mm)
+
+
+def test_a_platform_alone_is_of_no_use():
+    assert "stance_label_unused" in codes(stands(StanceLabels(platform_mm=10.0)))
+
+
 def test_a_foot_stands_as_it_lies_whatever_is_said():
     scan = read_scan(SAMPLES / "feet" / "mh007_R.stl")
     alignment = aligned_scan(prepared_scan(scan, "right", None, StanceLabels(60.0))).alignment

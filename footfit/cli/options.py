@@ -204,7 +204,7 @@ class Reading(Scale):
     )
     scanner: ScannerName | None = member(
         "--scanner",
-        "Say what kind of scanner was used: each total ± then holds the scanner's own uncertainty.",
+        "Say what kind of scanner was used: each total ± in mm then holds its uncertainty.",
         panel=READING,
     )
 

@@ -11,7 +11,8 @@ from footfit.results.values import Part
 class GroundCue(Part):
     """The ground by one cue, from the resting plane, in degrees; + raises the heel.
 
-    ``name`` is "tread", "bottom", "seat", "shape" or "label"; see ``docs/stance.md``.
+    ``name`` is "tread", "bottom", "seat", "shape" or "label", of two labels also "heel_label" and
+    "spring_label"; see ``docs/stance.md``.
     """
 
     name: str
@@ -37,5 +38,7 @@ class LastStance(Part):
     heel_height_sd_mm: float | None
     toe_spring_mm: float | None
     toe_spring_sd_mm: float | None
+    toe_spring_tip_mm: float | None
+    toe_spring_tip_sd_mm: float | None
     spring_per_heel: float
     cues: tuple[GroundCue, ...]

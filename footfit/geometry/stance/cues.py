@@ -42,7 +42,7 @@ class Cue:
 
     ``name`` is "tread" (the slope of the bottom near the tread's usual place), "bottom" (a model of
     shank, tread and toe spring), "seat" (the pitch that seats have under such heels), "shape" (all
-    three) or "label".
+    three) or "label"; of two labels "heel_label" and "spring_label" too.
     """
 
     name: str
@@ -60,3 +60,19 @@ def combined(name: str, cues: Iterable[Cue]) -> Cue:
     """
     grounds, weights = np.array([(cue.ground, cue.sd**-2) for cue in cues]).T
     return Cue(name, grounds @ weights / weights.sum(), float(weights.sum() ** -0.5))
+
+
+def agreed(name: str, cues: Iterable[Cue]) -> Cue:
+    """The mean of some cues, with a standard deviation that covers how far they are apart.
+
+    Examples
+    --------
+    >>> agreed("label", [Cue("heel_label", 0.1, 0.01), Cue("spring_label", 0.3, 0.01)]).sd
+    0.1
+    """
+    cues = tuple(cues)
+    mean = combined(name, cues)
+    weights = np.array([cue.sd**-2 for cue in cues])
+    apart = np.array([cue.ground - mean.ground for cue in cues])
+    spread = float(np.sqrt(weights @ apart**2 / weights.sum()))
+    return Cue(name, mean.ground, max(mean.sd, spread))

@@ -13,7 +13,7 @@ import numpy as np
 
 from footfit.geometry.numeric.arrays import Floats, Ints
 from footfit.geometry.numeric.smoothing import local_quadratic
-from footfit.geometry.stance.cues import NO_LABELS, Cue, StanceLabels, combined
+from footfit.geometry.stance.cues import NO_LABELS, Cue, StanceLabels, agreed, combined
 from footfit.geometry.stance.ground import BottomCues, bottom_cues
 from footfit.geometry.stance.middle_line import MiddleLine, low_points, middle_line, turned
 
@@ -225,10 +225,12 @@ def stance_of(
         return None
     last = _StandingLast(vertices_mm, faces, bottom.line)
     cues = _shape_cues(last, bottom)
-    label = _label_cue(last, labels, cues[-1].ground)
-    if label is None:
+    said = _label_cues(last, labels, cues[-1].ground)
+    if not said:
         return replace(last.on(cues[-1], "shape", cues), level_sd=bottom.level_sd)
-    return replace(last.on(label, "label", (*cues, label)), level_sd=label.sd)
+    label = agreed("label", said)
+    cues = (*cues, *(said if len(said) > 1 else ()), label)
+    return replace(last.on(label, "label", cues), level_sd=label.sd)
 
 
 @dataclass
@@ -292,33 +294,36 @@ def _seat_cue(stance: Stance, settings: StanceSettings) -> Cue | None:
     return Cue("seat", stance.ground + (settings.pitch * share - pitch) / gain, sd / gain)
 
 
-def _label_cue(last: _StandingLast, labels: StanceLabels, start: float) -> Cue | None:
-    """The ground by the labels, from a ``start`` near to it; None if nothing is said."""
+def _label_cues(last: _StandingLast, labels: StanceLabels, start: float) -> list[Cue]:
+    """The ground by each label, from a ``start`` near to it; none of a label that says nothing."""
     settings = last.settings
     says = (
-        (labels.drop_mm, Stance.heel_mm, settings.heel_sd_mm, 0.0),
-        (labels.toe_spring_mm, Stance.tip_mm, settings.spring_sd_mm, 1.0),
+        ("heel_label", labels.drop_mm, Stance.heel_mm, settings.heel_sd_mm, 0.0),
+        ("spring_label", labels.toe_spring_mm, Stance.tip_mm, settings.spring_sd_mm, 1.0),
     )
     cues = (
-        _solved(last, target_mm, height_of, sd_mm, place, start)
-        for target_mm, height_of, sd_mm, place in says
+        _solved(last, name, target_mm, height_of, sd_mm, place, start)
+        for name, target_mm, height_of, sd_mm, place in says
         if target_mm is not None
     )
-    solved = [cue for cue in cues if cue is not None]
-    return combined("label", solved) if solved else None
+    return [cue for cue in cues if cue is not None]
 
 
 def _solved(
     last: _StandingLast,
+    name: str,
     target_mm: float,
     height_of: Callable[[Stance], float | None],
     sd_mm: float,
     place: float,
     start: float,
 ) -> Cue | None:
-    """The ground over which a place (0 rear, 1 tip) has a height; None if it has none."""
+    """The ground over which a place (0 rear, 1 tip) has a height; None if it has none.
+
+    If no ground in the range gives the height, what is missing is in the standard deviation.
+    """
     least, most = np.radians(last.settings.range_deg)
-    ground, arm_mm = start, 1.0
+    ground, arm_mm, miss_mm = start, 1.0, 0.0
     for _ in range(last.settings.rounds):
         stance = last.on(Cue("label", ground, 0.0))
         height_mm = height_of(stance)
@@ -329,4 +334,4 @@ def _solved(
         ground = float(np.clip(ground + miss_mm / arm_mm, least, most))
         if abs(miss_mm) < last.settings.settled_mm:
             break
-    return Cue("label", ground, sd_mm / abs(arm_mm))
+    return Cue(name, ground, float(np.hypot(sd_mm, miss_mm)) / abs(arm_mm))

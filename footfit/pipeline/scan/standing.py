@@ -3,19 +3,24 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping
 
 import numpy as np
 
 from footfit.errors import BadOption
-from footfit.geometry.measures.heights import HEIGHTS, heel_height, toe_spring
+from footfit.geometry.measures.heights import HEIGHTS, heel_height, toe_spring, toe_spring_tip
 from footfit.geometry.measures.landmarks import Shape
 from footfit.geometry.measures.measure_table import measure_named
-from footfit.geometry.stance.cues import StanceLabels
+from footfit.geometry.stance.cues import Cue, StanceLabels
+from footfit.geometry.stance.stance import Stance
 from footfit.pipeline.scan.trueness import measured
 from footfit.results import GroundCue, LastLabels, LastStance, MeshInfo, Notice
 
 LABELLED_MM = {"heel_height_mm": (0, 200), "toe_spring_mm": (0, 80), "platform_mm": (0, 100)}
 """What labels may say."""
+LONE_PLATFORM = "a platform counts together with a heel height only: give --heel-height too"
+OF_A_FOOT = "heel height and toe spring are labels of lasts; this is a foot, which stands flat"
+OPEN_BOTTOM = "the bottom is open, so the labels of heel height and toe spring are of no use"
 CONTRADICTED_SDS = 2.0
 """A label that is further from the shape than this many of their standard deviations is told."""
 
@@ -50,9 +55,9 @@ def last_stance(shape: Shape, info: MeshInfo | None = None) -> LastStance | None
     stance = shape.stance
     if stance is None or shape.kind == "foot":
         return None
-    heel, spring = (
-        measured(measure_named(name), value, shape.kind, shape.shape_heel_mm, info)
-        for name, value in (("heel_height", heel_height(shape)), ("toe_spring", toe_spring(shape)))
+    heel, spring, tip = (
+        measured(measure_named(of.__name__), of(shape), shape.kind, shape.shape_heel_mm, info)
+        for of in (heel_height, toe_spring, toe_spring_tip)
     )
     return LastStance(
         decided_by=stance.decided_by,
@@ -63,6 +68,8 @@ def last_stance(shape: Shape, info: MeshInfo | None = None) -> LastStance | None
         heel_height_sd_mm=heel.total_sd,
         toe_spring_mm=spring.value,
         toe_spring_sd_mm=spring.total_sd,
+        toe_spring_tip_mm=tip.value,
+        toe_spring_tip_sd_mm=tip.total_sd,
         spring_per_heel=1.0 - HEIGHTS.toe_spring * shape.length_mm / stance.touching_x_mm,
         cues=tuple(
             GroundCue(cue.name, math.degrees(cue.ground), math.degrees(cue.sd))
@@ -72,27 +79,62 @@ def last_stance(shape: Shape, info: MeshInfo | None = None) -> LastStance | None
 
 
 def stance_notices(shape: Shape) -> tuple[Notice, ...]:
-    """A label that is of no use, or that the shape contradicts."""
+    """A label that is of no use, or that the shape or the other label contradicts."""
     labels, stance = shape.labels, shape.stance
     if labels.heel_height_mm is None and labels.toe_spring_mm is None:
-        return ()
+        return (_unused(LONE_PLATFORM),) if labels.platform_mm else ()
     if shape.kind == "foot":
-        words = "heel height and toe spring are labels of lasts; this is a foot, which stands flat"
-        return (Notice("stance_label_unused", words),)
+        return (_unused(OF_A_FOOT),)
     if stance is None:
-        words = "the bottom is open, so the labels of heel height and toe spring are of no use"
-        return (Notice("stance_label_unused", words),)
+        return (_unused(OPEN_BOTTOM),)
     grounds = {cue.name: cue for cue in stance.cues}
-    own, label = grounds["shape"], grounds.get("label")
-    if label is None:
+    if "label" not in grounds:
         return ()
-    apart, sd = abs(label.ground - own.ground), float(np.hypot(label.sd, own.sd))
-    if apart <= CONTRADICTED_SDS * sd:
-        return ()
-    arm_mm = stance.touching_x_mm
-    more = "lower" if own.ground < label.ground else "higher"
-    words = (
-        f"the shape alone would stand its heel {arm_mm * apart:.0f} mm {more} than the label says"
-        f" (± {arm_mm * sd:.0f} mm): check the label, or give the forepart's height with --platform"
+    words = _two_labels(stance, grounds) or _contradiction(stance, labels, grounds)
+    return (Notice("stance_label_contradicted", words),) if words else ()
+
+
+def _unused(words: str) -> Notice:
+    return Notice("stance_label_unused", words)
+
+
+def _apart(first: Cue, second: Cue) -> float:
+    """How far the second ground is over the first, radians; 0 if their deviations allow it."""
+    apart, sd = second.ground - first.ground, float(np.hypot(first.sd, second.sd))
+    return apart if abs(apart) > CONTRADICTED_SDS * sd else 0.0
+
+
+def _two_labels(stance: Stance, grounds: Mapping[str, Cue]) -> str:
+    """What is said if the labels of heel and toe spring do not go together."""
+    if "heel_label" not in grounds:
+        return ""
+    heel, spring, own = (grounds[name] for name in ("heel_label", "spring_label", "shape"))
+    apart = _apart(heel, spring)
+    if not apart:
+        return ""
+    more = "lower" if apart < 0.0 else "higher"
+    by_heel = abs(heel.ground - own.ground) < abs(spring.ground - own.ground)
+    return (
+        "the labels of heel height and toe spring do not go together: by the toe spring the heel"
+        f" is {abs(apart) * stance.touching_x_mm:.0f} mm {more}. The shape agrees better with the"
+        f" {'heel height' if by_heel else 'toe spring'}: check both labels"
     )
-    return (Notice("stance_label_contradicted", words),)
+
+
+def _contradiction(stance: Stance, labels: StanceLabels, grounds: Mapping[str, Cue]) -> str:
+    """What is said if the shape stands otherwise than a label says."""
+    label, own = grounds["label"], grounds["shape"]
+    apart = _apart(label, own)
+    if not apart:
+        return ""
+    of_toe = labels.heel_height_mm is None
+    arm_mm = stance.length_mm - stance.touching_x_mm if of_toe else stance.touching_x_mm
+    higher = (apart < 0.0) == of_toe
+    sd_mm = arm_mm * float(np.hypot(label.sd, own.sd))
+    words = (
+        f"the shape alone would stand its {'toe' if of_toe else 'heel'} {arm_mm * abs(apart):.0f}"
+        f" mm {'higher' if higher else 'lower'} than the label says (± {sd_mm:.0f} mm): check the"
+        " label"
+    )
+    platform = not (of_toe or higher or labels.platform_mm)
+    return f"{words}, or give the forepart's height with --platform" if platform else words

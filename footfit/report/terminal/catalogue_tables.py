@@ -174,6 +174,7 @@ def show_last_table(last: results.StoredLast) -> RenderableType:
         ("size", _size_row(record)),
         ("family, parent", cell(", ".join(p for p in (labels.family, labels.parent) if p))),
         ("heel", "-" if labels.heel_height_mm is None else f"{plain(labels.heel_height_mm)} mm"),
+        *_stance_labels(record),
         ("side", side_words(record.side)),
         ("length", length_text(record.length)),
         ("flare", f"{turned}, definition {visible(flare.definition.version)}{upgraded}"),
@@ -188,6 +189,18 @@ def show_last_table(last: results.StoredLast) -> RenderableType:
         *(("warning", cell(notice.message, "yellow")) for notice in record.warnings),
         title=labels.name,
     )
+
+
+def _stance_labels(record: results.LastRecord) -> list[tuple[str, str | Text]]:
+    """The labels of platform and toe spring, if there are any, and what decides the stance."""
+    labels = record.labels
+    said = (("platform", labels.platform_mm), ("toe spring label", labels.toe_spring_mm))
+    rows: list[tuple[str, str | Text]] = [
+        (name, f"{plain(value)} mm") for name, value in said if value
+    ]
+    if record.stance_by is not None:
+        rows.append(("stands by", f"its {record.stance_by}"))
+    return rows
 
 
 def _parentage(parentage: results.Parentage | None) -> list[tuple[str, Text]]:

@@ -121,10 +121,10 @@ def stance_rows(stance: results.LastStance) -> list[tuple[str, str | Text]]:
     """How a last stands: its heel height and its toe spring, and what decides them."""
     by = {"label": "by the label", "shape": "by the shape alone"}[stance.decided_by]
     heel = results.Measured(stance.heel_height_mm, total_sd=stance.heel_height_sd_mm)
-    spring = results.Measured(stance.toe_spring_mm, total_sd=stance.toe_spring_sd_mm)
+    spring = results.Measured(stance.toe_spring_tip_mm, total_sd=stance.toe_spring_tip_sd_mm)
     return [
         ("heel height", f"{measured_text(heel, 'mm')} ({by})"),
-        ("toe spring", measured_text(spring, "mm")),
+        ("toe spring tip", measured_text(spring, "mm")),
         ("±", Text(SPREADS, "dim")),
     ]
 
