@@ -334,4 +334,5 @@ def _solved(
         ground = float(np.clip(ground + miss_mm / arm_mm, least, most))
         if abs(miss_mm) < last.settings.settled_mm:
             break
-    return Cue(name, ground, float(np.hypot(sd_mm, miss_mm)) / abs(arm_mm))
+    missing_mm = max(abs(miss_mm) - sd_mm, 0.0)
+    return Cue(name, ground, float(np.hypot(sd_mm, missing_mm)) / abs(arm_mm))
