@@ -87,7 +87,7 @@ def test_a_size_that_the_length_contradicts_is_said(
 
 def test_a_heel_label_decides_the_stance_as_at_the_ingest(catalogue: Path, tmp_path: Path) -> None:
     """The edited last is what the ingest of its file with that label gives."""
-    edit_last(catalogue, LAST, {"heel_height_mm": 30.0, "toe_spring_mm": 9.0})
+    edit_last(catalogue, LAST, {"heel_height_mm": 30.0, "toe_spring_mm": 12.4})
     edited = record_in(catalogue)
     fresh = tmp_path / "fresh.footfit"
     with library.open_catalogue(fresh) as lasts:
