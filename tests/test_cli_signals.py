@@ -8,7 +8,7 @@ import sys
 
 import pytest
 
-from footfit.cli.signals import PATIENCE_S, RETRY_S
+from footfit.cli.signals import PATIENCE_S, RETRY_S, Listener
 
 PROMISED_S = 2.0
 """How long a process may take to end, by docs/reliability.md."""
@@ -42,6 +42,13 @@ def test_a_signal_that_the_main_thread_blocks_is_heard_afterwards(number: signal
     command = [sys.executable, "-c", WHILE_BLOCKED, str(int(number))]
     found = subprocess.run(command, capture_output=True, text=True, timeout=60, check=False)
     assert (found.stdout.split(), found.returncode) == (["blocked", "stopped"], 0), found.stderr
+
+
+def test_a_commands_own_words_say_what_is_done() -> None:
+    listener = Listener()
+    listener.so_far = "3 of 14 lasts are measured again and stored: run the command again"
+    words = listener.words(signal.SIGINT)
+    assert words == f"footfit: interrupted; {listener.so_far}"
 
 
 def test_what_is_waited_for_leaves_time_to_end() -> None:

@@ -42,8 +42,30 @@ def test_a_long_leg_is_taken_too(unit):
 
 @pytest.mark.parametrize("extent", [0.0, 1e-12, 0.05, 3.0, 95.0, 1e4, 1e12, float("inf")])
 def test_no_plausible_unit_is_an_error_that_says_what_to_type(extent):
-    with pytest.raises(UnknownUnits, match="--units, or --known-length"):
+    with pytest.raises(UnknownUnits, match="--known-length MM"):
         plausible_unit(extent)
+
+
+@pytest.mark.parametrize(
+    ("extent", "proposed"), [(108.0, "cm"), (0.95, "m"), (950.0, "mm"), (4.0, None), (0.05, None)]
+)
+def test_a_unit_is_proposed_only_if_it_can_make_a_long_leg(extent, proposed):
+    with pytest.raises(UnknownUnits) as caught:
+        plausible_unit(extent)
+    words = caught.value.message
+    assert ("--units" in words) == (proposed is not None)
+    if proposed is not None:
+        assert words.endswith(f"if it has a long leg, give --units {proposed}")
+
+
+def test_a_shape_that_is_too_short_is_told_how_long_it_is():
+    with pytest.raises(UnknownUnits, match="108 mm if in mm"):
+        plausible_unit(108.0)
+
+
+def test_a_known_length_that_is_not_a_number_is_said():
+    with pytest.raises(BadOption, match="not a number"):
+        check_unit_options("auto", float("nan"))
 
 
 @pytest.mark.parametrize(("extent", "unit"), [(112.0, "mm"), (178.0, "mm"), (0.112, "m")])

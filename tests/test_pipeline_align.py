@@ -170,7 +170,7 @@ def test_a_provisional_unit_is_corrected_by_the_length(last, taken_for, truly):
 
 def test_no_unit_fits(last):
     vertices, faces = last
-    with pytest.raises(UnknownUnits, match="--units"):
+    with pytest.raises(UnknownUnits, match=r"80.5.* --known-length MM$"):
         aligned(scan_of(vertices * 0.3, faces))
 
 

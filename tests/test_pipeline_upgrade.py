@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import shutil
+import sqlite3
 from dataclasses import replace
 from pathlib import Path
 
@@ -20,6 +21,7 @@ from footfit.errors import NoCatalogue
 from footfit.geometry.flare.definition import FlareDefinition
 from footfit.pipeline.library.upgrade import upgrade
 from footfit.pipeline.shelf.candidates import choice
+from tests.conftest import Footfit
 
 CORNERED = ("instep_girth_least",)
 """Its section keeps corners, and which bends are corners depends on the noise: measured 0.049."""
@@ -115,6 +117,61 @@ def test_measures_of_older_definitions_are_taken_anew_and_the_profile_stays(
             within = 0.09
         assert after.measured.value == pytest.approx(before.measured.value, abs=within), after.name
     assert upgrade(catalogue).recomputed == ()
+
+
+def with_older_profiles(catalogue: Path, count: int) -> list[str]:
+    """The first lasts of a catalogue get profiles of another definition; their names."""
+    with open_catalogue(catalogue, write=True) as opened:
+        older = opened.lasts().records[:count]
+        for record in older:
+            definition = replace(record.flare.definition, version="flare/0", band_height=0.2)
+            flare = replace(record.flare, definition=definition)
+            opened.update_measured(replace(record, flare=flare))
+    return [record.labels.name for record in older]
+
+
+def without_copy(catalogue: Path, name: str) -> None:
+    with sqlite3.connect(catalogue) as connection:
+        last = "(SELECT id FROM last WHERE name = ?)"
+        connection.execute(f"DELETE FROM mesh_copy WHERE last_id = {last}", (name,))
+    connection.close()
+
+
+def test_a_match_counts_the_lasts_with_older_profiles_in_one_line(catalogue: Path) -> None:
+    names = with_older_profiles(catalogue, 5)
+    (notice,) = choice(catalogue, None, None).warnings
+    assert notice.message == (
+        f"5 lasts were left out ({', '.join(names[:3])} and 2 more): their profiles are older;"
+        " type: footfit upgrade-catalogue"
+    )
+
+
+def test_a_last_without_its_mesh_gets_an_advice_that_helps(
+    catalogue: Path, footfit: Footfit
+) -> None:
+    """An upgrade cannot measure it again, so neither a match nor a check proposes one."""
+    first, second = with_older_profiles(catalogue, 2)
+    without_copy(catalogue, first)
+    messages = [notice.message for notice in choice(catalogue, None, None).warnings]
+    assert messages == [
+        f"{second} was left out: its profile is older; type: footfit upgrade-catalogue",
+        f"{first} was left out: its profile is older, and it was stored without its mesh: ingest"
+        " its file again with --replace",
+    ]
+    run = footfit("upgrade-catalogue", "--catalogue", catalogue, "--json")
+    assert (run.code, run.document["left"]) == (0, [first])
+    run = footfit("check-catalogue", "--catalogue", catalogue, "--json")
+    assert run.code == 7
+    (finding,) = run.document["findings"]
+    assert (finding["code"], finding["last"]) == ("definition", first)
+    assert finding["message"].endswith("it has no mesh copy: ingest its file again with --replace")
+
+
+def test_an_upgrade_counts_the_lasts_as_it_stores_them(catalogue: Path) -> None:
+    with_older_profiles(catalogue, 3)
+    counts: list[tuple[int, int]] = []
+    upgrade(catalogue, count=lambda *done: counts.append(done))
+    assert counts == [(0, 3), (1, 3), (2, 3), (3, 3)]
 
 
 def test_an_upgrade_makes_no_catalogue(tmp_path: Path) -> None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -64,9 +65,14 @@ class CatalogueFile:
 
         return copy_catalogue(self.path, location_of(target))
 
-    def upgrade(self, jobs: int = HERE) -> results.UpgradeOutcome:
-        """Bring an older catalogue to this version, and keep a copy of the old file."""
+    def upgrade(
+        self, jobs: int = HERE, count: Callable[[int, int], None] = lambda _done, _total: None
+    ) -> results.UpgradeOutcome:
+        """Bring an older catalogue to this version, and keep a copy of the old file.
+
+        ``count`` is called with how many lasts are stored again, and how many there are to do.
+        """
         from footfit.pipeline.library import upgrade
 
         self._chosen.clear()
-        return upgrade.upgrade(self.path, jobs)
+        return upgrade.upgrade(self.path, jobs, count)

@@ -37,7 +37,10 @@ class Stopped(BaseException):
 
 
 class Listener:
-    """The signals that this process received, and how many items of its batch are done."""
+    """The signals that this process received, and how many items of its batch are done.
+
+    ``so_far`` are a command's own words about what is done and what to do next.
+    """
 
     def __init__(self) -> None:
         self._held = False
@@ -46,10 +49,13 @@ class Listener:
         self._resent = 0
         self.done = 0
         self.total = 0
+        self.so_far: str | None = None
 
     def words(self, number: int) -> str:
         """The line that says why the process ends, and what is stored of the batch."""
         cause = _CAUSES[signal.Signals(number)]
+        if self.so_far is not None:
+            return f"footfit: {cause}; {self.so_far}"
         if self.total < 2:
             return f"footfit: {cause}; what was confirmed is stored"
         files = f"{self.done} of {self.total} files"
@@ -89,6 +95,7 @@ class Listener:
         """Receive SIGINT and SIGTERM inside the block, put off until `heed`."""
         self._held, self._stopping, self._pending = True, False, None
         self._resent = self.done = self.total = 0
+        self.so_far = None
         if threading.current_thread() is not threading.main_thread():
             yield  # Python lets only the main thread set a handler
             return

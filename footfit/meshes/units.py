@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 
 from footfit.errors import BadOption, UnknownUnits
@@ -27,11 +28,14 @@ class UnitSettings:
         length and confirms or corrects the unit.
     possible_mm : tuple of float
         From the foot of a small child to the largest last. Cm and inches can both fit.
+    longest_leg_mm : float
+        No leg is longer, so no unit is proposed that makes the extent longer.
     """
 
     length_mm: tuple[float, float] = (180.0, 340.0)
     with_leg_mm: tuple[float, float] = (340.0, 900.0)
     possible_mm: tuple[float, float] = (110.0, 370.0)
+    longest_leg_mm: float = 1_400.0
 
 
 UNIT_SETTINGS = UnitSettings()
@@ -76,11 +80,30 @@ def plausible_unit(extent: float, settings: UnitSettings = UNIT_SETTINGS) -> tup
         for name, scale in UNIT_SCALES.items():
             if shortest <= extent * scale <= longest:
                 return name, scale
+    raise UnknownUnits(_no_unit(extent, settings))
+
+
+def _no_unit(extent: float, settings: UnitSettings) -> str:
+    """What a longest extent would be in the nearest units, and which option can help.
+
+    Examples
+    --------
+    >>> near, advice = _no_unit(95.0, UNIT_SETTINGS).split(": ")
+    >>> near
+    'the longest extent is 95 (95 mm if in mm, 950 mm if in cm), and a foot or last has 110-370 mm'
+    >>> advice
+    'if the scale is wrong, give --known-length MM; if it has a long leg, give --units cm'
+    """
     low, high = settings.possible_mm
-    raise UnknownUnits(
-        f"the longest extent is {extent:.4g}, and in no unit ({', '.join(UNIT_SCALES)}) is that a"
-        f" foot or last of {low:.0f}-{high:.0f} mm: add --units, or --known-length MM"
-    )
+    lengths = [(extent * scale, name) for name, scale in UNIT_SCALES.items()]
+    below = [each for each in lengths if each[0] < low]
+    above = [each for each in lengths if each[0] > high]
+    near = ", ".join(f"{mm:,.4g} mm if in {name}" for mm, name in (*below[-1:], *above[:1]))
+    words = f"the longest extent is {extent:.4g} ({near}), and a foot or last has"
+    words += f" {low:.0f}-{high:.0f} mm: if the scale is wrong, give --known-length MM"
+    if above and above[0][0] <= settings.longest_leg_mm:
+        words += f"; if it has a long leg, give --units {above[0][1]}"
+    return words
 
 
 def settled_units(
@@ -131,8 +154,12 @@ def _impossible_length(known_mm: float) -> str:
     'the known length of 25.2 mm is too short; this is in mm: did you mean 252?'
     >>> _impossible_length(4000.0)
     'the known length of 4000 mm is too long; it is 110-370 mm'
+    >>> _impossible_length(math.nan)
+    'the known length is not a number; it is 110-370 mm'
     """
     low, high = UNIT_SETTINGS.possible_mm
+    if math.isnan(known_mm):
+        return f"the known length is not a number; it is {low:.0f}-{high:.0f} mm"
     words = f"the known length of {known_mm:g} mm is too {'short' if known_mm < low else 'long'}"
     meant = [known_mm * scale for scale in (*UNIT_SCALES.values(), 0.1)]
     for least, most in (UNIT_SETTINGS.length_mm, UNIT_SETTINGS.possible_mm):

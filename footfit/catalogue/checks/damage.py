@@ -14,7 +14,7 @@ from footfit.catalogue.checks.schema_comparison import expected_objects, stored_
 from footfit.catalogue.file.dialect import Driver, ServerConnection, column_names, table_names
 from footfit.catalogue.file.migrate import Schema
 from footfit.catalogue.rows.array_blobs import array_of, definition_text
-from footfit.catalogue.rows.columns import FIT, REFERENCE, SEALED, SEARCH_BLOCK, TABLES
+from footfit.catalogue.rows.columns import FIT, MESH_COPY, REFERENCE, SEALED, SEARCH_BLOCK, TABLES
 from footfit.catalogue.rows.reference_last import stored_reference, transform_by
 from footfit.catalogue.rows.verified_rows import (
     LastRows,
@@ -31,6 +31,8 @@ from footfit.results import Finding
 
 TRANSFORM_TOLERANCE = 1e-9
 """Relative: on another machine, the last bits of a computed paper transform may differ."""
+
+HAS_COPY = f"SELECT 1 FROM {MESH_COPY.name} WHERE last_id = ?"
 
 Check = Callable[[Driver], Iterator[Finding]]
 
@@ -124,9 +126,10 @@ def _definitions(connection: Driver) -> Iterator[Finding]:
             words = f"its profile follows {version!r}"
             if stored.definition == current:
                 words = f"its profile has not the number of stations of {version!r}"
-            yield Finding(
-                "definition", f"{words}; type: footfit upgrade-catalogue", stored.name, damage=False
-            )
+            cure = "type: footfit upgrade-catalogue"
+            if not connection.execute(HAS_COPY, (stored.id,)).fetchone():
+                cure = "it has no mesh copy: ingest its file again with --replace"
+            yield Finding("definition", f"{words}; {cure}", stored.name, damage=False)
 
 
 def _sealed_rows(connection: Driver) -> Iterator[Finding]:

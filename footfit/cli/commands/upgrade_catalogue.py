@@ -14,4 +14,10 @@ def upgrade_catalogue(
 
     Example: footfit upgrade-catalogue --jobs 2
     """
-    return lasts.open().upgrade(jobs)
+    from footfit.cli.signals import LISTENER
+
+    def count(done: int, total: int) -> None:
+        stored = f"{done} of {total} lasts are measured again and stored"
+        LISTENER.so_far = f"{stored}: run the command again for the others"
+
+    return lasts.open().upgrade(jobs, count)

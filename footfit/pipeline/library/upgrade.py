@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 
 from footfit.catalogue.store import Catalogue, open_catalogue
@@ -28,7 +28,13 @@ class StoredMesh:
     reprofile: bool
 
 
-def upgrade(path: Location, jobs: int = HERE) -> UpgradeOutcome:
+Count = Callable[[int, int], None]
+"""It gets how many lasts are measured again and stored, and how many there are to do."""
+
+
+def upgrade(
+    path: Location, jobs: int = HERE, count: Count = lambda _done, _total: None
+) -> UpgradeOutcome:
     """Bring the schema up to date, and every last that was measured by other definitions.
 
     A copy of the file is kept beside it if its schema changes. Everything is measured from the
@@ -50,8 +56,12 @@ def upgrade(path: Location, jobs: int = HERE) -> UpgradeOutcome:
             for name in names
             if name not in with_copy
         }
+        count(0, len(work))
         for start in range(0, len(work), AT_A_TIME):
-            failures |= dict(_renew(catalogue, work[start : start + AT_A_TIME], jobs))
+            chunk = work[start : start + AT_A_TIME]
+            for done, failure in enumerate(_renew(catalogue, chunk, jobs), start + 1):
+                count(done, len(work))
+                failures |= failure
         blocks, revisions = catalogue.renew_blocks(), catalogue.revisions
     noun = "block was" if blocks == 1 else "blocks were"
     return UpgradeOutcome(
@@ -86,8 +96,8 @@ def _older(catalogue: Catalogue) -> list[tuple[LastRecord, bool]]:
 
 def _renew(
     catalogue: Catalogue, work: Sequence[tuple[LastRecord, bool]], jobs: int
-) -> Iterator[tuple[str, str]]:
-    """Measure lasts again and store each; yield the name of each that fails, and why."""
+) -> Iterator[dict[str, str]]:
+    """Measure lasts again and store each; yield for each why it fails, by its name, or nothing."""
     meshes = [
         StoredMesh(name, catalogue.mesh_copy(name), record, again)
         for record, again in work
@@ -96,9 +106,10 @@ def _renew(
     for outcome in outcomes(_measured_again, meshes, jobs):
         record, new = outcome.item.record, outcome.value
         if new is None:
-            yield record.labels.name, f"{record.labels.name!r} stays as it is: {outcome.error}"
+            yield {record.labels.name: f"{record.labels.name!r} stays as it is: {outcome.error}"}
             continue
         catalogue.update_measured(with_measured(record, new), new.sections)
+        yield {}
 
 
 def _measured_again(mesh: StoredMesh) -> MeasuredCopy:

@@ -9,6 +9,7 @@ from footfit.errors import SideUndecided
 from footfit.geometry.flare.definition import flare_class
 from footfit.geometry.measures import measure_table
 from footfit.geometry.measures.landmarks import Shape
+from footfit.pipeline.scan.settled_unit import length_notices
 from footfit.pipeline.scan.trueness import measured
 from footfit.results import (
     AlignedScan,
@@ -130,7 +131,8 @@ def unusual_measures(
     """A warning for each value of a foot that is outside the range of a survey's people.
 
     The value stays, because a foot may be unusual. Of a last there is no such range. The survey's
-    people are adults: for feet of other lengths only the length is compared.
+    people are adults: for feet of other lengths only the length is compared. A length outside of
+    the range that the alignment warns of gets no second warning.
     """
     values = {row.name: row.measured.value for row in measures}
     length_mm = values.get("length")
@@ -142,6 +144,8 @@ def unusual_measures(
             return ()
         message = f"length {length_mm:.1f} mm is unusual; feet of this profile have"
         return (Notice("suspect_measure", f"{message} {low:.0f}-{high:.0f} mm"),)
+    if length_notices(length_mm):
+        del values["length"]
     known = ((entry, values.get(entry.name)) for entry in measure_table.MEASURES)
     words = (
         measure_table.unusual(entry, value, length_mm)

@@ -88,7 +88,7 @@ def detected_unit(length: float) -> str:
     if not names:
         raise UnknownUnits(
             f"no unit makes the length ({length:.4g} in the file) {low:.0f}-{high:.0f} mm:"
-            " give --units or --known-length MM"
+            " if the scale is wrong, give --known-length MM"
         )
     lengths = " or ".join(f"{length * UNIT_SCALES[n]:.0f} mm (--units {n})" for n in names)
     raise UnknownUnits(f"the length {length:.4g} in the file is {lengths}: give --units")

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 
@@ -29,14 +29,24 @@ from footfit.results.columns.last_columns import KINDS, LastColumns
 from footfit.results.values import notices_about
 
 NONE: frozenset[int] = frozenset()
+MOST_NAMES = 3
+"""A notice about several lasts names so many; of the others it says how many there are."""
+
+UPGRADE = ("; type: footfit upgrade-catalogue",) * 2
+INGEST_AGAIN = (
+    ", and it was stored without its mesh: ingest its file again with --replace",
+    ", and they were stored without their meshes: ingest their files again with --replace",
+)
+"""What to do about an older profile, of one last and of several."""
 
 
 @dataclass(frozen=True, slots=True)
 class _Read:
-    """What was read of a catalogue."""
+    """What was read of a catalogue; ``copies`` names the lasts that can be measured again."""
 
     path: Location
     lasts: BlockLasts
+    copies: frozenset[str]
     reference: str | None
     rated: tuple[tuple[str, int], ...]
 
@@ -48,7 +58,7 @@ def choice(
 
     If no last is labelled in the size system, it is only how the customer's sizes are shown: all
     lasts are ranked, with a notice. A warning names each last that is left out because it is
-    damaged or has an older profile.
+    damaged; another one counts those with an older profile.
 
     Raises
     ------
@@ -81,7 +91,9 @@ def _read(path: Location, untrusted: frozenset[int]) -> _Read:
         lasts = catalogue.block_lasts(untrusted)
         if not len(lasts.base) and not lasts.damaged:
             raise EmptyCatalogue(f"the catalogue holds no last; {FIRST_STEPS}", str(path))
-        return _Read(path, lasts, reference_name(catalogue), catalogue.fit_log.counts())
+        older = not _with_current_profile(lasts.base).all()
+        copies = frozenset(catalogue.mesh_copy_names() if older else ())
+        return _Read(path, lasts, copies, reference_name(catalogue), catalogue.fit_log.counts())
 
 
 def _filtered(read: _Read, **filters: str | None) -> Shelf:
@@ -89,12 +101,13 @@ def _filtered(read: _Read, **filters: str | None) -> Shelf:
     lasts = read.lasts.base
     passes, rejected = _passing(lasts, filters)
     current = _with_current_profile(lasts)
-    outdated = lasts.taken(np.flatnonzero(passes & ~current)).names
+    outdated = sorted(lasts.taken(np.flatnonzero(passes & ~current)).names)
     ranked = passes & current
     warnings = (
         *map(damaged_last, read.lasts.damaged),
         *_bad_blocks(read.lasts),
-        *map(_outdated, sorted(outdated)),
+        *_outdated([name for name in outdated if name in read.copies], UPGRADE),
+        *_outdated([name for name in outdated if name not in read.copies], INGEST_AGAIN),
         *_other_measures(lasts, ranked),
     )
     return Shelf(
@@ -144,9 +157,17 @@ def _bad_blocks(lasts: BlockLasts) -> list[Notice]:
     return [Notice("damaged_blocks", words)]
 
 
-def _outdated(name: str) -> Notice:
-    words = f"{name} was left out: its profile is older; type: footfit upgrade-catalogue"
-    return Notice("outdated_last", words)
+def _outdated(names: Sequence[str], cures: tuple[str, str]) -> list[Notice]:
+    """A notice of the lasts with older profiles, with the cure of one or of several."""
+    if not names:
+        return []
+    if len(names) == 1:
+        words = f"{names[0]} was left out: its profile is older{cures[0]}"
+        return [Notice("outdated_last", words)]
+    listed, more = ", ".join(names[:MOST_NAMES]), len(names) - MOST_NAMES
+    listed += f" and {more} more" if more > 0 else ""
+    words = f"{len(names)} lasts were left out ({listed}): their profiles are older{cures[1]}"
+    return [Notice("outdated_last", words)]
 
 
 def _other_measures(lasts: LastColumns, ranked: Bools) -> list[Notice]:
