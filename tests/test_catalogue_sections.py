@@ -22,7 +22,7 @@ from footfit.meshes.copies.compact_copy import expanded_mesh
 from footfit.meshes.write import encoded_mesh
 from footfit.pipeline.library import upgrade as upgrading
 from footfit.pipeline.library.upgrade import upgrade
-from footfit.results import ShapeSections
+from footfit.results import LastLabels, ShapeSections
 from tests import records
 from tools.lasts import LastSpec, last_mesh
 
@@ -103,9 +103,18 @@ def test_a_whole_mesh_is_kept_if_it_is_asked_for(tmp_path: Path) -> None:
     with stored:
         assert stored.ingest(mesh)[0].status == "added"
         assert stored.mesh("derby").faces < len(faces)
-        assert stored.ingest(mesh, keep_mesh="full")[0].status == "unchanged"
+        (unchanged,) = stored.ingest(mesh, keep_mesh="full")
+        assert unchanged.status == "unchanged"
+        assert [notice.code for notice in unchanged.warnings] == ["compact_copy"]
         assert stored.ingest(mesh, keep_mesh="full", replace=True)[0].status == "replaced"
         copy = stored.mesh("derby")
+        assert stored.ingest(mesh, keep_mesh="full")[0].warnings == ()
+        styled = LastLabels("", style="derby")
+        assert stored.ingest(mesh, replace=True, labels=styled)[0].status == "replaced"
+        assert stored.mesh("derby").faces == copy.faces  # it stays whole
+        typed = stored.ingest(mesh, replace=True, keep_mesh="compact")
+        assert typed[0].status == "replaced"
+        assert stored.mesh("derby").faces < copy.faces  # that was typed
     assert copy.faces == len(faces)
     assert copy.error_mm < 0.01
     assert len(expanded_mesh(copy.data)[0]) == len(vertices)

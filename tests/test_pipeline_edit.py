@@ -17,7 +17,8 @@ from footfit.catalogue.store import open_catalogue
 from footfit.errors import BadOption, CatalogueDamaged, NoCatalogue, UnknownLast
 from footfit.pipeline.library import edit
 from footfit.pipeline.library.edit import EDITABLE, edit_last
-from footfit.results import LastRecord
+from footfit.pipeline.scan.trueness import SCANNER_SD_MM
+from footfit.results import LastLabels, LastRecord
 from tests import records
 from tests.conftest import SAMPLES, Footfit
 from tests.torture.kills import kill_trials
@@ -103,6 +104,26 @@ def test_a_heel_label_decides_the_stance_as_at_the_ingest(catalogue: Path, tmp_p
     assert edited.flare.angle_deg == pytest.approx(wanted.flare.angle_deg, abs=0.002)
     assert [n.code for n in edited.warnings] == [n.code for n in wanted.warnings]
     assert findings(catalogue) == []
+
+
+def test_a_measure_taken_again_keeps_the_scanners_part_of_its_total_sd(tmp_path: Path) -> None:
+    """The edited last is as sure as its file, ingested from that scanner with that label."""
+    file = str(SAMPLES / "lasts" / "derby-40.stl")
+    totals = []
+    for height_mm in (None, 30.0):
+        path = tmp_path / f"{height_mm}.footfit"
+        with library.open_catalogue(path) as lasts:
+            labels = LastLabels("", heel_height_mm=height_mm)
+            lasts.ingest(file, labels=labels, side="right", scanner="phone")
+        if height_mm is None:
+            again = edit_last(path, LAST, {"heel_height_mm": 30.0}).measured_again
+        totals.append({row.name: row.measured.total_sd for row in record_in(path).measures})
+    edited, wanted = totals
+    assert {"heel_height", "stick_length"} <= set(again)
+    for name in again:
+        assert edited[name] == pytest.approx(wanted[name], abs=0.02), name
+    assert edited["heel_height"] is not None
+    assert edited["heel_height"] > SCANNER_SD_MM["phone"]["height"]
 
 
 def test_what_the_stance_does_not_change_stays_as_it_was_scanned(catalogue: Path) -> None:

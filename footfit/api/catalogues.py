@@ -229,7 +229,7 @@ class Catalogue(CatalogueFile):
             replace=options.get("replace", False),
             dry_run=options.get("dry_run", False),
             jobs=options.get("jobs", HERE),
-            keep_mesh=options.get("keep_mesh", "compact"),
+            keep_mesh=options.get("keep_mesh"),
         )
         return tuple(each)
 
@@ -240,7 +240,7 @@ class Catalogue(CatalogueFile):
         replace: bool = False,
         dry_run: bool = False,
         jobs: Jobs = HERE,
-        keep_mesh: KeepMesh = "compact",
+        keep_mesh: KeepMesh | None = None,
         hold_signals: HoldSignals = nullcontext,
     ) -> Iterator[results.IngestOutcome]:
         """Store entries of ``pipeline.library.ingest``; yield the outcome of each after its commit.

@@ -157,7 +157,8 @@ class GradeKeywords(TypedDict, total=False):
 class IngestKeywords(ReadingKeywords, total=False):
     """How lasts are stored: over one of the same name, only as a trial, by how many processes.
 
-    ``keep_mesh`` "full" keeps every face of a mesh, "compact" a light copy.
+    ``keep_mesh`` "full" keeps every face of a mesh, "compact" a light copy. Without it the copy is
+    light, except for a last that replaces one with its whole mesh.
     """
 
     replace: bool

@@ -14,6 +14,7 @@ from footfit.catalogue.file.engine import sqlite_errors_in_words
 from footfit.catalogue.file.migrate import Revisions, Schema
 from footfit.catalogue.fit_log import FitLog
 from footfit.catalogue.rows.columns import (
+    LAST,
     MESH_COPY,
     PARENTAGE,
     SECTION,
@@ -174,6 +175,14 @@ class CatalogueReader:
     def mesh_copy_names(self) -> tuple[str, ...]:
         """The names of the lasts that have a mesh copy, damaged or not, sorted."""
         return self._owners(MESH_COPY)
+
+    def whole_mesh_names(self) -> frozenset[str]:
+        """The names of the lasts whose copy has every face of the scan."""
+        with self.file.reading() as connection:
+            names = last_names(connection)
+            joined = f"{LAST.name} JOIN {MESH_COPY.name} ON last_id = id"
+            whole = f"SELECT id FROM {joined} WHERE {MESH_COPY.name}.faces >= {LAST.name}.faces"
+            return frozenset(names[key] for (key,) in connection.execute(whole).fetchall())
 
     def section_names(self) -> tuple[str, ...]:
         """The names of the lasts whose sections are kept, damaged or not, sorted."""

@@ -46,10 +46,11 @@ def ingest_last(
     ),
     replace: bool = options.switch("--replace", "Replace a stored last of the same name."),
     dry_run: bool = options.switch("--dry-run", "Store nothing; say what would be stored."),
-    keep_mesh: KeepMesh = options.option(
+    keep_mesh: KeepMesh | None = options.option(
         "--keep-mesh",
-        "Keep a compact copy of each mesh, or the full mesh, which custom lasts need.",
-        default="compact",
+        "Keep a compact copy of each mesh, or the full mesh, which custom lasts need."
+        " Without it the copy is compact, unless a full one is replaced.",
+        default=None,
     ),
     *,
     lasts: options.Lasts,
@@ -115,7 +116,7 @@ def ingest_last(
         )
         for outcome in bar.items(outcomes):
             tell(outcome, mode, notices)
-            warned += bool(outcome.warnings)
+            warned += outcome.status != "unchanged" and bool(outcome.warnings)
             if outcome.failure is not None:
                 refused.append(int(outcome.failure.exit))
                 tell_failure(error_line(outcome.failure, as_json=mode.json, verbose=mode.verbose))

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Mapping
 from dataclasses import replace
 from functools import partial
@@ -12,7 +13,7 @@ from footfit.locations import Location
 from footfit.pipeline.library.manifest import LABEL_HEIGHTS, LABEL_TEXTS, label_mm
 from footfit.pipeline.library.measured_copy import MeasuredCopy, measured_copy, with_measured
 from footfit.pipeline.scan.measure import END_MEASURES
-from footfit.results import EditOutcome, LastRecord, Measure, MeshCopy, ShapeSections
+from footfit.results import EditOutcome, LastRecord, Measure, Measured, MeshCopy, ShapeSections
 
 Label = str | float | None
 """The value of a label: a text, a height in mm, or None for no label."""
@@ -109,7 +110,21 @@ def _row(record: LastRecord, stored: Measure | None, before: Measure, after: Mea
     if stored is None or stored.definition != after.definition:
         return after
     open_end = record.length_mm is None and after.name in END_MEASURES
-    return stored if open_end or before.measured == after.measured else after
+    if open_end or before.measured == after.measured:
+        return stored
+    return replace(after, measured=_as_scanned(stored.measured, before.measured, after.measured))
+
+
+def _as_scanned(stored: Measured, before: Measured, after: Measured) -> Measured:
+    """A value taken again, with the part of the total sd that only the scan's file could tell.
+
+    The scanner and the file's step are not kept. Their part is what the stored total sd has more
+    than the one of the mesh copy with the same labels.
+    """
+    if stored.total_sd is None or before.total_sd is None or after.total_sd is None:
+        return after
+    more = max(0.0, stored.total_sd**2 - before.total_sd**2)
+    return replace(after, total_sd=math.sqrt(after.total_sd**2 + more))
 
 
 def _outcome(before: LastRecord, after: LastRecord, labels: Mapping[str, Label]) -> EditOutcome:

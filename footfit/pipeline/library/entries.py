@@ -16,11 +16,15 @@ from footfit.results import LastLabels, Notice
 
 @dataclass(frozen=True, slots=True)
 class Entry:
-    """One file to ingest, with its labels and how to read it."""
+    """One file to ingest, with its labels and how to read it.
+
+    ``whole_mesh`` says that every face of its mesh is to be kept.
+    """
 
     source: Source
     labels: LastLabels
     reading: ReadingOptions
+    whole_mesh: bool = False
 
     @property
     def path(self) -> str | None:

@@ -27,36 +27,37 @@ class Held:
     lengths_mm: tuple[float | None, float]
     side: SideName | None
     flare_angle_deg: float
+    whole_mesh: bool = False
 
 
-def held_last(record: LastRecord) -> Held:
+def held_last(record: LastRecord, *, whole_mesh: bool = False) -> Held:
     """What is known of a last; older versions scaled its extent and not its length."""
     info, side, lengths_mm = record.info, record.side.side, (record.length_mm, record.extent_mm)
     angle_deg = record.flare.angle_deg
-    return Held(record.labels, info.sha256, info.units, lengths_mm, side, angle_deg)
+    return Held(record.labels, info.sha256, info.units, lengths_mm, side, angle_deg, whole_mesh)
 
 
 class Holdings:
     """The lasts of the catalogue, kept up to date during a batch (also in a dry run).
 
     A name is the same however its accents are written. One that differs in case is not, and is
-    refused.
+    refused. ``whole`` names the lasts whose stored copy is the whole mesh.
     """
 
-    def __init__(self, records: Iterable[LastRecord]) -> None:
+    def __init__(self, records: Iterable[LastRecord], whole: frozenset[str] = frozenset()) -> None:
         self.by_name: dict[str, Held] = {}
         self.by_content: dict[str, str] = {}
         self.spellings: dict[str, str] = {}
         for record in records:
-            self.put(record)
+            self.put(record, whole_mesh=record.labels.name in whole)
 
-    def put(self, record: LastRecord) -> None:
+    def put(self, record: LastRecord, *, whole_mesh: bool = False) -> None:
         """Add a last, or replace the one of its name."""
         name = composed(record.labels.name)
         old = self.by_name.get(name)
         if old is not None:
             self.by_content.pop(old.sha256, None)
-        self.by_name[name] = held_last(record)
+        self.by_name[name] = held_last(record, whole_mesh=whole_mesh)
         self.by_content[record.info.sha256] = record.labels.name
         self.spellings[caseless(name)] = record.labels.name
 

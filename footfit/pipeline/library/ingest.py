@@ -11,6 +11,7 @@ from pathlib import Path
 from typing import Literal
 
 from footfit.catalogue.group_commit import GROUP, KnownLasts, NewLast
+from footfit.catalogue.rows.last_names import composed
 from footfit.catalogue.store import Catalogue, open_catalogue
 from footfit.errors import ExitCode, FootfitError, NameTaken, NoCatalogue
 from footfit.locations import Location
@@ -20,10 +21,13 @@ from footfit.pipeline.library.holdings import Held, Holdings, held_last
 from footfit.pipeline.scan.kept_sections import kept_sections
 from footfit.pipeline.scan.measure import last_record
 from footfit.pipeline.scan.reading import content_hash, profiled_source
-from footfit.results import IngestOutcome, LastRecord
+from footfit.results import IngestOutcome, LastRecord, Notice
 from footfit.whole_files import require_folder
 
 KeepMesh = Literal["compact", "full"]
+COMPACT = Notice(
+    "compact_copy", "its stored copy is compact; add --replace to store the whole mesh"
+)
 
 
 @dataclass(frozen=True, slots=True)
@@ -38,16 +42,13 @@ HoldSignals = Callable[[], AbstractContextManager[object]]
 """Makes a block that no signal interrupts: what is stored in it is also reported in it."""
 
 
-def ready_last(entry: Entry, keep_mesh: KeepMesh = "compact") -> ReadyLast:
-    """The slow part of an ingest. It does not use the catalogue, and runs in a worker.
-
-    ``keep_mesh`` "full" keeps every face of the mesh.
-    """
+def ready_last(entry: Entry) -> ReadyLast:
+    """The slow part of an ingest. It does not use the catalogue, and runs in a worker."""
     from footfit.meshes.copies.compact_copy import COPY_FACES, compact_copy
 
     shape = profiled_source(entry.source, entry.reading)
     faces = shape.aligned.faces
-    target = len(faces) if keep_mesh == "full" else COPY_FACES
+    target = len(faces) if entry.whole_mesh else COPY_FACES
     copy = compact_copy(shape.aligned.vertices_mm, faces, target)
     sections = kept_sections(shape.aligned.prepared.shape)
     record = last_record(shape, entry.labels)
@@ -61,14 +62,15 @@ def ingest(
     jobs: Jobs = HERE,
     replace: bool = False,
     dry_run: bool = False,
-    keep_mesh: KeepMesh = "compact",
+    keep_mesh: KeepMesh | None = None,
     hold_signals: HoldSignals = nullcontext,
 ) -> Iterator[IngestOutcome]:
     """Ingest a batch into the catalogue at ``path``; yield each file's outcome after its commit.
 
     Lasts that are ready at the same time share a commit; one that is ready alone does not wait.
     ``keep_mesh`` "full" keeps every face of a mesh; with ``replace`` also of a last that is stored
-    with a lighter copy. A missing catalogue is made when there is a last to store; its folder is
+    with a lighter copy. None keeps a compact copy, but the whole mesh of a last that replaces one
+    with its whole mesh. A missing catalogue is made when there is a last to store; its folder is
     not. Signals are held off by ``hold_signals`` from before a commit until all of its outcomes
     were asked for, and the next one is.
 
@@ -79,12 +81,13 @@ def ingest(
     """
     with ExitStack() as stack:
         catalogue = None if dry_run else _existing(path, stack)
-        holdings = _stored_lasts(path) if catalogue is None else Holdings(catalogue.each_last())
-        known = frozenset() if replace else frozenset(holdings.by_content)
         how = _How(replace, dry_run, keep_mesh)
+        holdings = _stored_lasts(path, how) if catalogue is None else how.holdings(catalogue)
+        known = frozenset() if replace else frozenset(holdings.by_content)
+        batch = [_with_copy(entry, how, holdings) for entry in batch]
         storing = _Storing(path, stack, how, catalogue, holdings)
         ready_groups = outcome_groups(
-            partial(ready_last, keep_mesh=keep_mesh),
+            ready_last,
             batch,
             jobs,
             known=partial(_known_last, known),
@@ -118,11 +121,11 @@ def _known_last(known: frozenset[str], entry: Entry) -> ReadyLast | None:
     return ReadyLast(sha256) if sha256 in known else None
 
 
-def _stored_lasts(path: Location) -> Holdings:
+def _stored_lasts(path: Location, how: _How) -> Holdings:
     """The lasts of a catalogue; none if there is no catalogue."""
     try:
         with open_catalogue(path) as catalogue:
-            return Holdings(catalogue.each_last())
+            return how.holdings(catalogue)
     except NoCatalogue:
         return Holdings(())
 
@@ -133,7 +136,20 @@ class _How:
 
     replace: bool
     dry_run: bool
-    keep_mesh: KeepMesh
+    keep_mesh: KeepMesh | None
+
+    def holdings(self, catalogue: Catalogue) -> Holdings:
+        """What the catalogue holds; which copies are whole only if that can matter."""
+        matters = self.replace or self.keep_mesh == "full"
+        whole = catalogue.whole_mesh_names() if matters else frozenset[str]()
+        return Holdings(catalogue.each_last(), whole)
+
+
+def _with_copy(entry: Entry, how: _How, holdings: Holdings) -> Entry:
+    """The entry, with which copy is kept of its mesh: a last does not lose its whole mesh."""
+    held = holdings.by_name.get(composed(entry.labels.name)) if how.keep_mesh is None else None
+    whole = how.keep_mesh == "full" or (held is not None and held.whole_mesh)
+    return dataclasses.replace(entry, whole_mesh=whole)
 
 
 @dataclass(slots=True)
@@ -161,7 +177,7 @@ class _Storing:
         if lasts and self.catalogue is not None:
             replace = self.how.replace
             if not self.catalogue.add_together(lasts, self.known, replace=replace):
-                self.holdings = Holdings(self.catalogue.each_last())
+                self.holdings = self.how.holdings(self.catalogue)
                 return []
         pairs = zip(ready, planned, strict=True)
         return [self._answer(work, outcome) for work, (outcome, _) in pairs]
@@ -175,7 +191,7 @@ class _Storing:
             except FootfitError as error:
                 if error.exit == ExitCode.CATALOGUE_UNUSABLE:
                     raise
-                self.holdings = Holdings(self.catalogue.each_last())
+                self.holdings = self.how.holdings(self.catalogue)
                 outcome = self._not_added(work, last.record, error)
         return self._answer(work, outcome)
 
@@ -206,9 +222,11 @@ class _Storing:
             status = self.holdings.status(ready.sha256, entry, replace=how.replace)
             held = self.holdings.named(entry.labels.name)
             if held is not None and status == "unchanged" and not again:
-                return _unchanged(entry.path, held), None
+                compact = how.keep_mesh == "full" and not held.whole_mesh
+                unchanged = _unchanged(entry.path, held)
+                return dataclasses.replace(unchanged, warnings=(COMPACT,) * compact), None
             # a last that was known when the batch began may not be there any more
-            last = ready.last or ready_last(entry, how.keep_mesh).last
+            last = ready.last or ready_last(entry).last
         except FootfitError as error:
             return IngestOutcome(entry.path, "refused", failure=error.at(entry.path)), None
         assert last is not None
@@ -219,7 +237,8 @@ class _Storing:
             reference=not self.holdings.by_name,
             info=last.record.info,
         )
-        self.holdings.put(last.record)
+        whole = last.copy is not None and last.copy.faces >= last.record.info.faces
+        self.holdings.put(last.record, whole_mesh=whole)
         return outcome, last
 
     def _open(self) -> None:
@@ -227,7 +246,7 @@ class _Storing:
         if self.catalogue is not None or self.how.dry_run:
             return
         self.catalogue = self.stack.enter_context(open_catalogue(self.path, write=True))
-        self.holdings = Holdings(self.catalogue.each_last())
+        self.holdings = self.how.holdings(self.catalogue)
         self.made = str(self.path) if self.catalogue.revisions.made else None
 
     def _answer(self, work: Outcome[Entry, ReadyLast], outcome: IngestOutcome) -> IngestOutcome:
