@@ -48,7 +48,7 @@ def test_a_last_that_was_turned_is_turned_back(low: Shape) -> None:
 def test_what_a_height_would_change_by_is_told(low: Shape) -> None:
     straight = Shape(*straight_mesh(), "last")
     height = measure_named("instep_height")
-    value = height.taken_of(low)
+    value = height.with_tilt(low)
     assert value.value is not None
     right_mm = height.value_of(straight).value
     assert value.value + value.tilt_mm == pytest.approx(right_mm, abs=TILTED_MM)

@@ -92,13 +92,13 @@ class MeasureDefinition:
         """The measure of a shape: it is taken once, and kept with what was found on the shape."""
         taken: dict[str, MeasureValue] = vars(shape).setdefault("taken", {})
         if self.name not in taken:
-            value = self.value_of(shape)
-            taken[self.name] = self._with_tilt(shape, value) if self.tilts else value
+            taken[self.name] = self.value_of(shape)
         return taken[self.name]
 
-    def _with_tilt(self, shape: Shape, value: MeasureValue) -> MeasureValue:
-        """A value, with what it changes by if a last lies on seat and tread."""
-        rests = at_rest(shape)
+    def with_tilt(self, shape: Shape) -> MeasureValue:
+        """The measure of a shape, with what it changes by if a last lies on seat and tread."""
+        value = self.taken_of(shape)
+        rests = at_rest(shape) if self.tilts else None
         there = MeasureValue(None) if rests is None else self.value_of(rests)
         if value.value is None or there.value is None:
             return value

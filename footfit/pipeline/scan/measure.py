@@ -99,7 +99,7 @@ def shape_measures(shape: Shape, info: MeshInfo | None = None) -> tuple[Measure,
     return tuple(
         Measure(
             entry.name,
-            measured(entry, entry.taken_of(shape), kind, shape.shape_heel_mm, info),
+            measured(entry, entry.with_tilt(shape), kind, shape.shape_heel_mm, info),
             entry.definition_id,
         )
         for entry in measure_table.of_kind(kind)

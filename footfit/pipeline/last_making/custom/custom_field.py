@@ -95,7 +95,7 @@ class CustomSettings:
 
 
 CUSTOM = CustomSettings()
-WARM = replace(SOLVER, shaping=3)
+WARM = replace(SOLVER, shaping=3, rounds=8)
 """A search that begins where another one ended."""
 FREE_MM = 100.0
 """The unit of a knob in mm whose size costs nothing."""
