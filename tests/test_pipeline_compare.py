@@ -225,3 +225,12 @@ def test_an_unknown_last_and_a_wrong_suffix_are_refused(footfit, foot, stocked, 
     assert json.loads(wrong.last_error)["code"] == "bad_option"
     assert not (tmp_path / "heat.stl").exists()
     assert wrong.out == ""
+
+
+def test_over_the_largest_drop_no_measure_is_judged_and_the_words_say_why(footfit, foot):
+    from tests.conftest import SAMPLES
+
+    path = SAMPLES / "lasts" / f"{LAST}.stl"
+    words = footfit("compare", foot, path, "--heel-height", "110").out
+    assert "in mm: none is judged at so high a drop" in words
+    assert "none that both have" not in words

@@ -37,6 +37,9 @@ def align(
 ) -> None:
     """Turn scans into one frame: heel to toe along X, sole down, in mm.
 
+    ± is the spread of a second scan of the same shape; total ± also holds what is known of the
+    trueness.
+
     Example: footfit align foot.stl -o aligned.stl --plot frames.svg
     """
     from footfit.api import files, scans

@@ -23,6 +23,9 @@ def flare(
 ) -> None:
     """Measure the flare of feet or lasts in degrees; + is inflare.
 
+    ± is the spread of a second scan of the same shape; total ± also holds what is known of the
+    trueness.
+
     Example: footfit flare foot.stl --plot flare.svg
     """
     from footfit.api import files, scans

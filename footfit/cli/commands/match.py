@@ -101,6 +101,9 @@ def match(
 
     The toe room comes first: the last's length along its bottom less the foot's length.
 
+    ± is the spread of a second scan of the same shape; total ± also holds what is known of the
+    trueness.
+
     Example: footfit match left.stl right.stl --pair --html report.html --sheet sheet.html
     """
     from dataclasses import replace

@@ -68,7 +68,9 @@ def measures_words(comparison: Comparison) -> str:
         for name, clearance in comparison.measured_clearance
         if clearance.value is not None
     ]
-    return f"Measures, {second} minus {first} in mm: {', '.join(known) or 'none that both have'}"
+    only_length = comparison.heel is not None and comparison.heel.length_only
+    none = "none is judged at so high a drop" if only_length else "none that both have"
+    return f"Measures, {second} minus {first} in mm: {', '.join(known) or none}"
 
 
 def change_words(comparison: Comparison) -> str:
