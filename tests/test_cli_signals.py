@@ -46,7 +46,7 @@ def test_a_signal_that_the_main_thread_blocks_is_heard_afterwards(number: signal
 
 def test_a_commands_own_words_say_what_is_done() -> None:
     listener = Listener()
-    listener.so_far = "3 of 14 lasts are measured again and stored: run the command again"
+    listener.so_far = "3 of 14 lasts are done: run the command again for the others"
     words = listener.words(signal.SIGINT)
     assert words == f"footfit: interrupted; {listener.so_far}"
 

@@ -167,6 +167,21 @@ def test_a_last_without_its_mesh_gets_an_advice_that_helps(
     assert finding["message"].endswith("it has no mesh copy: ingest its file again with --replace")
 
 
+def test_older_measures_without_a_mesh_get_an_advice_that_helps(catalogue: Path) -> None:
+    with open_catalogue(catalogue, write=True) as opened:
+        for record in opened.lasts().records[:2]:
+            stale = (replace(record.measures[0], definition="length/1"), *record.measures[1:])
+            opened.update_measured(replace(record, measures=stale))
+        first, second = (record.labels.name for record in opened.lasts().records[:2])
+    without_copy(catalogue, first)
+    notices = choice(catalogue, None, None).warnings
+    assert [notice.code for notice in notices] == ["other_measures"] * 2
+    assert notices[0].message.startswith(second)
+    assert notices[0].message.endswith("type: footfit upgrade-catalogue")
+    assert notices[1].message.startswith(first)
+    assert notices[1].message.endswith("ingest its file again with --replace")
+
+
 def test_an_upgrade_counts_the_lasts_as_it_stores_them(catalogue: Path) -> None:
     with_older_profiles(catalogue, 3)
     counts: list[tuple[int, int]] = []

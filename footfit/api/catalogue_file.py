@@ -70,7 +70,7 @@ class CatalogueFile:
     ) -> results.UpgradeOutcome:
         """Bring an older catalogue to this version, and keep a copy of the old file.
 
-        ``count`` is called with how many lasts are stored again, and how many there are to do.
+        ``count`` is called with how many lasts are done, and how many there are to do.
         """
         from footfit.pipeline.library import upgrade
 

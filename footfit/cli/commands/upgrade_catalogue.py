@@ -17,7 +17,8 @@ def upgrade_catalogue(
     from footfit.cli.signals import LISTENER
 
     def count(done: int, total: int) -> None:
-        stored = f"{done} of {total} lasts are measured again and stored"
-        LISTENER.so_far = f"{stored}: run the command again for the others"
+        if total:
+            words = f"{done} of {total} lasts are done: run the command again for the others"
+            LISTENER.so_far = words
 
     return lasts.open().upgrade(jobs, count)

@@ -29,7 +29,7 @@ class StoredMesh:
 
 
 Count = Callable[[int, int], None]
-"""It gets how many lasts are measured again and stored, and how many there are to do."""
+"""It gets how many lasts are done, and how many there are to do."""
 
 
 def upgrade(

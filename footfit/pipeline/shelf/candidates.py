@@ -37,7 +37,7 @@ INGEST_AGAIN = (
     ", and it was stored without its mesh: ingest its file again with --replace",
     ", and they were stored without their meshes: ingest their files again with --replace",
 )
-"""What to do about an older profile, of one last and of several."""
+"""What to do about older profiles and measures, of one last and of several."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -91,7 +91,7 @@ def _read(path: Location, untrusted: frozenset[int]) -> _Read:
         lasts = catalogue.block_lasts(untrusted)
         if not len(lasts.base) and not lasts.damaged:
             raise EmptyCatalogue(f"the catalogue holds no last; {FIRST_STEPS}", str(path))
-        older = not _with_current_profile(lasts.base).all()
+        older = not (_with_current_profile(lasts.base) & _with_current_measures(lasts.base)).all()
         copies = frozenset(catalogue.mesh_copy_names() if older else ())
         return _Read(path, lasts, copies, reference_name(catalogue), catalogue.fit_log.counts())
 
@@ -108,7 +108,7 @@ def _filtered(read: _Read, **filters: str | None) -> Shelf:
         *_bad_blocks(read.lasts),
         *_outdated([name for name in outdated if name in read.copies], UPGRADE),
         *_outdated([name for name in outdated if name not in read.copies], INGEST_AGAIN),
-        *_other_measures(lasts, ranked),
+        *_other_measures(lasts, ranked, read.copies),
     )
     return Shelf(
         lasts=read.lasts,
@@ -170,18 +170,26 @@ def _outdated(names: Sequence[str], cures: tuple[str, str]) -> list[Notice]:
     return [Notice("outdated_last", words)]
 
 
-def _other_measures(lasts: LastColumns, ranked: Bools) -> list[Notice]:
-    """A warning if lasts were measured by other definitions; it says what to do."""
+def _with_current_measures(lasts: LastColumns) -> Bools:
+    """Which lasts were measured by this footfit's definitions."""
     methods = [frozenset(method) for method in lasts.words.methods.values]
     same = np.array([[method == measure_definitions(kind) for method in methods] for kind in KINDS])
-    other = np.flatnonzero(ranked & ~same[lasts.kind, lasts.method])
-    if not len(other):
-        return []
-    (first, *more) = other.tolist()
-    start = f"{len(other)} of {np.count_nonzero(ranked)} lasts were"
-    words = f"{start if more else f'{lasts.names[first]} was'} measured by other definitions"
-    words += ": zones whose definition changed are not judged; type: footfit upgrade-catalogue"
-    return [Notice("other_measures", words)]
+    return np.asarray(same[lasts.kind, lasts.method], dtype=bool)
+
+
+def _other_measures(lasts: LastColumns, ranked: Bools, copies: frozenset[str]) -> list[Notice]:
+    """Warnings of the lasts that were measured by other definitions; they say what to do."""
+    rows = np.flatnonzero(ranked & ~_with_current_measures(lasts)).tolist()
+    names = [lasts.names[row] for row in rows]
+    notices = []
+    for stored, cures in ((True, UPGRADE), (False, INGEST_AGAIN)):
+        if other := [name for name in names if (name in copies) == stored]:
+            many = len(other) > 1
+            start = f"{len(other)} of {np.count_nonzero(ranked)} lasts were"
+            words = f"{start if many else f'{other[0]} was'} measured by other definitions"
+            words += f": zones whose definition changed are not judged{cures[many]}"
+            notices.append(Notice("other_measures", words))
+    return notices
 
 
 def in_stock(shelf: Shelf, file: Path) -> Shelf:
