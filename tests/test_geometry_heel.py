@@ -1,4 +1,4 @@
-"""The length starts at the heel's rearmost point, however the shank leans over it."""
+"""The heel has its length and its width, however the shank leans over it."""
 
 from __future__ import annotations
 
@@ -9,7 +9,9 @@ import pytest
 
 import footfit
 from footfit.geometry.measures.landmarks import Shape
+from footfit.geometry.measures.widths import heel_width
 from footfit.geometry.mesh.outermost_point import tip
+from footfit.geometry.mesh.topology import boundary_loops
 from tests.conftest import SAMPLES, SCANS
 from tests.distortions import leg_cut, subdivided, white_noise
 from tools.lasts import LastSpec, last_mesh
@@ -90,3 +92,18 @@ def test_a_leaning_shank_does_not_turn_the_flare(name):
         for mesh in (foot(name)[:2], leaning(name, 0.20, 1.0))
     ]
     assert angles_deg[1] == pytest.approx(angles_deg[0], abs=0.05)  # measured 0.01
+
+
+@pytest.mark.parametrize("back_mm", [0.0, 25.0, 50.0])
+def test_the_heel_has_its_width_under_a_shank_of_long_facets(back_mm):
+    """The facets over the heel were taken for a filled hole, and the width was missing."""
+    vertices, faces, length_mm = foot("mh008")
+    low, kept = leg_cut(vertices, faces, 0.28 * length_mm)
+    rim = max(boundary_loops(kept), key=len)
+    top = low[rim] + [-back_mm, 0.0, 90.0]
+    upper = len(low) + np.arange(len(rim))
+    walls = np.column_stack([np.roll(rim, -1), rim, upper])
+    others = np.column_stack([np.roll(rim, -1), upper, np.roll(upper, -1)])
+    shank = Shape(np.concatenate([low, top]), np.concatenate([kept, walls, others]))
+    value = heel_width(shank)
+    assert value.value == pytest.approx(heel_width(Shape(vertices, faces)).value, abs=0.2)

@@ -77,7 +77,7 @@ def _mean_width(
         below_mm = section.points[:, 1].min(initial=np.inf) + WIDTHS.height * shape.length_mm
         if shape.opened(section, below_mm):
             return MeasureValue(None, OPEN.format(place=place))
-        if shape.unscanned(section, upright=True):
+        if shape.unscanned(section, upright=True, below_mm=below_mm):
             return MeasureValue(None, UNSCANNED)
         widths.append(width(section, shape.length_mm))
     return MeasureValue(float(np.mean(widths)))
