@@ -67,8 +67,9 @@ def agreed(name: str, cues: Iterable[Cue]) -> Cue:
 
     Examples
     --------
-    >>> agreed("label", [Cue("heel_label", 0.1, 0.01), Cue("spring_label", 0.3, 0.01)]).sd
-    0.1
+    >>> mean = agreed("label", [Cue("heel_label", 0.1, 0.01), Cue("spring_label", 0.3, 0.01)])
+    >>> round(mean.ground, 3), round(mean.sd, 3)
+    (np.float64(0.2), 0.1)
     """
     cues = tuple(cues)
     mean = combined(name, cues)
