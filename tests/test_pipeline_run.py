@@ -301,3 +301,9 @@ def test_a_last_without_a_measure_is_left_out_of_its_check(tmp_path: Path) -> No
     assert [notice.code for notice in checked.warnings] == ["measure_missing"]
     with pytest.raises(FootfitError):
         footfit.check_run("derby")
+
+
+def test_a_file_that_is_not_there_is_said_before_its_size(footfit, tmp_path):
+    missing = footfit("check-run", tmp_path / "nosuch", tmp_path / "other")
+    assert missing.code == 3
+    assert "there is no such file, folder or family" in missing.err

@@ -9,7 +9,7 @@ from pathlib import Path
 
 from footfit.catalogue.rows.last_names import meant_name, nearest_name
 from footfit.catalogue.store import open_catalogue
-from footfit.errors import BadOption, UnknownLast
+from footfit.errors import BadOption, UnknownLast, UnreadableFile
 from footfit.locations import Location
 from footfit.pipeline.batch.runs import HERE, outcomes
 from footfit.pipeline.batch.sources import ReadingOptions, Source
@@ -84,7 +84,7 @@ def file_lasts(
     BadManifest
         A manifest beside the files is not understood.
     InputError, GeometryRefused
-        A file cannot be read or measured.
+        A file is not there, or cannot be read or measured.
     """
     known = _beside(sources) if manifest is None else manifest
     rows = {str(Path(row.path).resolve()): row for row in known}
@@ -130,6 +130,8 @@ def _label(source: Source, rows: Mapping[str, ManifestRow]) -> tuple[SizeLabel, 
         said = row.labels
         return SizeLabel(row.labels.size, said.width_label, "manifest"), said.size_system
     label = size_in_name(path.stem)
+    if label is None and source.path is not None and not path.exists():
+        raise UnreadableFile("there is no such file, folder or family: check the name", str(path))
     if label is None:
         words = "its name says no size: write the size into the name, such as derby-42.stl, or add"
         raise BadOption(
