@@ -306,8 +306,8 @@ def _moved_by_equal_targets(pair: Pair) -> float:
     return float(np.abs(moved - pair.base.shape.vertices_mm).max())
 
 
-def timed(rng: np.random.Generator, count: int) -> float:
-    """The core time of a custom last over that of an align, at 35,000 faces: the median."""
+def timed(rng: np.random.Generator, count: int) -> tuple[float, float]:
+    """The core time of a custom last over that of an align, at 35,000 faces: median and worst."""
     ratios = []
     for pair, _ in zip(pairs(rng, 160, 110), range(count), strict=False):
         mesh = pair.base.shape.vertices_mm, pair.base.shape.faces
@@ -319,7 +319,7 @@ def timed(rng: np.random.Generator, count: int) -> float:
         except OutOfReach:
             continue
         ratios.append((time.process_time() - middle) / (middle - start))
-    return float(np.median(ratios))
+    return float(np.median(ratios)), float(np.max(ratios))
 
 
 def found(options: argparse.Namespace) -> Iterator[dict[str, Any]]:
@@ -340,7 +340,7 @@ def found(options: argparse.Namespace) -> Iterator[dict[str, Any]]:
         yield {"pair": number, "rows": rows, "not good": whys, "suits": suits}
 
 
-def table(pairs_found: Sequence[dict[str, Any]], ratio: float) -> str:
+def table(pairs_found: Sequence[dict[str, Any]], ratio: tuple[float, float]) -> str:
     """The table of all pairs, and what is said below it."""
     refused = [each for each in pairs_found if "refused" in each]
     rows = [each["rows"] for each in pairs_found if "rows" in each]
@@ -350,7 +350,9 @@ def table(pairs_found: Sequence[dict[str, Any]], ratio: float) -> str:
         if len(values):
             high = f"{np.percentile(values, 95):.3g}"
             cells.append([name, f"{values.max():.3g}", high, f"{BARS[name]:g}"])
-    cells.append(["time over an align, 35k faces", f"{ratio:.1f}", "", "8"])
+    cells.append(
+        ["time over an align, 35k faces", f"{ratio[1]:.1f}", f"median {ratio[0]:.1f}", "8"]
+    )
     done = [each for each in pairs_found if "rows" in each]
     zones = Counter(name for each in done for name in each["not good"])
     free = sum(count for name, count in zones.items() if name not in KEPT)
@@ -390,7 +392,7 @@ def main() -> None:
             with options.rows.open("a", encoding="utf-8") as file:
                 file.write(f"{line}\n")
     if options.part == "1/1":
-        ratio = timed(np.random.default_rng(options.seed + 1), max(3, options.count // 40))
+        ratio = timed(np.random.default_rng(options.seed + 1), max(3, options.count // 10))
         text = table(kept, ratio)
         print(text)
         if options.write:
