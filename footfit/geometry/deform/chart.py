@@ -13,7 +13,7 @@ import numpy as np
 
 from footfit.geometry.measures.bottom_arc import BottomArc
 from footfit.geometry.measures.landmarks import Shape
-from footfit.geometry.measures.top_cut import top_cut_faces
+from footfit.geometry.measures.top_cut import standing_top
 from footfit.geometry.mesh.surface import area_vectors, face_normals
 from footfit.geometry.numeric.arrays import Bools, Floats, Ints
 from footfit.geometry.numeric.planes import Plane, robust_plane
@@ -243,10 +243,9 @@ def chart_of(shape: Shape, *, hold_top: bool = True, settings: ChartSettings = C
     height = cells.greatest(over, np.ones(len(over), dtype=bool)) * arc.length_mm - edge
     height = np.maximum(height, settings.thin * arc.length_mm)
     plain = Chart(arc, stations, middle, edge, height, None, 0.0, 0.0, settings)
-    # The top of a high heel looks backward as the last rests, so it is looked for as it stands.
-    lid = faces[top_cut_faces(standing, faces, float(np.ptp(standing[:, 0])), 0.0)]
+    lid = standing_top(standing, faces) if hold_top else faces[:0]
     behind = lid[along[lid].mean(axis=1) < settings.behind]
-    if not hold_top or not len(behind):
+    if not len(behind):
         return plain
     top = _top_plane(standing, behind, settings, arc)
     under_mm = -top.heights(standing[np.unique(behind)])

@@ -12,7 +12,7 @@ import numpy as np
 
 from footfit.geometry.deform.chart import Chart, eased
 from footfit.geometry.measures.landmarks import Shape
-from footfit.geometry.measures.top_cut import top_cut_faces
+from footfit.geometry.measures.top_cut import standing_top
 from footfit.geometry.mesh.sections import (
     Planes,
     extremes_below,
@@ -142,11 +142,10 @@ def cone_top(chart: Chart, shape: Shape) -> ConeTop | None:
     """The plane of the cone's top, fitted to what a held top keeps; None if nothing there is flat.
 
     A face counts by its area in the plan and by how near its three corners are to the plane. So the
-    plane is the same one after the top moved rigidly, or became longer, wider and higher. It is
-    looked for as the last stands: the top of a high heel looks backward as the last rests.
+    plane is the same one after the top moved rigidly, or became longer, wider and higher.
     """
     standing, faces = chart.standing(shape.vertices_mm), shape.faces
-    lid = faces[top_cut_faces(standing, faces, float(np.ptp(standing[:, 0])), 0.0)]
+    lid = standing_top(standing, faces)
     if not len(lid):
         return None
     start, face = _lid_plane(chart, standing, lid)

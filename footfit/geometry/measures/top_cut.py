@@ -109,6 +109,15 @@ def top_cut_faces(vertices: Floats, faces: Ints, length: float, start_x: float) 
     return on_top
 
 
+def standing_top(standing_mm: Floats, faces: Ints) -> Ints:
+    """The faces (k, 3) that close a last at its top, found as it stands.
+
+    The top of a high heel looks backward as the last rests. ``standing_mm`` (n, 3) are counted from
+    the rearmost point along the ground.
+    """
+    return faces[top_cut_faces(standing_mm, faces, float(np.ptp(standing_mm[:, 0])), 0.0)]
+
+
 def runs_over_cut(segments: Floats, on_top: Bools, length: float) -> bool:
     """Whether a section's run over a top is flat and ends at a rim, as a cut does.
 

@@ -8,7 +8,7 @@ from collections.abc import Mapping
 import numpy as np
 
 from footfit.errors import BadOption
-from footfit.geometry.measures.heights import HEIGHTS, heel_height, toe_spring, toe_spring_tip
+from footfit.geometry.measures.heights import HEIGHTS
 from footfit.geometry.measures.landmarks import Shape
 from footfit.geometry.measures.measure_table import measure_named
 from footfit.geometry.stance.cues import Cue, StanceLabels
@@ -55,9 +55,10 @@ def last_stance(shape: Shape, info: MeshInfo | None = None) -> LastStance | None
     stance = shape.stance
     if stance is None or shape.kind == "foot":
         return None
+    entries = map(measure_named, ("heel_height", "toe_spring", "toe_spring_tip"))
     heel, spring, tip = (
-        measured(measure_named(of.__name__), of(shape), shape.kind, shape.shape_heel_mm, info)
-        for of in (heel_height, toe_spring, toe_spring_tip)
+        measured(entry, entry.taken_of(shape), shape.kind, shape.shape_heel_mm, info)
+        for entry in entries
     )
     return LastStance(
         decided_by=stance.decided_by,
