@@ -363,6 +363,13 @@ def test_the_page_defines_every_measure() -> None:
     cells = [line.split("|")[1] for line in definitions.splitlines() if line.startswith("| `")]
     listed = [name for cell in cells for name in re.findall(r"`(\w+)`", cell)]
     assert listed == [entry.name for entry in MEASURES]
+    rows = [line.split("|")[1:-1] for line in definitions.splitlines() if line.startswith("| `")]
+    for name, definition, source, picture in rows:
+        assert definition.strip(), name
+        assert source.strip(), name
+        drawn = re.search(r"\(pictures/(\w+\.png)\)", picture)
+        assert drawn, f"{name} has no picture"
+        assert f"]({drawn[0][1:-1]})" in page.replace(picture, ""), f"{drawn[1]} is not shown"
 
 
 def test_a_toe_that_is_open_has_no_height_but_a_reason() -> None:

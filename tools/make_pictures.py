@@ -25,6 +25,7 @@ from tests.reading import read_scan
 from tests.scans import aligned
 from tools.custom_picture import custom_picture
 from tools.drawing_pictures import drawing_pictures
+from tools.measure_pictures import measure_pictures
 from tools.page_pictures import page_pictures
 from tools.stance_picture import stance_picture
 from tools.tape_pictures import tape_pictures
@@ -47,6 +48,7 @@ def pictures() -> dict[str, bytes]:
         "flare-last.png": png_bytes(flare_figure(profiled_scan(aligned(last)))),
         **curvature_pictures(foot, rng),
         **page_pictures(),
+        **measure_pictures(),
         **tape_pictures(),
         **drawing_pictures(),
         "standing_last.png": stance_picture(),

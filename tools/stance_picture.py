@@ -39,18 +39,18 @@ def stance_picture() -> bytes:
 
 def _draw(axes: Axes, line: Floats, front: float, values: dict[str, float]) -> None:
     """The ground, the bottom's middle (k, 2), and the measures with their values."""
-    axes.plot([-15, front + 15], [0, 0], color=INK, linewidth=1)
+    axes.plot([-15, front + 2], [0, 0], color=INK, linewidth=1)
     axes.plot(*line.T, color=SERIES[0], linewidth=1.6)
     stick, tread = values["stick_length"], (values["tread_from"], values["tread_to"])
-    _dimension(axes, 0.0, stick, -14, f"stick length {stick:.1f}")
-    _dimension(axes, *tread, -34, f"tread from {tread[0]:.1f} to {tread[1]:.1f}")
+    _dimension(axes, 0.0, stick, -14, f"stick length {stick:.1f} mm")
+    _dimension(axes, *tread, -34, f"tread from {tread[0]:.1f} to {tread[1]:.1f} mm")
     for x, name, side in ((0.0, "heel_height", -4), (front, "toe_spring_tip", 4)):
         axes.plot([x, x], [0.0, values[name]], color=SERIES[1], linewidth=1.6)
-        words = f"{name.replace('_', ' ')}\n{values[name]:.1f}"
+        words = f"{name.replace('_', ' ')}\n{values[name]:.1f} mm"
         align = "right" if side < 0 else "left"
         axes.text(x + side, 0.5 * values[name], words, ha=align, va="center", fontsize=8)
     middle, seat = line[int(0.46 * len(line))], line[int(0.1 * len(line))]
-    words = f"bottom length {values['bottom_length']:.1f}"
+    words = f"bottom length {values['bottom_length']:.1f} mm"
     axes.text(middle[0] - 12, middle[1] - 12, words, ha="right", fontsize=8, color=SERIES[0])
     words = f"seat angle {values['seat_angle_deg']:.1f} degrees"
     axes.text(seat[0], seat[1] + 8, words, fontsize=8)

@@ -41,9 +41,19 @@ def around_heel(shape: Shape, angle_deg: float) -> Outline:
     """The section by the plane across the foot through the heel's base that rises forward by an
     angle.
     """
+    return shape.cut(shape.heel_base, heel_axes(angle_deg))
+
+
+def heel_axes(angle_deg: float) -> Floats:
+    """The axes (2, 3) of a plane around the heel that rises forward by an angle: across, forward.
+
+    Examples
+    --------
+    >>> heel_axes(90.0).round(9).tolist()
+    [[0.0, 1.0, 0.0], [0.0, 0.0, 1.0]]
+    """
     angle = np.radians(angle_deg)
-    forward = np.cos(angle) * AXES[0] + np.sin(angle) * AXES[2]
-    return shape.cut(shape.heel_base, np.stack([AXES[1], forward]))
+    return np.stack([AXES[1], np.cos(angle) * AXES[0] + np.sin(angle) * AXES[2]])
 
 
 def shortest_around_heel(shape: Shape, settings: HeelSettings = HEEL) -> Outline | None:
