@@ -10,7 +10,7 @@ import re
 from collections.abc import Iterator
 from contextlib import contextmanager
 from enum import IntEnum
-from typing import ClassVar
+from typing import Any, ClassVar
 
 from footfit.version import __version__
 
@@ -41,6 +41,11 @@ class FootfitError(Exception):
         The file (or the catalogue) that the line is about.
     details : str
         The numbers behind the message, which ``--verbose`` shows.
+
+    Attributes
+    ----------
+    others : tuple of FootfitError
+        More errors that can be mended at the same time. Each is a line of its own.
     """
 
     code: ClassVar[str] = "error"
@@ -56,10 +61,11 @@ class FootfitError(Exception):
         self.message = message
         self.path = path
         self.details = details
+        self.others: tuple[FootfitError, ...] = ()
 
-    def __reduce__(self) -> tuple[type[FootfitError], tuple[str, str | None, str]]:
+    def __reduce__(self) -> tuple[Any, ...]:
         """Pickle with all arguments, so that a worker's error arrives whole."""
-        return type(self), (self.message, self.path, self.details)
+        return type(self), (self.message, self.path, self.details), {"others": self.others}
 
     def at(self, path: str | None) -> FootfitError:
         """The same error, naming ``path`` where it names none yet."""

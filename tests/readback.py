@@ -637,11 +637,12 @@ def comparison_facts(comparison: Comparison) -> Iterator[Fact]:
     yield fact(f"{SAID} title", [names[0], side, names[1], mirrored], TERMINAL)
     yield fact(f"{SAID} lengths", lengths, TERMINAL)
     yield from heel_facts(heel)
-    numbers = [mm(room.value), mm(room.sd), room.reason or ""]
+    numbers = [mm(room.value), mm(room.sd), mm(room.total_sd), room.reason or ""]
     yield from _compare_csv(comparison, ("whole", "length", "toe_room"), ["mm", "", "", *numbers])
     known_measures = []
     for name, clearance in comparison.measured_clearance:
-        cells = ["mm", "", "", mm(clearance.value), mm(clearance.sd), clearance.reason or ""]
+        spreads = [mm(clearance.value), mm(clearance.sd), mm(clearance.total_sd)]
+        cells = ["mm", "", "", *spreads, clearance.reason or ""]
         yield from _compare_csv(comparison, ("whole", name, "clearance"), cells)
         if clearance.value is not None:
             words = NAMES_IN_MATCH.get(name, name.replace("_", " "))
@@ -650,11 +651,19 @@ def comparison_facts(comparison: Comparison) -> Iterator[Fact]:
         f"{SAID} measures", ["last minus foot in mm", *(known_measures or ["none"])], TERMINAL, PAGE
     )
     if heel is not None:
-        cells = ["mm", "", "", mm(heel.drop_mm), "", UNKNOWN_HEEL if heel.drop_mm is None else ""]
+        cells = [
+            "mm",
+            "",
+            "",
+            mm(heel.drop_mm),
+            "",
+            "",
+            UNKNOWN_HEEL if heel.drop_mm is None else "",
+        ]
         yield from _compare_csv(comparison, ("heel", "last", "drop"), cells)
         for name, change in heel.changes:
             unit = "deg" if name == "flare_angle" else "mm"
-            cells = [unit, "", "", mm(change.value), mm(change.sd), ""]
+            cells = [unit, "", "", mm(change.value), mm(change.sd), mm(change.total_sd), ""]
             yield from _compare_csv(comparison, ("heel", name, "change"), cells)
     for number, notice in enumerate(comparison.warnings, 1):
         yield fact(f"note {number}", notice.message, PAGE)
@@ -669,7 +678,7 @@ def comparison_facts(comparison: Comparison) -> Iterator[Fact]:
             room = size.difference
             texts = ["-"] if room.value is None else [signed(room.value), plain(room.sd)]
             yield fact(f"{name} {size.name}", texts, PAGE, TERMINAL)
-            numbers = [size.foot.value, size.last.value, room.value, room.sd]
+            numbers = [size.foot.value, size.last.value, room.value, room.sd, room.total_sd]
             cells = ["mm", *(mm(value) for value in numbers), room.reason or ""]
             yield from _compare_csv(comparison, ("section", section.station, size.name), cells)
     for zone in comparison.zones:
@@ -677,10 +686,10 @@ def comparison_facts(comparison: Comparison) -> Iterator[Fact]:
         names = ("area", "tight", "loose", "pressed")
         areas = {name: getattr(zone, f"{name}_cm2") for name in names}
         for name, text in lengths_there.items():
-            cells = ["mm", "", "", text, "", ""]
+            cells = ["mm", "", "", text, "", "", ""]
             yield from _compare_csv(comparison, ("zone", zone.zone, name), cells)
         for name, value in areas.items():
-            cells = ["cm2", "", "", csv_number(value, 1), "", ""]
+            cells = ["cm2", "", "", csv_number(value, 1), "", "", ""]
             yield from _compare_csv(comparison, ("zone", zone.zone, name), cells)
 
 
@@ -705,7 +714,7 @@ def heel_facts(heel: HeelChange | None) -> Iterator[Fact]:
 def _compare_csv(
     comparison: Comparison, key: tuple[str, str, str], cells: Sequence[str]
 ) -> Iterator[Fact]:
-    columns = ("unit", "foot", "last_value", "difference", "sd", "reason")
+    columns = ("unit", "foot", "last_value", "difference", "sd", "total_sd", "reason")
     place = " ".join(key)
     path = comparison.foot.aligned.alignment.info.path
     yield fact(f"{place} path", path, CSV)

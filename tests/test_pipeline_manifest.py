@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import pickle
 import unicodedata
 from pathlib import Path
 
@@ -60,6 +61,36 @@ def test_what_is_not_said_stays_open() -> None:
 def test_a_mistake_is_named(text: str, word: str) -> None:
     with pytest.raises(BadManifest, match=word):
         rows(text)
+
+
+def test_all_mistakes_are_named_at_once_in_the_order_of_the_lines() -> None:
+    text = (
+        "path,side,heel_height_mm,colour\n"
+        "a.stl,port,tall,red\n"
+        ",left,,\n"
+        "a.stl,left,25,,7\n"
+        "a.stl,left,25,\n"
+    )
+    with pytest.raises(BadManifest) as raised:
+        rows(text)
+    errors = [raised.value, *raised.value.others]
+    assert [(error.path, error.message.split(";")[0]) for error in errors] == [
+        ("lasts.csv", "unknown column 'colour'"),
+        ("lasts.csv line 2", "heel_height_mm is 'tall'"),
+        ("lasts.csv line 2", "side is 'port'"),
+        ("lasts.csv line 3", "has no path"),
+        ("lasts.csv line 4", "has more values than columns"),
+        ("lasts.csv line 5", "names shop/a.stl twice"),
+    ]
+    again = pickle.loads(pickle.dumps(raised.value))  # as a worker sends it
+    assert [error.message for error in again.others] == [error.message for error in errors[1:]]
+
+
+def test_of_very_many_mistakes_the_first_are_named_and_the_others_counted() -> None:
+    with pytest.raises(BadManifest) as raised:
+        rows("path,side\n" + "".join(f"{number}.stl,port\n" for number in range(33)))
+    assert len(raised.value.others) == 20
+    assert raised.value.others[-1].message.startswith("and 13 more errors")
 
 
 def test_what_spreadsheets_add_changes_nothing() -> None:

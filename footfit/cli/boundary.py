@@ -46,7 +46,8 @@ def _run(application: Callable[..., Any], arguments: Sequence[str]) -> int:
     except FootfitError as error:
         if isinstance(error, AnswerLost) and sys.stdout is not None:
             drop_stdout()
-        say(error_line(error, as_json=as_json, verbose=verbose))
+        for each in (error, *error.others):
+            say(error_line(each, as_json=as_json, verbose=verbose))
         return int(error.exit)
     except ReaderGone:
         drop_stdout()

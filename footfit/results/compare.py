@@ -31,6 +31,10 @@ if TYPE_CHECKING:
     from footfit.results.values import Notice, SideName
 
 
+SPREADS = ("value", "sd", "total_sd", "reason")
+"""What a row says of a measured value."""
+
+
 def comparison_nouns(foot: Profiled) -> tuple[str, str]:
     """What the two shapes of a comparison are called: a foot and a last, or two lasts."""
     return ("first last", "second last") if foot.is_last else ("foot", "last")
@@ -162,7 +166,7 @@ class Comparison(Document):
 
     columns = (
         *("path", "last", "part", "place", "quantity", "unit"),
-        *("foot", "last_value", "difference", "sd", "reason"),
+        *("foot", "last_value", "difference", "sd", "total_sd", "reason"),
     )
 
     @property
@@ -206,20 +210,20 @@ class Comparison(Document):
         """
         start = (self.foot.aligned.alignment.info.path, self.last.labels.name)
         values: list[tuple[object, ...]] = [
-            (*start, *head, None, None, known["value"], known["sd"], known["reason"])
+            (*start, *head, None, None, *(known[name] for name in SPREADS))
             for head, known in self._whole()
         ]
         for section in self.sections:
             for size in section.sizes:
                 place = (*start, "section", section.station, size.name, "mm")
                 foot, last, longer = (m.to_dict() for m in (size.foot, size.last, size.difference))
-                ends = (foot["value"], last["value"], longer["value"], longer["sd"])
-                values.append((*place, *ends, size.difference.reason))
+                spreads = (longer["sd"], longer["total_sd"], size.difference.reason)
+                values.append((*place, foot["value"], last["value"], longer["value"], *spreads))
         for zone in self.zones:
             for name, value in zone_part(zone).items():
                 quantity, unit = name.rsplit("_", 1)
                 place = (*start, "zone", zone.zone, quantity, unit)
-                values.append((*place, None, None, value, None, None))
+                values.append((*place, None, None, value, *[None] * 3))
         return rows(self.columns, values)
 
     def _whole(self) -> list[tuple[tuple[str, str, str, str], Json]]:

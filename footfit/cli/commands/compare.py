@@ -38,8 +38,8 @@ def compare(
     --heel-height, --toe-spring and --platform are for a LAST that is a file. A stored last has
     labels of its own.
 
-    ± is the spread of a second scan of both, and of what a heel changes. The JSON has the total ±
-    too, which also holds what is known of the trueness.
+    ± is the spread of a second scan of both, and of what a heel changes. The JSON and the CSV
+    have the total ± too, which also holds what is known of the trueness.
 
     Example: footfit compare foot.stl derby-42 --html report.html
     """

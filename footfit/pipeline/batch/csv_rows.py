@@ -23,6 +23,48 @@ _UTF16_MARKS = (codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE)
 _EXCELS_LINE = re.compile(r"sep=(.)\r?\n", re.IGNORECASE)
 
 
+class Faults:
+    """What is wrong in a table. It is collected, so that a user can mend all of it at once."""
+
+    most_lines = 20
+
+    def __init__(self) -> None:
+        self._errors: list[BadManifest] = []
+
+    @contextmanager
+    def collecting(self) -> Iterator[None]:
+        """Keep the error that ends this block, and go on after it."""
+        try:
+            yield
+        except BadManifest as error:
+            self._errors.append(error)
+
+    def refuse(self, origin: str) -> None:
+        """Raise the first error, with the others beside it, if there is one.
+
+        Raises
+        ------
+        BadManifest
+            Something is wrong in the table ``origin``.
+        """
+        if not self._errors:
+            return
+        errors = sorted(self._errors, key=lambda error: _line_number(error.path or ""))
+        shown, more = errors[: self.most_lines], len(errors) - self.most_lines
+        if more > 0:
+            words = f"and {more:,} more errors: mend those above, and run the command again"
+            shown.append(BadManifest(words, origin))
+        first, *others = shown
+        first.others = tuple(others)
+        raise first
+
+
+def _line_number(where: str) -> int:
+    """The number of a line in words such as "lasts.csv line 5"; 0 if they name a file only."""
+    number = where.rpartition(" line ")[2]
+    return int(number) if number.isdecimal() else 0
+
+
 class CsvRow(NamedTuple):
     """A row: ``where`` names its file and line, ``values`` has the cells that are not empty."""
 
@@ -44,7 +86,9 @@ class CsvRow(NamedTuple):
             raise BadManifest(f"{column} is {said!r}; it must be a number", self.where) from error
 
 
-def csv_rows(path: Path, columns: Sequence[str], required: Sequence[str]) -> list[CsvRow]:
+def csv_rows(
+    path: Path, columns: Sequence[str], required: Sequence[str], faults: Faults | None = None
+) -> list[CsvRow]:
     """The rows of a file; see `rows_of_text`.
 
     Raises
@@ -60,7 +104,7 @@ def csv_rows(path: Path, columns: Sequence[str], required: Sequence[str]) -> lis
         data = path.read_bytes()
     except OSError as error:
         raise BadManifest(f"cannot be read ({error.strerror})", str(path)) from error
-    return rows_of_text(_decoded(data, str(path)), columns, required, str(path))
+    return rows_of_text(_decoded(data, str(path)), columns, required, str(path), faults)
 
 
 def _check_file(path: Path) -> None:
@@ -75,11 +119,17 @@ def _check_file(path: Path) -> None:
 
 
 def rows_of_text(
-    text: str, columns: Sequence[str], required: Sequence[str], origin: str
+    text: str,
+    columns: Sequence[str],
+    required: Sequence[str],
+    origin: str,
+    faults: Faults | None = None,
 ) -> list[CsvRow]:
     r"""The rows of a table whose columns are among ``columns``.
 
     The header decides which delimiter the table has. Empty rows and empty columns are passed over.
+    With ``faults`` the caller refuses the table: errors are collected there, and rows with an error
+    are left out.
 
     Raises
     ------
@@ -93,9 +143,16 @@ def rows_of_text(
     [CsvRow(where='lasts.csv line 2', values={'path': 'a.stl', 'size': '42'})]
     """
     table = _table_of(io.StringIO(text, newline=""), required, origin)
-    names = _checked_names(table.head, columns, required, origin)
-    known = ((where, _values(cells, names, where)) for where, cells in table.rows)
-    return [CsvRow(where, values) for where, values in known if values]
+    errors = faults or Faults()
+    names = _checked_names(table.head, columns, required, origin, errors)
+    rows = []
+    with errors.collecting():  # a line that is no CSV ends the table
+        for where, cells in table.rows:
+            with errors.collecting():
+                rows.append(CsvRow(where, _values(cells, names, where)))
+    if faults is None:
+        errors.refuse(origin)
+    return [row for row in rows if row.values]
 
 
 class CsvTable(NamedTuple):
@@ -195,21 +252,35 @@ def plain_name(name: str) -> str:
 
 
 def _checked_names(
-    cells: Sequence[str], columns: Sequence[str], required: Sequence[str], origin: str
+    cells: Sequence[str],
+    columns: Sequence[str],
+    required: Sequence[str],
+    origin: str,
+    faults: Faults,
 ) -> list[str]:
-    """The names of the columns, "" for one without a name."""
+    """The names of the columns, "" for one without a name.
+
+    Raises
+    ------
+    BadManifest
+        A ``required`` column is missing: nothing more can be said of the table.
+    """
     names = [plain_name(cell) for cell in cells]
     known = f"the columns are {', '.join(columns)}"
-    for name, cell in zip(names, cells, strict=True):
-        if name and name not in columns:
-            close = get_close_matches(name, columns, n=1)
-            hint = f"did you mean {close[0]!r}? " if close else ""
-            raise BadManifest(f"unknown column {cell.strip()!r}; {hint}{known}", origin)
-        if name and names.count(name) > 1:
-            raise BadManifest(f"has the column {name!r} twice; keep one of them", origin)
-    for name in required:
-        if name not in names:
+    for place, (name, cell) in enumerate(zip(names, cells, strict=True)):
+        with faults.collecting():
+            if name and name not in columns:
+                close = get_close_matches(name, columns, n=1)
+                hint = f"did you mean {close[0]!r}? " if close else ""
+                raise BadManifest(f"unknown column {cell.strip()!r}; {hint}{known}", origin)
+            if name and name in names[:place]:
+                raise BadManifest(f"has the column {name!r} twice; keep one of them", origin)
+    missing = [name for name in required if name not in names]
+    for name in missing:
+        with faults.collecting():
             raise BadManifest(f"no column {name!r}; {known}", origin)
+    if missing:
+        faults.refuse(origin)
     return names
 
 

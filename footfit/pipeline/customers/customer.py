@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import unicodedata
-from collections import Counter
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from itertools import pairwise
@@ -11,7 +10,7 @@ from pathlib import Path
 
 from footfit.errors import BadManifest, BadOption
 from footfit.number_words import first_names
-from footfit.pipeline.batch.csv_rows import CsvRow, csv_rows
+from footfit.pipeline.batch.csv_rows import CsvRow, Faults, csv_rows
 from footfit.pipeline.batch.side_words import SideInName, names_somebody, side_in_name
 from footfit.pipeline.batch.sources import Source, stored_path
 from footfit.results import Notice, SideName
@@ -92,19 +91,25 @@ def pairs_in_csv(path: Path) -> list[Customer]:
     BadManifest
         The file is not understood, a row has no foot, or a customer or a file is named twice.
     """
-    customers = [_customer_in(row, path.parent) for row in csv_rows(path, COLUMNS, ())]
+    faults, customers = Faults(), []
+    names: set[str] = set()
+    read: set[str] = set()
+    for row in csv_rows(path, COLUMNS, (), faults):
+        with faults.collecting():
+            customer = _customer_in(row, path.parent)
+            customers.append(customer)
+            name, files = _key(customer.name or ""), [str(each) for each in customer.paths]
+            for number, each in enumerate(files):
+                if each in read or each in files[:number]:
+                    raise BadManifest(f"names {each} twice; keep it once", row.where)
+            if name in names:
+                words = f"names the customer {customer.name!r} twice"
+                raise BadManifest(f"{words}; give each line a name of its own", row.where)
+            names.add(name)
+            read.update(files)
+    faults.refuse(str(path))
     if not customers:
         raise BadManifest(f"names no customer; {IN_CSV}", str(path))
-    names = [_key(customer.name or "") for customer in customers]
-    named = Counter(names)
-    read = Counter(str(each) for customer in customers for each in customer.paths)
-    for customer, name in zip(customers, names, strict=True):
-        if named[name] > 1:
-            words = f"names the customer {customer.name!r} twice; give each line a name of its own"
-            raise BadManifest(words, str(path))
-        for each in customer.paths:
-            if read[str(each)] > 1:
-                raise BadManifest(f"names {each} twice; keep it once", str(path))
     return customers
 
 

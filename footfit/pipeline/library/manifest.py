@@ -9,7 +9,7 @@ from typing import Any
 
 from footfit.errors import BadManifest, BadOption
 from footfit.meshes.units import UNIT_SCALES
-from footfit.pipeline.batch.csv_rows import CsvRow, csv_rows, rows_of_text
+from footfit.pipeline.batch.csv_rows import CsvRow, Faults, csv_rows, rows_of_text
 from footfit.pipeline.batch.sources import ReadingOptions, stored_path
 from footfit.pipeline.scan.standing import LABELLED_MM
 from footfit.results import LastLabels
@@ -35,9 +35,12 @@ def read_manifest(path: Path) -> list[ManifestRow]:
     Raises
     ------
     BadManifest
-        It is not a file, not UTF-8 text or too large, or its content is not understood.
+        It is not a file, not UTF-8 text or too large, or its content is not understood. The error
+        has all other errors of the file in ``others``.
     """
-    return _labelled_rows(csv_rows(path, COLUMNS, ("path",)), path.parent, str(path))
+    faults = Faults()
+    rows = csv_rows(path, COLUMNS, ("path",), faults)
+    return _labelled_rows(rows, path.parent, str(path), faults)
 
 
 def manifest_rows(text: str, folder: Path, origin: str) -> list[ManifestRow]:
@@ -55,31 +58,51 @@ def manifest_rows(text: str, folder: Path, origin: str) -> list[ManifestRow]:
     >>> row.path, row.labels.name, row.labels.size
     ('lasts/derby.stl', 'derby', '42')
     """
-    return _labelled_rows(rows_of_text(text, COLUMNS, ("path",), origin), folder, origin)
+    faults = Faults()
+    rows = rows_of_text(text, COLUMNS, ("path",), origin, faults)
+    return _labelled_rows(rows, folder, origin, faults)
 
 
-def _labelled_rows(rows: Sequence[CsvRow], folder: Path, origin: str) -> list[ManifestRow]:
-    labelled = [_labelled_row(row, folder) for row in rows]
-    seen: set[str] = set()
-    for row in labelled:
-        if row.path in seen:
-            raise BadManifest(f"names {row.path} twice; keep one line for it", origin)
-        seen.add(row.path)
-    return labelled
+def _labelled_rows(
+    rows: Sequence[CsvRow], folder: Path, origin: str, faults: Faults
+) -> list[ManifestRow]:
+    """The rows with their labels.
+
+    Raises
+    ------
+    BadManifest
+        Something is wrong in a row, or in what was read before.
+    """
+    labelled: dict[str, ManifestRow] = {}
+    for row in rows:
+        said = _labelled_row(row, folder, faults)
+        with faults.collecting():
+            if "path" not in row.values:
+                raise BadManifest("has no path; fill it in or remove the line", row.where)
+            if said.path in labelled:
+                raise BadManifest(f"names {said.path} twice; keep one line for it", row.where)
+        labelled.setdefault(said.path, said)
+    faults.refuse(origin)
+    return list(labelled.values())
 
 
-def _labelled_row(row: CsvRow, folder: Path) -> ManifestRow:
+def _labelled_row(row: CsvRow, folder: Path, faults: Faults) -> ManifestRow:
+    """A row with its labels; what is wrong in its cells is collected."""
     given, where = row.values, row.where
-    if "path" not in given:
-        raise BadManifest("has no path; fill it in or remove the line", where)
     said: dict[str, Any] = {
         name: " ".join(given[name].split()) for name in LABEL_TEXTS if name in given
     }
-    said |= {name: _height(given.get(name), name, where) for name in LABEL_HEIGHTS}
-    path = stored_path(str(folder / given["path"]))
-    labels = LastLabels(**{"name": Path(path).stem} | said)
-    units, side = (_choice(given.get(name, "auto"), name, where) for name in ("units", "side"))
-    return ManifestRow(path, labels, ReadingOptions(units=units, side=side))
+    reading: dict[str, Any] = {}
+    for name in LABEL_HEIGHTS:
+        with faults.collecting():
+            said[name] = _height(given.get(name), name, where)
+    for name in CHOICES:
+        with faults.collecting():
+            reading[name] = _choice(given.get(name, "auto"), name, where)
+    path = stored_path(str(folder / given.get("path", "")))
+    return ManifestRow(
+        path, LastLabels(**{"name": Path(path).stem} | said), ReadingOptions(**reading)
+    )
 
 
 def _choice(value: str, column: str, where: str) -> str:

@@ -10,7 +10,7 @@ from pathlib import Path
 from footfit.catalogue.blocks.record_columns import LABELS
 from footfit.errors import BadManifest
 from footfit.geometry.fit.sizes import label_number
-from footfit.pipeline.batch.csv_rows import csv_rows
+from footfit.pipeline.batch.csv_rows import Faults, csv_rows
 
 COLUMNS = ("last", *LABELS, "quantity")
 Key = tuple[str, ...]
@@ -37,27 +37,33 @@ def stock(path: Path, lasts: Sequence[NamedLabels]) -> Stock:
     BadManifest
         The file cannot be read, names no last and no labels in a row, or a quantity is no number.
     """
-    rows = csv_rows(path, COLUMNS, ())
+    faults = Faults()
+    rows = csv_rows(path, COLUMNS, (), faults)
+    counts = []
+    for row in rows:
+        with faults.collecting():
+            counts.append(row.number("quantity", "1"))
+            if not {"last", *LABELS} & row.values.keys():
+                raise BadManifest("names no last and gives no style, size or width", row.where)
+    faults.refuse(str(path))
     if not rows:
         raise BadManifest("has no row; its columns are last, or labels, and quantity", str(path))
     by_name = {_plain(name): name for name, _ in lasts}
     indexes: dict[tuple[str, ...], dict[Key, list[str]]] = {}
     there: set[str] = set()
     unknown = []
-    for row in rows:
+    for row, count in zip(rows, counts, strict=True):
         given = tuple(name for name in LABELS if name in row.values)
         if "last" in row.values:
             name = by_name.get(_plain(row.values["last"]))
             names = [] if name is None else [name]
-        elif given:
+        else:
             if given not in indexes:
                 indexes[given] = _index(lasts, given)
             names = indexes[given].get(tuple(_label(name, row.values[name]) for name in given), [])
-        else:
-            raise BadManifest("names no last and gives no style, size or width", row.where)
         if not names:
             unknown.append(row.where)
-        elif row.number("quantity", "1") > 0.0:
+        elif count > 0.0:
             there.update(names)
     return Stock(frozenset(there), tuple(unknown))
 
