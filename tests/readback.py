@@ -600,13 +600,6 @@ def turn_values(flare: FlareProfile) -> list[str]:
     return [signed(flare.angle_deg), *(plain(spread) for spread in spreads)]
 
 
-NAMES_IN_MATCH = {
-    "short_heel_girth": "heel to instep",
-    "ball_width_orthogonal": "ball width across",
-}
-"""Zones whose name in a match is not that of their measure."""
-
-
 def _title(name: str) -> str:
     return name.replace("_", " ").capitalize()
 
@@ -645,7 +638,7 @@ def comparison_facts(comparison: Comparison) -> Iterator[Fact]:
         cells = ["mm", "", "", *spreads, clearance.reason or ""]
         yield from _compare_csv(comparison, ("whole", name, "clearance"), cells)
         if clearance.value is not None:
-            words = NAMES_IN_MATCH.get(name, name.replace("_", " "))
+            words = name.replace("_", " ")
             known_measures += [words, signed(clearance.value), plain(clearance.sd)]
     yield fact(
         f"{SAID} measures", ["last minus foot in mm", *(known_measures or ["none"])], TERMINAL, PAGE

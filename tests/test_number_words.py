@@ -10,12 +10,13 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from footfit.geometry.fit.sizes import label_in
+from footfit.geometry.measures.measure_table import MEASURES
 from footfit.number_words import plain, rounded, signed, some_digits
 from footfit.pipeline.fit.fit_profile import FOLDER, fit_profile
 from footfit.pipeline.fit.scoring import levels, shown_digits
 from footfit.pipeline.fit.zones import UNIT_KEYS, ZONES
 from footfit.results import Measured
-from footfit.results.fit import ZONE_ENDS
+from footfit.results.fit import ZONE_ENDS, ZONE_LABELS
 from footfit.results.values import json_number
 
 measures = st.floats(-400.0, 400.0)
@@ -53,6 +54,12 @@ def test_equal_shown_numbers_have_equal_verdicts(rule, data) -> None:
     digits = shown_digits(value, rule, ZONES[rule.zone].unit)
     level = levels(np.array([[value], [float(plain(value, digits))]]), [rule], np.zeros((2, 1)))
     assert level[0, 0] == level[1, 0]
+
+
+def test_a_zone_of_a_measure_has_the_name_of_the_measure() -> None:
+    measures = {entry.name for entry in MEASURES} - {"length"}  # its zone is the toe room
+    named = {zone: label for zone, label in ZONE_LABELS.items() if zone in measures}
+    assert named == {zone: zone.replace("_", " ") for zone in named}
 
 
 def test_every_zone_has_its_columns() -> None:

@@ -41,7 +41,7 @@ def zone_words(zone: str, clearance: float, target: float, sd: float = 0.0, digi
     >>> zone_words("length", 12.6, 13.0), zone_words("length", -4.0, 13.0)
     ('12.6 mm toe room (wanted: 13 mm)', '4.0 mm shorter than the foot')
     >>> zone_words("short_heel_girth", 14.6, -4.0)
-    'heel to instep: 14.6 mm larger than the foot (wanted: 4 mm smaller)'
+    'short heel girth: 14.6 mm larger than the foot (wanted: 4 mm smaller)'
     >>> zone_words("ball_girth", 0.0, 0.0), zone_words("ball_line", 2.4, 0.0)
     ('ball girth: the same as the foot (wanted: the same)', 'ball line 2.4 % too far forward')
     """

@@ -18,6 +18,8 @@ from footfit.results import ZoneRule
 GOOD, ACCEPTABLE, POOR, REJECT = range(4)
 NOT_JUDGED = -1
 SURE_SDS = 2.0
+JUDGED = 2
+"""The decimals of a clearance that is judged, in mm, degrees and percent."""
 TIER_LOOK = 16
 """So many lasts are compared with the best of a tier at first."""
 UNKNOWN_SCORE = 1.0
@@ -151,7 +153,7 @@ def levels(clearance: Floats, rules: Sequence[ZoneRule], sd: Floats) -> Ints:
 
     A reject takes a last out of the answer, so it must be sure: past the limit by SURE_SDS
     standard deviations, else it is poor. The length is the gate, and its limits are strict. What is
-    judged is the number that documents give, so equal numbers have equal verdicts.
+    judged is `judged_numbers`, so numbers that are shown as equal have equal verdicts.
 
     Examples
     --------
@@ -163,9 +165,23 @@ def levels(clearance: Floats, rules: Sequence[ZoneRule], sd: Floats) -> Ints:
     return clearance_levels(clearance, asked([Column(0, rule, True) for rule in rules]), sd)
 
 
+def judged_numbers(clearance: Floats) -> Floats:
+    """Clearances to two decimals, half up, of the numbers that documents give: 0.01 mm is far less
+    than a second scan moves a measure, and a longer number tells a reader nothing.
+
+    Examples
+    --------
+    >>> judged_numbers(np.array([20.003, 20.005, -0.125, np.nan])).tolist()
+    [20.0, 20.01, -0.13, nan]
+    """
+    whole = np.round(np.abs(clearance) * 10.0**KEPT)
+    steps = np.floor(whole * 10.0**JUDGED / 10.0**KEPT + 0.5)
+    return np.asarray(np.copysign(steps / 10.0**JUDGED, clearance))
+
+
 def clearance_levels(clearance: Floats, rules: Asked, sd: Floats) -> Ints:
     """The verdict of each clearance (..., z); see `levels`."""
-    clearance = np.round(clearance, KEPT)
+    clearance = judged_numbers(clearance)
     doubt = rules.doubt * sd
     level = np.zeros(clearance.shape, dtype=np.int64)
     for low, high in (rules.good, rules.acceptable):
@@ -195,14 +211,14 @@ def shown_digits(value: float, rule: ZoneRule, unit: str) -> int:
     [1, 2, 1, 1]
     """
     ranges = [ends for ends in (rule.good, rule.acceptable, rule.poor) if ends is not None]
-    exact = round(value, KEPT)
-    for digits in range(2 if unit == "ratio" else 1, KEPT):
+    exact = float(judged_numbers(np.array(value)))
+    for digits in range(2 if unit == "ratio" else 1, JUDGED):
         shown = float(rounded(value, digits))
         if all((exact < low) == (shown < low) for low, _ in ranges) and all(
             (exact > high) == (shown > high) for _, high in ranges
         ):
             return digits
-    return KEPT
+    return JUDGED
 
 
 def worst_levels(level: Ints, columns: Sequence[Column]) -> Ints:

@@ -25,6 +25,7 @@ from footfit.pipeline.fit.scoring import (
     Column,
     asked,
     clearance_levels,
+    judged_numbers,
     score_distance,
     score_scale,
     worst_level,
@@ -173,7 +174,7 @@ def _judged(feet: FootTable, lasts: LastTable, asking: Asking, heels: Heels) -> 
     last = _first(np.where(fits, group, FAR), distance, level[:, :, length] != NOT_JUDGED)
     zone_level = _of_last(level, last, NOT_JUDGED)
     clearance = np.round(_of_last(room.value, last, np.nan), KEPT)
-    margin, margin_zone = _margins(clearance, rules)
+    margin, margin_zone = _margins(judged_numbers(clearance), rules)
     served = np.stack([fits & sound & (whole <= least) for least in SERVED])
     return Judged(
         level=_verdicts(whole, sound, fits, last),

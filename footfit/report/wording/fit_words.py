@@ -19,7 +19,7 @@ _PLACES = {
     "ball_width_orthogonal": "straight across the ball",
     "waist_girth": "at the waist",
     "instep_girth": "at the instep",
-    "short_heel_girth": "from heel to instep",
+    "short_heel_girth": "around the heel",
     "long_heel_girth": "around heel and instep",
     "heel_width": "at the heel",
     "toe_height": "over the toes",

@@ -46,7 +46,7 @@ PLACES = {
     "waist_girth": Place(INSTEP, "tight behind the ball", "loose behind the ball"),
     "instep_girth": Place(INSTEP, "tight at the instep", "loose at the instep"),
     "instep_height": Place(INSTEP, "low at the instep", "high at the instep"),
-    "short_heel_girth": Place(HEEL, "tight from heel to instep", "loose from heel to instep"),
+    "short_heel_girth": Place(HEEL, "tight around the heel", "loose around the heel"),
     "long_heel_girth": Place(HEEL, "tight from heel to instep", "loose from heel to instep"),
     "heel_width": Place(HEEL, "narrow at the heel", "wide at the heel"),
     "flare": Place(SOLE, "straight along the sole", "curved along the sole"),
