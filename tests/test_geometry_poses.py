@@ -21,12 +21,10 @@ from footfit.geometry.search.icp import (
 )
 from footfit.geometry.search.pose_search import (
     POSE_SEARCH,
-    _turns,
     is_accepted,
-    mirror_image,
     rough_pose,
-    turned_about,
 )
+from footfit.geometry.search.turned_poses import mirror_image, straight_turns, turned_about
 from footfit.pipeline.scan.shipped_templates import shipped_templates
 from tests import distortions, shapes
 from tests.bounds import ROUNDING
@@ -43,7 +41,7 @@ def last():
 
 def test_the_turns_that_are_tried_are_every_other_one_that_keeps_the_line_of_x():
     """With the identity they are a group of eight: four rolls, with either end in front."""
-    turns = np.rint(np.concatenate([np.eye(3)[None], _turns()])).astype(int)
+    turns = np.rint(np.concatenate([np.eye(3)[None], straight_turns()])).astype(int)
     known = {turn.tobytes() for turn in turns}
     assert len(known) == len(turns) == 8
     assert {(one @ other).tobytes() for one in turns for other in turns} == known

@@ -13,7 +13,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from footfit.catalogue.store import open_catalogue
-from footfit.errors import BadOption, NoCandidate
+from footfit.errors import BadOption, NoCandidate, OtherKind
 from footfit.geometry.measures.measure_table import measure_named
 from footfit.number_words import signed
 from footfit.pipeline.batch.sources import ReadingOptions, Source
@@ -21,6 +21,7 @@ from footfit.pipeline.fit.compare import best_comparison
 from footfit.pipeline.fit.fit_profile import fit_profile
 from footfit.pipeline.fit.judging.clearances import BALL_SHARE, ball_line_mm
 from footfit.pipeline.fit.match import Question, matched, meets
+from footfit.pipeline.fit.refused_feet import SURE_LAST
 from footfit.pipeline.fit.scoring import rescan_spread
 from footfit.pipeline.scan.reading import profiled_source
 from footfit.pipeline.shelf.candidates import choice
@@ -544,6 +545,22 @@ def test_a_last_that_is_taken_for_a_foot_is_said() -> None:
     for by, expected in (("fit", True), ("flare", True), ("shape", False)):
         codes = {one.code for one in answer(last("a"), feet=(scanned,), by=by).warnings}
         assert ("looks_like_a_last" in codes) is expected
+
+
+def test_what_is_surely_a_last_is_matched_as_a_foot_only_if_that_is_forced() -> None:
+    shape = foot()
+    pose = replace(shape.aligned.alignment.pose, kind="last")
+    alignment = replace(shape.aligned.alignment, pose=pose)
+    prepared = replace(shape.aligned.prepared, kind_margin=1.1 * SURE_LAST)
+    scanned = replace(shape, aligned=replace(shape.aligned, alignment=alignment, prepared=prepared))
+    for by in ("fit", "flare"):
+        with pytest.raises(OtherKind, match="surely a last"):
+            answer(last("a"), feet=(scanned,), by=by)
+        codes = {
+            n.code for n in answer(last("a"), feet=(scanned,), by=by, force_foot=True).warnings
+        }
+        assert "looks_like_a_last" in codes
+    assert answer(last("a"), feet=(scanned,), by="shape").candidates
 
 
 def test_where_no_length_is_known_no_last_is_shown_and_that_is_said() -> None:

@@ -21,7 +21,7 @@ from footfit.errors import NoCatalogue
 from footfit.geometry.flare.definition import FlareDefinition
 from footfit.pipeline.library.upgrade import upgrade
 from footfit.pipeline.shelf.candidates import choice
-from tests.conftest import Footfit
+from tests.conftest import SAMPLES, Footfit
 
 CORNERED = ("instep_girth_least",)
 """Its section keeps corners, and which bends are corners depends on the noise: measured 0.049."""
@@ -180,6 +180,21 @@ def test_older_measures_without_a_mesh_get_an_advice_that_helps(catalogue: Path)
     assert notices[0].message.endswith("type: footfit upgrade-catalogue")
     assert notices[1].message.startswith(first)
     assert notices[1].message.endswith("ingest its file again with --replace")
+
+
+def test_a_catalogue_of_older_measures_fits_no_foot_and_says_why(
+    catalogue: Path, footfit: Footfit
+) -> None:
+    with open_catalogue(catalogue, write=True) as opened:
+        for record in opened.lasts().records:
+            older = [replace(row, definition=f"{row.name}/0") for row in record.measures]
+            opened.update_measured(replace(record, measures=tuple(older)))
+    foot = SAMPLES / "feet" / "mh008_R.stl"
+    run = footfit("match", foot, "--catalogue", catalogue, "--json")
+    assert run.code == 0
+    assert list(run.document["rejected"]) == ["length_unknown"]
+    codes = {notice["code"] for notice in run.document["warnings"]}
+    assert {"other_measures", "nothing_fits"} <= codes
 
 
 def test_an_upgrade_counts_the_lasts_as_it_stores_them(catalogue: Path) -> None:

@@ -172,6 +172,7 @@ class Catalogue(CatalogueFile):
             heel=heel_options(question),
             worn=worn_options(question),
             growth=growth_options(question),
+            force_foot=question.get("force_foot", False),
         )
 
     def _choice(self, question: MatchKeywords) -> Shelf:

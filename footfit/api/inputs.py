@@ -103,7 +103,8 @@ class MatchKeywords(CompareKeywords, WornKeywords, total=False):
     ``profile`` is the name or the file of a fit profile, ``top`` how many lasts to show (0: all).
     ``style`` and ``size_system`` filter the lasts, and so does ``stock``, a CSV file of what a shop
     has; ``clearance`` puts the feet into those shown. ``growth`` asks how long a child's shoe will
-    do, with ``age_years`` and ``sex`` if they are known.
+    do, with ``age_years`` and ``sex`` if they are known. ``force_foot`` takes a shape for a foot
+    that is surely a last.
     """
 
     by: SearchBy
@@ -116,6 +117,7 @@ class MatchKeywords(CompareKeywords, WornKeywords, total=False):
     growth: bool
     age_years: float | None
     sex: Literal["female", "male"] | None
+    force_foot: bool
 
 
 class LabelKeywords(TypedDict, total=False):

@@ -151,10 +151,13 @@ class PreparedScan(SettledShape):
     shape : Shape
         The right-side copy in the canonical frame: a left shape is mirrored. What was scanned
         comes first, the caps that close its holes come last. All methods read this one shape.
+    kind_margin : float
+        How much worse it fits the templates of the other kind, as `PoseQuality` counts.
     """
 
     file_vertices_mm: Floats
     shape: Shape
+    kind_margin: float = 0.0
 
     @property
     def vertices_mm(self) -> Floats:

@@ -68,6 +68,9 @@ def match(
         "--clearance",
         "Put the feet into each shown last, and say in mm where it is tight or loose.",
     ),
+    force_foot: bool = options.switch(
+        "--force-foot", "Take the shape for a foot even if it is surely a last."
+    ),
     fail_under: Least | None = options.option(
         "--fail-under", "Exit with 7 if the first last of a customer is not at least this."
     ),
@@ -120,6 +123,9 @@ def match(
     if by == "shape" and fail_under is not None:
         raise BadOption("--fail-under goes with --by fit or flare: a search by shape judges no fit")
     catalogue = lasts.open()
+    unused = unused_by_shape(reading, worn, growing, clearance=clearance)
+    if by == "shape" and unused:
+        raise BadOption(f"{unused} goes with --by fit or flare: a search by shape judges no fit")
     if by != "fit" and sheet is not None:
         raise BadOption("--sheet goes with --by fit: the sheet says which shoe fits")
     if (title or customer) and html is None and sheet is None:
@@ -159,6 +165,7 @@ def match(
             size_system=size_system,
             clearance=clearance,
             stock=stock,
+            force_foot=force_foot,
             **reading.keywords(),
             **worn.keywords(),
             **growing.keywords(),
@@ -167,6 +174,21 @@ def match(
     if len(customers) > 1 and not mode.json and csv != options.STDOUT:
         show(customers_table(summary.lines))
     raise typer.Exit(summary.checked_code(code, as_json=mode.json))
+
+
+def unused_by_shape(
+    reading: options.FootReading,
+    worn: options.WornWith,
+    growing: options.Growing,
+    *,
+    clearance: bool,
+) -> str:
+    """An option that is given, and that a search by shape does not use; "" if there is none."""
+    given = {**worn.keywords(), **growing.keywords()}
+    if not clearance:  # the feet are then placed in the heels of the lasts
+        given |= {"as_scanned": reading.as_scanned, "scanned_at_drop": reading.scanned_at_drop}
+    names = (name for name, value in given.items() if value not in (None, False))
+    return "".join(f"--{name.removesuffix('_mm').replace('_', '-')}" for name in list(names)[:1])
 
 
 def customers_of(

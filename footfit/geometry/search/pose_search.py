@@ -12,7 +12,7 @@ from itertools import product
 import numpy as np
 
 from footfit.geometry.numeric.arrays import Floats, Ints
-from footfit.geometry.numeric.rotations import nearest_rotation, rotations_about, super_fibonacci
+from footfit.geometry.numeric.rotations import nearest_rotation, super_fibonacci
 from footfit.geometry.search.clouds import MIRROR, Cloud, both_clouds
 from footfit.geometry.search.icp import (
     FIT,
@@ -25,6 +25,7 @@ from footfit.geometry.search.icp import (
     size_of,
 )
 from footfit.geometry.search.templates import Singles, Template
+from footfit.geometry.search.turned_poses import mirror_image, straight_turns, turned_about
 
 Windows = tuple[tuple[float, float], ...]
 
@@ -79,7 +80,8 @@ class RoughPose:
     """The pose that fits best: canonical is about rotation @ p + shift, in the mesh's unit.
 
     ``length`` is approximate; ``cost`` and ``margin`` are those of :class:`PoseQuality`; ``kind``
-    is that of the template that fits best; ``accepted`` says whether it is a foot or last at all.
+    is that of the template that fits best, and ``kind_margin`` how much more the best template of
+    the other kind costs; ``accepted`` says whether it is a foot or last at all.
     """
 
     rotation: Floats
@@ -89,6 +91,7 @@ class RoughPose:
     margin: float
     kind: str
     accepted: bool
+    kind_margin: float = 0.0
 
 
 def rough_pose(
@@ -259,7 +262,7 @@ class _Search:
                 continue
             best = min(fitted, key=lambda each: each.cost)
             cloud = best.cloud
-            poses = turned_about(best.pose, _turns(), template.middle_y, settings.middle)
+            poses = turned_about(best.pose, straight_turns(), template.middle_y, settings.middle)
             poses = icp_steps(poses, cloud.few, cloud.few_normals, template, settings.rival_steps)
             costs = self._costs(poses, cloud, template)
             cheapest = np.argsort(costs, kind="stable")[: settings.rivals_finished]
@@ -334,34 +337,6 @@ class _Search:
         return result
 
 
-def _turns() -> Singles:
-    """The seven turns (7, 3, 3), without the identity, that leave the line of X in place."""
-    half = np.diag([-1.0, -1.0, 1.0])
-    rolls = [
-        rotations_about(np.array([[angle, 0.0, 0.0]]))[0] for angle in np.pi / 2 * np.arange(4)
-    ]
-    every = [roll @ end for end in (np.eye(3), half) for roll in rolls]
-    return np.array(every[1:], dtype=np.float32)
-
-
-def turned_about(
-    pose: Poses, turns: Singles, middle_y: float, middle: tuple[float, float]
-) -> Poses:
-    """One pose turned (k, 3, 3) about the middle of the shape, as k poses."""
-    centre = np.array([middle[0], middle_y, middle[1]], dtype=np.float32)
-    rotation = np.asarray(turns @ pose.rotation[0])
-    shift = (pose.shift[0] - centre) @ turns.transpose(0, 2, 1) + centre
-    return Poses(rotation, np.asarray(shift), np.repeat(pose.scale, len(turns)))
-
-
-def mirror_image(poses: Poses, middle_y: float) -> Poses:
-    """The poses (of the mirrored mesh) that leave it where the mesh is, but mirrored in place."""
-    flip = MIRROR.astype(np.float32)
-    shift = poses.shift * np.diag(flip)
-    shift[:, 1] += np.float32(2 * middle_y)
-    return Poses(np.asarray(flip @ poses.rotation @ flip), shift, poses.scale)
-
-
 def _least_cost(candidates: list[_Candidate], template: Template) -> float:
     """The least cost on a template; infinite if it was not tried."""
     return min((each.cost for each in candidates if each.template is template), default=np.inf)
@@ -378,6 +353,7 @@ def _cheapest(candidates: list[_Candidate], settings: PoseSearchSettings) -> Rou
         if any(other.rotation[axis] @ rotation[axis] < limit for axis in (0, 2))
     ]
     margin = rivals[0] - winner.cost if rivals else settings.margin_without_rival
+    others = [each.cost for each in order if each.template.kind != winner.template.kind]
     length = 1 / float(winner.pose.scale[0])
     shift = winner.pose.shift[0].astype(np.float64) * length
     return RoughPose(
@@ -387,6 +363,7 @@ def _cheapest(candidates: list[_Candidate], settings: PoseSearchSettings) -> Rou
         cost=winner.cost,
         margin=margin,
         kind=winner.template.kind,
+        kind_margin=others[0] - winner.cost if others else 0.0,
         accepted=is_accepted(winner.cost, margin, settings),
     )
 

@@ -147,7 +147,7 @@ def compared(
         clearance_mm=inside.clearance_mm,
         zones=inside.zones,
         sections=tuple(_section(pair, heels) for pair in pairs),
-        warnings=_warnings(foot, last.record, room),
+        warnings=(*_unused_heel(foot, heel), *_warnings(foot, last.record, room)),
         toe_room=room,
         measured_clearance=tuple(
             (name, with_unknown_load(clearance, name, measures))
@@ -171,6 +171,16 @@ def best_comparison(
         return compared(match.feet[foot], stored_last(path, lasts[0].last), match.heel)
     except (CatalogueDamaged, NoSole, UnknownLast):
         return None
+
+
+def _unused_heel(
+    foot: results.Profiled, heel: results.HeelQuestion | None
+) -> tuple[results.Notice, ...]:
+    """A drop in the scanner that is given for a last in the foot's place."""
+    if not foot.is_last or heel is None or not heel.scanned_at_drop_mm:
+        return ()
+    words = "the drop in the scanner is of no use: the first shape is a last, with its own heel"
+    return (results.Notice("scanned_at_drop_unused", words),)
 
 
 def _warnings(

@@ -11,7 +11,7 @@ from footfit import results
 from footfit.catalogue.blocks.block_bytes import BOTTOM, PLAN
 from footfit.catalogue.blocks.block_reading import BadBlocks
 from footfit.catalogue.blocks.search_file import OtherCatalogue
-from footfit.errors import BadOption, HalfScan, NoCandidate
+from footfit.errors import NoCandidate
 from footfit.geometry.fit.sizes import label_in
 from footfit.locations import Location
 from footfit.number_words import signed
@@ -20,6 +20,7 @@ from footfit.pipeline.fit.fit_profile import fit_profile
 from footfit.pipeline.fit.heel_model import heel_question
 from footfit.pipeline.fit.judging.judged_lasts import Asked, Gated, JudgedLasts, asked_of
 from footfit.pipeline.fit.judging.toe_box import NOT_STORED
+from footfit.pipeline.fit.refused_feet import refuse_lasts, refuse_unknown_length
 from footfit.pipeline.fit.scoring import UNKNOWN_SCORE
 from footfit.pipeline.fit.worn_shifts import worn_with
 from footfit.pipeline.fit.zones import TOE_BOX
@@ -48,6 +49,7 @@ class Question:
     walking. ``surfaces_in`` is the catalogue whose meshes the feet are placed in, if that is asked.
     ``heel`` says how the feet are compared with lasts that have a heel, and ``worn`` what is worn
     with the shoes, beyond what the profile has. ``growth`` asks how long a child's shoe will do.
+    ``force_foot`` takes a shape for a foot that is surely a last.
     """
 
     by: results.SearchBy = "fit"
@@ -58,6 +60,7 @@ class Question:
     heel: results.HeelQuestion = field(default_factory=heel_question)
     worn: results.Worn = BAREFOOT
     growth: results.GrowthQuestion | None = None
+    force_foot: bool = False
 
 
 def matched(
@@ -76,18 +79,18 @@ def matched(
         No last passes the filters that were given.
     HalfScan
         By fit: a foot's length is not known, for example if its toes were not scanned.
-    BadOption
-        By fit or flare: a foot is a last of the catalogue.
+    BadOption, OtherKind
+        By fit or flare: a foot is a last of the catalogue, or surely a last.
     """
     question = question or Question()
     if question.by != "shape":
-        _refuse_stored_lasts(feet)
+        refuse_lasts(feet, forced=question.force_foot)
     shelf = shelf_of(library) if isinstance(library, results.Library) else library
     if not shelf.ranked.any():
         nothing = "no last passes these filters; see footfit list-lasts"
         raise NoCandidate(next((notice.message for notice in shelf.warnings), nothing))
     if question.by == "fit":
-        _refuse_unknown_length(feet)
+        refuse_unknown_length(feet)
     profile = question.profile or fit_profile()
     usual_mm = profile.usual_length_mm
     feet = feet if usual_mm is None else [_usual_foot(foot, usual_mm) for foot in feet]
@@ -180,29 +183,6 @@ def _usual_foot(foot: results.Profiled, usual_mm: tuple[float, float]) -> result
     aligned = foot.aligned
     usual = replace(aligned, alignment=usual_alignment(aligned.alignment, usual_mm))
     return replace(foot, aligned=usual)
-
-
-def _refuse_stored_lasts(feet: Sequence[results.Profiled]) -> None:
-    """Raise BadOption for a last of the catalogue in place of a foot."""
-    for foot in feet:
-        info = foot.aligned.alignment.info
-        if info.is_stored_last:
-            words = (
-                "is a last of the catalogue, not a foot: give a scan of a foot; --by shape finds"
-                " lasts like this one, and footfit compare puts it into another"
-            )
-            raise BadOption(words, info.path)
-
-
-def _refuse_unknown_length(feet: Sequence[results.Profiled]) -> None:
-    """Raise HalfScan for a foot without a known length: the length is the gate, and lasts that are
-    too small would pass.
-    """
-    for foot in feet:
-        alignment = foot.aligned.alignment
-        if alignment.length.value is None:
-            words = f"{alignment.length.reason}; no last is judged without it: scan again"
-            raise HalfScan(words, alignment.info.path)
 
 
 def _best_verdict(ranked: ranking.Ranking) -> results.Verdict | None:
@@ -356,7 +336,7 @@ def _notices(
     for foot, kind in zip(feet, kinds, strict=True):
         of_foot = [*foot.unusual, *unusual_measures(foot.measures, kind, usual_mm)]
         if asked.by != "shape" and kind == "last":
-            words = "its shape is like a last's; use --by shape for a last"
+            words = "its shape is nearer to a last's than to a foot's; for a last use --by shape"
             of_foot.append(results.Notice("looks_like_a_last", words))
         notices += notices_about(foot.aligned.alignment.info.path, of_foot)
     if asked.by == "flare":

@@ -250,6 +250,8 @@ def flare_differences(
     The heel changes the foot's angle. The profiles are compared as they were scanned: the heel
     model has no profile.
     """
+    if not len(lasts):
+        return []
     total, parts = feet_distance(feet, lasts), flare_distances(feet[0].flare, lasts).parts
     angle = sum(foot.flare.angle_deg for foot in feet) / len(feet)
     turn_deg = heels.share * full_change(heels.question.model, feet[0], FLARE)[0]

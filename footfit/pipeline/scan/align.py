@@ -34,7 +34,7 @@ def aligned_scan(
         )
     own, printed = _eigenframes(prepared, method)
     alignment = Alignment(
-        **fields(prepared, "file_vertices_mm", "shape"),
+        **fields(prepared, "file_vertices_mm", "shape", "kind_margin"),
         method=method,
         transform=_transform(prepared, method, own, reference),
         eigenframe=own,

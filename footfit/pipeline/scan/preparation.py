@@ -128,6 +128,7 @@ def prepared_scan(
         file_vertices_mm=factor * posed.vertices,
         shape=shape,
         warnings=(),
+        kind_margin=posed.pose.kind_margin,
     )
     return replace(prepared, warnings=_notices(scan, posed, frame, prepared))
 
