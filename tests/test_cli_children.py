@@ -54,6 +54,21 @@ def test_the_lengths_follow_the_profile(
         assert ({"suspect_measure", "length_unusual"} & codes != set()) == unusual
 
 
+def test_a_childs_foot_whose_number_is_a_mans_in_inches_asks_for_the_unit(
+    footfit: Footfit, foot: Path, stocked: Path, tmp_path: Path
+) -> None:
+    """12.6 is 126 mm in cm and 320 mm in inches: the usual unit is one of an adult's."""
+    scan = foot_of(12.6, foot, tmp_path)
+    for command in (("measure",), ("match", "--catalogue", stocked)):
+        run = footfit(command[0], scan, *command[1:], *CHILD)
+        assert run.code == 3
+        assert (
+            "mm in centimetres. The profile is for feet of 110-260 mm: give --units cm" in run.err
+        )
+        assert footfit(command[0], scan, *command[1:], *CHILD, "--units", "cm").code == 0
+        assert "taken as inches" in footfit(command[0], scan, *command[1:]).err
+
+
 def test_a_short_foot_gets_the_hint(footfit: Footfit, foot: Path, tmp_path: Path) -> None:
     scan = foot_of(150.0, foot, tmp_path)
     assert "is this a child's foot? add --profile child" in footfit("measure", scan).err

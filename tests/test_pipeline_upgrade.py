@@ -192,7 +192,7 @@ def test_a_catalogue_of_older_measures_fits_no_foot_and_says_why(
     foot = SAMPLES / "feet" / "mh008_R.stl"
     run = footfit("match", foot, "--catalogue", catalogue, "--json")
     assert run.code == 0
-    assert list(run.document["rejected"]) == ["length_unknown"]
+    assert list(run.document["rejected"]["by_reason"]) == ["length_unknown"]
     codes = {notice["code"] for notice in run.document["warnings"]}
     assert {"other_measures", "nothing_fits"} <= codes
 

@@ -5,10 +5,12 @@ from __future__ import annotations
 from collections.abc import Iterable
 from dataclasses import replace
 
-from footfit.errors import SideUndecided
+from footfit.errors import SideUndecided, UnknownUnits
 from footfit.geometry.flare.definition import flare_class
 from footfit.geometry.measures import measure_table
 from footfit.geometry.measures.landmarks import Shape
+from footfit.meshes.units import UNIT_NAMES, UNIT_SCALES
+from footfit.number_words import plain
 from footfit.pipeline.scan.settled_unit import length_notices
 from footfit.pipeline.scan.trueness import measured
 from footfit.results import (
@@ -117,12 +119,37 @@ def for_feet_of(scan: MeasuredScan, usual_length_mm: tuple[float, float]) -> Mea
 
 
 def usual_alignment(alignment: Alignment, usual_length_mm: tuple[float, float]) -> Alignment:
-    """An alignment without the warning of a length that is usual for feet of these lengths."""
+    """An alignment without the warning of a length that is usual for feet of these lengths.
+
+    Raises
+    ------
+    UnknownUnits
+        The unit was detected, and in another unit the length is usual for these feet.
+    """
     low, high = usual_length_mm
+    _refuse_other_unit(alignment, low, high)
     if alignment.length_mm is None or not low <= alignment.length_mm <= high:
         return alignment
     kept = (notice for notice in alignment.warnings if notice.code != "length_unusual")
     return replace(alignment, warnings=tuple(kept))
+
+
+def _refuse_other_unit(alignment: Alignment, low_mm: float, high_mm: float) -> None:
+    """Ask for the unit if a length is usual in a unit that was not detected, and not in that one:
+    a child's foot of 12.5 cm is as long as a man's of 12.5 inches.
+    """
+    info, length_mm = alignment.info, alignment.length_mm
+    if info.units_source != "detected" or length_mm is None or low_mm <= length_mm <= high_mm:
+        return
+    number = length_mm / UNIT_SCALES[info.units]
+    for name, scale in UNIT_SCALES.items():
+        if low_mm <= number * scale <= high_mm:
+            words = (
+                f"is {plain(length_mm)} mm long in {UNIT_NAMES[info.units]}, and"
+                f" {plain(number * scale)} mm in {UNIT_NAMES[name]}. The profile is for feet of"
+                f" {low_mm:.0f}-{high_mm:.0f} mm: give --units {name} or --units {info.units}"
+            )
+            raise UnknownUnits(words, info.path)
 
 
 def unusual_measures(

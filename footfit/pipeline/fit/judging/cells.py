@@ -13,7 +13,12 @@ from footfit.results import LastRecord, Measure, Profiled
 from footfit.results.columns.last_columns import LastColumns
 from footfit.results.columns.vocabulary import NO_WORD, Words
 
-OTHER_DEFINITION = "measured by another definition; type: footfit upgrade-catalogue"
+MEASURE_AGAIN = (
+    "type: footfit upgrade-catalogue; if a last has no mesh copy, ingest its file again with"
+    " --replace"
+)
+"""What helps a last whose stored numbers are old; ranking does not read whether it has a copy."""
+OTHER_DEFINITION = f"measured by another definition; {MEASURE_AGAIN}"
 
 
 @dataclass(frozen=True, slots=True)

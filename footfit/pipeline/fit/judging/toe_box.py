@@ -18,7 +18,13 @@ from footfit.geometry.measures.heights import HEIGHTS
 from footfit.geometry.measures.measure_value import OPEN
 from footfit.geometry.numeric.arrays import Bools, Floats, Ints
 from footfit.pipeline.fit.heels import Heels, full_change
-from footfit.pipeline.fit.judging.cells import Cells, foot_shape, measure_difference, missing
+from footfit.pipeline.fit.judging.cells import (
+    MEASURE_AGAIN,
+    Cells,
+    foot_shape,
+    measure_difference,
+    missing,
+)
 from footfit.pipeline.fit.judging.clearances import Clearances, length_only_words
 from footfit.pipeline.fit.scoring import Column
 from footfit.pipeline.fit.zones import TOE_BOX, TOE_HEIGHT, TOES
@@ -31,7 +37,7 @@ TOES_SD_MM = 0.4
 0.6 mm by toe, with 0.3 mm of noise, in any pose, with half and a quarter of the faces."""
 HEIGHT_SHARES = (0.80, 0.96)
 """A last's height is drawn on from its two known places as far as this, over its length."""
-NOT_STORED = "no sections are stored; type: footfit upgrade-catalogue"
+NOT_STORED = f"no sections are stored; {MEASURE_AGAIN}"
 OPEN_TOES = f"the last: {OPEN.format(place='toes')}"
 TOGETHER = 16
 """So many lasts are laid around a foot's toes at once: more would need more memory than a core has
