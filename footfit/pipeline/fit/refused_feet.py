@@ -1,4 +1,4 @@
-"""Feet that are matched with no last: lasts in their place, and feet whose length is not known."""
+"""Feet that are matched with no last: lasts in their place, feet whose length is not known."""
 
 from __future__ import annotations
 
