@@ -9,6 +9,7 @@ import pytest
 
 from footfit.geometry.flare.definition import FlareDefinition
 from footfit.geometry.flare.flare_profile import flare_profile
+from footfit.geometry.flare.turning import turning
 from footfit.geometry.flare.unrolling import SideLine, side_line
 from footfit.geometry.stance.stance import stance_of
 from tools.bent_lasts import bent
@@ -17,6 +18,8 @@ from tools.lasts import last_mesh, standing
 from tools.outline_slab import own_slab
 
 OUTLINE_DEG = 0.7  # of flare against the outline's own line; measured: 0.37, others below 0.12
+TURNED_DEG = 0.3  # half and fully turned sections: the bar of one last bent; measured: 0.21
+TURNING = 0.35  # of the share by which sections turn; measured: 0.20, where half turned
 BENT_DEG = 0.13  # upright sections to 110 mm of heel; measured: 0.07
 STANCE_DEG = 0.03  # of flare by 3 degrees of stance; measured: 0.016
 SMALL = {"rings": 100, "segments": 72}
@@ -24,6 +27,15 @@ SMALL = {"rings": 100, "segments": 72}
 
 def flare_deg(vertices, faces, stance):
     return flare_profile(vertices, faces, stance=stance, kind="last").angle_deg
+
+
+def share_turned(vertices, faces):
+    stance, definition = stance_of(vertices, faces, "last"), FlareDefinition()
+    stands = stance.standing_transform
+    standing_mm = vertices @ stands[:3, :3].T + stands[:3, 3]
+    line = side_line(stance.middle_mm, stance.length_mm, definition)
+    arc_mm = float(line.arc(np.array([stance.length_mm]))[0])
+    return turning(standing_mm, faces, line, arc_mm, definition)
 
 
 @pytest.mark.parametrize("style", ["shoe", "pump"])
@@ -38,17 +50,32 @@ def test_the_flare_is_that_of_the_outline_laid_flat(style, band):
     assert flare_deg(*mesh, stance_of(*mesh, "last")) == pytest.approx(outline, abs=OUTLINE_DEG)
 
 
-def test_a_last_that_is_bent_to_a_high_heel_keeps_its_flare():
+@pytest.mark.parametrize("turned", [0.0, 0.5, 1.0])
+def test_a_last_that_is_bent_to_a_high_heel_keeps_its_flare(turned):
     spec = LastSpec(heel_height_mm=0.0, toe_spring_mm=6.0, flare_deg=9.0, **SMALL)
     vertices, faces = last_mesh(spec)
     resting = np.radians(standing(spec).pitch_deg)
     assert abs(resting) < 0.01
     angles = []
     for heel_mm in (0.0, 30.0, 60.0, 90.0, 110.0):
-        high = bent(vertices, spec.length_mm, heel_mm)
+        high = bent(vertices, spec.length_mm, heel_mm, turned)
         stance = stance_of(high, faces, "last")
         angles.append(flare_deg(high, faces, stance))
-    assert np.ptp(angles) < BENT_DEG
+    assert np.ptp(angles) < (TURNED_DEG if turned else BENT_DEG)
+
+
+@pytest.mark.parametrize("turned", [0.0, 0.5, 1.0])
+def test_the_heels_back_says_how_far_sections_turn_with_the_bottom(turned):
+    spec = LastSpec(heel_height_mm=0.0, toe_spring_mm=6.0, **SMALL)
+    vertices, faces = last_mesh(spec)
+    assert share_turned(vertices, faces) == 0.0  # its seat is level
+    high = bent(vertices, spec.length_mm, 95.0, turned)
+    assert share_turned(high, faces) == pytest.approx(turned, abs=TURNING)
+
+
+def test_a_last_whose_walls_lean_more_than_its_seat_is_not_turned():
+    spec = LastSpec(heel_height_mm=80.0, toe_spring_mm=6.0, seat_pitch=0.25, **SMALL)
+    assert share_turned(*last_mesh(spec)) == 0.0
 
 
 def test_a_stance_that_is_three_degrees_off_hardly_moves_the_flare():

@@ -50,15 +50,38 @@ def test_profiles_of_another_definition_are_recomputed_and_marked(catalogue: Pat
 
 
 def test_a_profile_with_other_stations_than_its_definition_is_found_and_made_anew(
-    tmp_path: Path,
+    catalogue: Path,
 ) -> None:
-    """The stored catalogue has 60 stations, and their definition has fewer."""
+    with open_catalogue(catalogue, write=True) as opened:
+        record = opened.lasts().records[0]
+        whole = record.flare
+        fewer = replace(
+            whole,
+            stations=whole.stations[1:],
+            heading_deg=whole.heading_deg[1:],
+            centre_line=whole.centre_line[1:],
+            curvature={k: None if v is None else v[1:] for k, v in whole.curvature.items()},
+        )
+        opened.update_measured(replace(record, flare=fewer))
+        (finding,) = (entry for entry in opened.findings() if entry.code == "definition")
+    assert "stations" in finding.message
+    shelf = choice(catalogue, None, None)
+    assert {notice.code for notice in shelf.warnings} == {"outdated_last"}
+    assert not shelf.ranked.all()
+    assert upgrade(catalogue).recomputed == (record.labels.name,)
+    assert choice(catalogue, None, None).ranked.all()
+    with open_catalogue(catalogue) as opened:
+        assert opened.findings() == []
+
+
+def test_a_catalogue_of_an_older_definition_is_made_anew(tmp_path: Path) -> None:
+    """The stored profiles are of flare/2, and some have 60 stations."""
     old = Path(__file__).parent / "data" / "catalogue-0005.footfit"
     path = Path(shutil.copy(old, tmp_path / "old.footfit"))
     with open_catalogue(path) as opened:
         found = [finding for finding in opened.findings() if finding.code == "definition"]
         assert len(found) == len(opened.names())
-    assert all("stations" in finding.message for finding in found)
+    assert all("'flare/2'" in finding.message for finding in found)
     shelf = choice(path, None, None)
     assert {notice.code for notice in shelf.warnings} >= {"outdated_last"}
     assert not shelf.ranked.any()

@@ -185,12 +185,12 @@ LINES: list[tuple[RenderableType, tuple[str, ...]]] = [
         ("c", "b.footfit", "14", "old.footfit"),
     ),
     (
-        upgrade_catalogue_line(UpgradeOutcome("c", "0001", "0002", "flare/2", ("a", "b"), "old")),
-        ("c", "0001", "0002", "2", "flare/2", "none", "old"),
+        upgrade_catalogue_line(UpgradeOutcome("c", "0001", "0002", "flare/3", ("a", "b"), "old")),
+        ("c", "0001", "0002", "2", "flare/3", "none", "old"),
     ),
     (
-        upgrade_catalogue_line(UpgradeOutcome("c", "0002", "0002", "flare/2", (), None)),
-        ("c", "0002", "as before", "0", "flare/2", "none", "-"),
+        upgrade_catalogue_line(UpgradeOutcome("c", "0002", "0002", "flare/3", (), None)),
+        ("c", "0002", "as before", "0", "flare/3", "none", "-"),
     ),
     (
         demo_table(DemoOutcome("demo", 14, "derby-40", ("a.json", "r.html"))),

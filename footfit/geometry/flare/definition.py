@@ -31,13 +31,18 @@ class FlareDefinition:
     0.1
     """
 
-    version: str = "flare/2"
+    version: str = "flare/3"
 
     # A last stands on its heel, and its bottom is laid flat along its own arc (a foot lies flat).
     line_window: tuple[float, float] = (0.035, 0.965)  # of the standing length
     line_bandwidth: float = 0.03  # of the local parabolas that smooth the middle line
     line_beyond: float = 0.2  # how far the line is drawn on straight at each end
     flat_height: float = 0.135  # faces that lie higher over the line are no bottom
+    # Heights lean with the bottom as far as the heel's back says that the sections do.
+    seat_place: float = 0.12  # of the bottom's arc: where the pitch of the seat is read
+    back_heights: tuple[float, float] = (0.05, 0.085)  # where the lean of the back is read
+    seat_sure_deg: tuple[float, float] = (4.0, 12.0)  # a flatter seat says nothing, a steeper all
+    lean_window: tuple[float, float] = (0.16, 0.70)  # beyond, heights lean as at its ends
 
     # The band that counts as the bottom, and its edges.
     length_height: float = 0.30  # L of a foot is the extent along x of the part that lies lower
@@ -98,6 +103,9 @@ class FlareDefinition:
 
     # How finely: a finer choice of any moves the angle by less than 0.001 degrees.
     line_points: int = 401  # of the side line's table
+    back_points: int = 12  # heights at which the heel's back is read
+    lean_rounds: int = 20  # steps to the place that a point stands over
+    lean_step: float = 0.7  # of a whole step: a bottom bends below high points
     table: tuple[float, float, int] = (-0.1, 1.1, 1201)  # x of the tabulated line: from, to, points
     projections: int = 2  # Newton steps onto the line
     turn_least: float = 0.2  # keeps a point beyond the line's centre of curvature on its own side

@@ -10,6 +10,7 @@ from footfit.geometry.flare.centre_line import CentreLine
 from footfit.geometry.flare.definition import FlareDefinition
 from footfit.geometry.flare.leaning_shank import without_leaning_shank
 from footfit.geometry.flare.levelled_bottom import BottomShape, bottom_shape
+from footfit.geometry.flare.turning import laid_flat
 from footfit.geometry.flare.unrolling import FlatBottom, SideLine, flat_bottom, side_line
 from footfit.geometry.numeric.arrays import Floats, Ints
 from footfit.geometry.stance.stance import Stance
@@ -84,7 +85,8 @@ def flattened(
     stands = stance.standing_transform
     line = side_line(stance.middle_mm, stance.length_mm, definition)
     standing_mm = vertices_mm @ stands[:3, :3].T + stands[:3, 3]
-    flat = flat_bottom(standing_mm, faces, line, definition.flat_height * stance.length_mm)
+    flat_mm = laid_flat(standing_mm, faces, line, stance.length_mm, definition)
+    flat = flat_bottom(flat_mm, faces, definition.flat_height * stance.length_mm)
     reading = replace(definition, length_height=definition.flat_length_height)
     shape = bottom_shape(flat.vertices_mm, flat.faces, reading)
     return Flattened(shape, reading, line, flat.turn, np.asarray(np.linalg.inv(stands)))

@@ -2,7 +2,8 @@
 
 In the side view the bottom's middle line is a curve: seat, shank, tread, toe spring. Laid flat, a
 point keeps its place across, its way along the line becomes the arc length, and its height becomes
-the height over the line. What is read from the flat bottom does not depend on the heel.
+the height over the line. What is read from the flat bottom does not depend on the heel. Heights
+count straight up here; ``turning.py`` counts them along sections that turn with the bottom.
 """
 
 from __future__ import annotations
@@ -47,6 +48,11 @@ class SideLine:
     def height(self, x_mm: Floats) -> Floats:
         """The height of the line at ``x_mm`` (n,)."""
         return self._beyond(x_mm, self.x_mm, self.z_mm)
+
+    def slope(self, arc_mm: Floats) -> Floats:
+        """The slope of the line at an arc length (n,), radians: + rises towards the toe."""
+        slope = np.arctan(np.gradient(self.z_mm, self.x_mm))
+        return np.interp(arc_mm, self.arc_mm, slope)
 
     def at(self, arc_mm: Floats) -> tuple[Floats, Floats]:
         """Where the line is at an arc length (n,): x and z."""
@@ -108,23 +114,21 @@ class FlatBottom:
     turn: Floats
 
 
-def flat_bottom(vertices_mm: Floats, faces: Ints, line: SideLine, low_mm: float) -> FlatBottom:
-    """A right shape in its standing frame with its bottom laid flat; high faces are left out.
+def flat_bottom(flat_mm: Floats, faces: Ints, low_mm: float) -> FlatBottom:
+    """The low faces of a shape whose bottom is laid flat, turned to their principal axis.
 
     Parameters
     ----------
-    vertices_mm : (n, 3)
+    flat_mm : (n, 3)
+        The way along the bottom, across, and the height over it.
     faces : (m, 3)
-    line : SideLine
     low_mm : float
         Faces with all corners higher over the line are left out.
     """
-    flat = line.unrolled(vertices_mm)
-    kept = faces[(flat[:, 2] < low_mm)[faces].any(axis=1)]
-    plan = flat * np.array([1.0, 1.0, 0.0])
+    kept = faces[(flat_mm[:, 2] < low_mm)[faces].any(axis=1)]
+    plan = flat_mm * np.array([1.0, 1.0, 0.0])
     moment = surface_second_moment(plan, kept)[:2, :2]
     axis = np.linalg.eigh(moment)[1][:, 1]
     axis = axis if axis[0] > 0.0 else -axis
     turn = np.array([[axis[0], -axis[1]], [axis[1], axis[0]]])
-    flat[:, :2] = flat[:, :2] @ turn
-    return FlatBottom(flat, kept, turn)
+    return FlatBottom(np.column_stack([flat_mm[:, :2] @ turn, flat_mm[:, 2]]), kept, turn)
