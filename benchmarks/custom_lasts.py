@@ -116,7 +116,7 @@ def base_of(rng: np.random.Generator, rings: int, segments: int) -> BaseLast:
         length_mm = float(rng.uniform(240.0, 290.0))
         spec = wide(
             rng,
-            style,  # type: ignore[arg-type]
+            style,
             (heel_mm, heel_mm + 0.1),
             length_mm=length_mm,
             rings=rings,

@@ -15,28 +15,26 @@ from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from pathlib import Path
 
+import numpy as np
+
+from benchmarks import bends
+from benchmarks.alignment import holed, scan_of
+from benchmarks.tables import markdown, put
+from footfit.errors import FootfitError
+from footfit.geometry.flare.definition import CHANNELS, FlareDefinition, FlareProfile
+from footfit.geometry.flare.flare_profile import flare_profile
+from footfit.geometry.flare.levelled_bottom import low_length
+from footfit.geometry.flare.profile_distance import DISTANCE
+from footfit.pipeline.scan.flare import profiled_scan
+from footfit.pipeline.scan.preparation import closed_shape
+from footfit.results import Profiled
+from tests import distortions
+from tests.distortions import half_subdivided, rippled, white_noise
+from tests.reading import read_scan
+from tests.scans import aligned, right_shape
+from tools.lasts import LastSpec, last_mesh, true_heading_deg, varied
+
 ROOT = Path(__file__).resolve().parents[1]
-sys.path.insert(0, str(ROOT))
-
-import numpy as np  # noqa: E402
-
-from benchmarks import bends  # noqa: E402
-from benchmarks.alignment import holed, scan_of  # noqa: E402
-from benchmarks.tables import markdown, put  # noqa: E402
-from footfit.errors import FootfitError  # noqa: E402
-from footfit.geometry.flare.definition import CHANNELS, FlareDefinition, FlareProfile  # noqa: E402
-from footfit.geometry.flare.flare_profile import flare_profile  # noqa: E402
-from footfit.geometry.flare.levelled_bottom import low_length  # noqa: E402
-from footfit.geometry.flare.profile_distance import DISTANCE  # noqa: E402
-from footfit.pipeline.scan.flare import profiled_scan  # noqa: E402
-from footfit.pipeline.scan.preparation import closed_shape  # noqa: E402
-from footfit.results import Profiled  # noqa: E402
-from tests import distortions  # noqa: E402
-from tests.distortions import half_subdivided, rippled, white_noise  # noqa: E402
-from tests.reading import read_scan  # noqa: E402
-from tests.scans import aligned, right_shape  # noqa: E402
-from tools.lasts import LastSpec, last_mesh, true_heading_deg, varied  # noqa: E402
-
 SCANS = ROOT.parent / "shared" / "scans" / "makehuman"
 BENDS_DEG = (-8.0, -4.0, 4.0, 8.0)
 

@@ -76,7 +76,7 @@ def _mapped(folder: Path, width: int) -> tuple[Any, Any]:
 
 def _least(distance: Floats) -> list[int]:
     best = np.argpartition(distance, NEAREST)[:NEAREST]
-    return best[np.argsort(distance[best])].tolist()  # type: ignore[no-any-return]
+    return best[np.argsort(distance[best])].tolist()
 
 
 # ---------------------------------------------------------------- how each opens, and asks
@@ -105,11 +105,11 @@ def _product(folder: Path, question: Question) -> Callable[[], list[int]]:
 
 
 def _faiss(folder: Path, question: Question) -> Callable[[], list[int]]:
-    import faiss  # type: ignore[import-not-found]
+    import faiss
 
     faiss.omp_set_num_threads(1)
     index = faiss.read_index(str(folder / "faiss"), faiss.IO_FLAG_MMAP)
-    return lambda: index.search(question[1][None], NEAREST)[1][0].tolist()  # type: ignore[no-any-return]
+    return lambda: index.search(question[1][None], NEAREST)[1][0].tolist()
 
 
 def _make_faiss(folder: Path, width: int) -> None:
@@ -123,16 +123,16 @@ def _make_faiss(folder: Path, width: int) -> None:
 
 
 def _usearch(folder: Path, question: Question) -> Callable[[], list[int]]:
-    from usearch.index import MetricKind, search  # type: ignore[import-not-found]
+    from usearch.index import MetricKind, search
 
     vectors, _ = _mapped(folder, len(question[1]))
     return lambda: search(
         vectors, question[1], NEAREST, MetricKind.L2sq, exact=True, threads=1
-    ).keys.tolist()  # type: ignore[no-any-return]
+    ).keys.tolist()
 
 
 def _duckdb(folder: Path, question: Question) -> Callable[[], list[int]]:
-    import duckdb  # type: ignore[import-not-found]
+    import duckdb
 
     connection = duckdb.connect(str(folder / "duckdb"), read_only=True, config={"threads": 1})
     width = len(question[1])
@@ -175,8 +175,8 @@ def _make_sqlite_vec(folder: Path, width: int) -> None:
 
 def _with_vectors(path: Path) -> Any:
     """A connection with the extension; Python's own `sqlite3` may be built without extensions."""
-    import apsw  # type: ignore[import-not-found]
-    import sqlite_vec  # type: ignore[import-not-found]
+    import apsw
+    import sqlite_vec
 
     connection = apsw.Connection(str(path))
     connection.enable_load_extension(True)

@@ -16,17 +16,15 @@ import tempfile
 from dataclasses import dataclass
 from pathlib import Path
 
+import numpy as np
+
+from benchmarks.tables import markdown, put
+from footfit.meshes.write import encoded_mesh
+from tests.distortions import decimated, subdivided
+from tests.reading import read_scan
+from tools.lasts import last_mesh, varied
+
 ROOT = Path(__file__).resolve().parents[1]
-sys.path.insert(0, str(ROOT))
-
-import numpy as np  # noqa: E402
-
-from benchmarks.tables import markdown, put  # noqa: E402
-from footfit.meshes.write import encoded_mesh  # noqa: E402
-from tests.distortions import decimated, subdivided  # noqa: E402
-from tests.reading import read_scan  # noqa: E402
-from tools.lasts import last_mesh, varied  # noqa: E402
-
 SEED = 20261124
 FOOT_FACES = 30_000
 LAST_FACES = 35_000

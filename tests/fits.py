@@ -42,4 +42,4 @@ def entry(seed: int = 0, **given: object) -> FitEntry:
         "outcome": "kept",
         "footfit_version": "1",
     }
-    return FitEntry(**{**usual, **given})  # type: ignore[arg-type]
+    return FitEntry(**{**usual, **given})

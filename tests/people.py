@@ -64,7 +64,7 @@ def _measure(name: str, value: float) -> Measure:
 def answer(path: Path, lasts: Sequence[LastRecord], **given: object) -> Coverage:
     """The coverage of the feet of a CSV by lasts."""
     feet, notices = feet_of_csv(path)
-    people = Population(feet, warnings=notices, **given)  # type: ignore[arg-type]
+    people = Population(feet, warnings=notices, **given)
     return coverage(people, last_table(lasts, WALKING.profile), WALKING)
 
 

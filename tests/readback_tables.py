@@ -283,7 +283,7 @@ def count_values(counts: Iterable[tuple[object, object]]) -> list[object]:
 
 
 def side_values(alignment: object) -> list[str | None]:
-    side = alignment.side  # type: ignore[attr-defined]
+    side = alignment.side
     if side.side is not None and side.source == "given":
         return ["given"]
     said = None if side.side is None else side.source

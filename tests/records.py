@@ -64,7 +64,7 @@ def labels(name: str, seed: int = 0, **given: object) -> LastLabels:
         "width_label": "G",
         "heel_height_mm": 25.0,
     }
-    return LastLabels(name=name, **{**usual, **given})  # type: ignore[arg-type]
+    return LastLabels(name=name, **{**usual, **given})
 
 
 def last(
@@ -93,7 +93,7 @@ def last(
             units_source="detected",
             unit_scale=scale,
         ),
-        side=SideVerdict(side, "sure", 3.5, "detected"),  # type: ignore[arg-type]
+        side=SideVerdict(side, "sure", 3.5, "detected"),
         pose=PoseQuality(0.31, 0.22, 0.17, True, "last"),
         eigenframe=Eigenframe(
             centroid_mm=generator.normal(size=3) * 50,
@@ -134,7 +134,7 @@ def parentage(base: str, seed: int = 0, **given: object) -> Parentage:
             Target("instep_girth", "mm", None, 245.5, None),
         ),
     }
-    return Parentage(base, **{**usual, **given})  # type: ignore[arg-type]
+    return Parentage(base, **{**usual, **given})
 
 
 def plain(value: object) -> object:

@@ -304,7 +304,7 @@ def judged_one(asked: Asked, record: LastRecord, kept: ShapeSections | None) -> 
         scores.append((cell.value - column.rule.target) / width if known else None)
         three = (cell.foot_sd, cell.last_sd, cell.heel_sd)
         sds.append(tuple(sd / width for sd in three) if known else (0.0, 0.0, 0.0))
-    return OneLast(record, cells, levels, scores, sds)  # type: ignore[arg-type]
+    return OneLast(record, cells, levels, scores, sds)
 
 
 def worst(asked: Asked, levels: Sequence[int | None]) -> int:

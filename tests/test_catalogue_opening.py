@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import importlib
 import multiprocessing
 import os
 import shutil
@@ -220,7 +221,7 @@ def _run(function: Callable[[], str], answers: object) -> None:
         answer = function()
     except FootfitError as error:
         answer = f"{type(error).__name__}: {error}"
-    answers.put(answer)  # type: ignore[attr-defined]
+    answers.put(answer)
 
 
 def without_rights(function: Callable[[], str]) -> str:
@@ -254,9 +255,8 @@ def opened(path: Path) -> str:
 
 @pytest.mark.parametrize("read_only", ["file", "folder", "both"])
 def test_a_read_only_catalogue_can_be_read(path: Path, read_only: str) -> None:
-    import alembic.command  # noqa: F401  (the other user may not be able to import)
-    import sqlalchemy.orm  # noqa: F401
-
+    for module in ("alembic.command", "sqlalchemy.orm"):  # the other user may not be able to
+        importlib.import_module(module)
     path.chmod(0o666 if read_only == "folder" else 0o444)
     path.parent.chmod(0o777 if read_only == "file" else 0o555)
     before = path.read_bytes()

@@ -76,12 +76,12 @@ def catalogue(large: Path, tmp_path: Path) -> Path:
 
 
 def names(path: Path, foot: Profiled, by: str = "flare", top: int = 5) -> list[tuple[object, ...]]:
-    found = matched([foot], choice(path, None, None), Question(by=by, top=top))  # type: ignore[arg-type]
+    found = matched([foot], choice(path, None, None), Question(by=by, top=top))
     return [(c.last, c.distance, c.tied_with) for c in found.candidates]
 
 
 def is_used(path: Path) -> bool:
-    return choice(path, None, None).lasts.search is not None  # type: ignore[attr-defined]
+    return choice(path, None, None).lasts.search is not None
 
 
 @pytest.mark.parametrize("by", ["flare", "shape"])
@@ -141,14 +141,14 @@ def test_each_changed_row_of_a_search_file_is_seen(catalogue: Path, foot: Profil
     """Rows of profiles are verified as they are read: none that a search needs can be wrong."""
     sound = names(catalogue, foot)
     path = search_path(catalogue)
-    search = choice(catalogue, None, None).lasts.search  # type: ignore[attr-defined]
+    search = choice(catalogue, None, None).lasts.search
     assert search is not None
     data = bytearray(path.read_bytes())
     row = search.curves(np.arange(1)).nbytes + 8
     for at in range(len(data) - (LASTS - 1) * row, len(data), row):  # the profiles come last
         data[at] ^= 1
     path.write_bytes(data)
-    search = choice(catalogue, None, None).lasts.search  # type: ignore[attr-defined]
+    search = choice(catalogue, None, None).lasts.search
     assert search is not None
     for place in range(1, LASTS):
         with pytest.raises(search_file.BadSearchFile):
@@ -161,7 +161,7 @@ def test_a_change_of_the_catalogue_makes_the_file_stale(catalogue: Path, foot: P
     first = names(catalogue, foot)[0][0]
     old = search_path(catalogue).read_bytes()
     with open_catalogue(catalogue, write=True) as opened:
-        if opened.reference().last == first:  # type: ignore[union-attr]
+        if opened.reference().last == first:
             opened.set_reference(next(name for name in opened.names() if name != first))
         opened.remove(str(first))
     assert not search_path(catalogue).exists()  # it held what was removed

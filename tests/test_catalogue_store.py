@@ -176,7 +176,7 @@ def test_a_fault_in_the_middle_of_set_reference_leaves_the_old(
         calls.append(given)
         if len(calls) == 3:
             raise KeyboardInterrupt
-        return real(*given)  # type: ignore[arg-type]
+        return real(*given)
 
     real = reference_last.transform_by
     monkeypatch.setattr(reference_last, "transform_by", failing)

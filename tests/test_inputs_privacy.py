@@ -104,7 +104,10 @@ def test_a_file_that_takes_too_long_is_named_and_the_rest_is_stored(
         return usual(entry, **options)
 
     monkeypatch.setattr(ingest, "ready_last", ready_last)
-    in_this_process = lambda work, items, _, **more: outcome_groups(work, items, HERE, **more)  # noqa: E731
+
+    def in_this_process(work, items, _, **more):
+        return outcome_groups(work, items, HERE, **more)
+
     monkeypatch.setattr(ingest, "outcome_groups", in_this_process)
     got = footfit("ingest-last", tmp_path, "--catalogue", tmp_path / "c", "--json")
     status = {Path(line["path"]).name: line["status"] for line in got.lines if "status" in line}

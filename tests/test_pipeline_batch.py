@@ -145,7 +145,7 @@ class Counting(Executor):
     def __init__(self) -> None:
         self.flying, self.most = 0, 0
 
-    def submit(self, fn, /, *args, **kwargs):  # type: ignore[no-untyped-def]
+    def submit(self, fn, /, *args, **kwargs):
         self.flying += 1
         self.most = max(self.most, self.flying)
         outer, future = self, Future()
@@ -154,7 +154,7 @@ class Counting(Executor):
             outer.flying -= 1
             return fn(*args, **kwargs)
 
-        future.result = result  # type: ignore[method-assign]
+        future.result = result
         return future
 
 

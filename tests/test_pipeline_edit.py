@@ -153,7 +153,7 @@ def test_a_heel_that_the_shape_contradicts_is_said_until_it_is_mended(
     assert record_in(catalogue).warnings == usual.warnings
     again = measures(record_in(catalogue))
     for name, value in measures(usual).items():
-        assert again[name].value == pytest.approx(value.value, abs=SCAN_MM)  # type: ignore[attr-defined]
+        assert again[name].value == pytest.approx(value.value, abs=SCAN_MM)
 
 
 def test_the_reference_can_be_edited(catalogue: Path) -> None:
@@ -198,7 +198,7 @@ def test_a_value_that_no_last_has_changes_nothing(
 ) -> None:
     before = catalogue.read_bytes()
     with pytest.raises(BadOption):
-        edit_last(catalogue, LAST, labels)  # type: ignore[arg-type]
+        edit_last(catalogue, LAST, labels)
     assert catalogue.read_bytes() == before
 
 

@@ -132,7 +132,7 @@ def test_half_of_the_answers_at_the_edge_of_good_are_right() -> None:
     assert good_band(2.0, 1.0, 3.0) == (-1.0, 5.0)
 
 
-def evidence(said: Ratings, rule: ZoneRule = BALL):  # type: ignore[no-untyped-def]
+def evidence(said: Ratings, rule: ZoneRule = BALL):
     (zone,) = zone_evidence({rule.zone: rule}, {rule.zone: said})
     return zone
 

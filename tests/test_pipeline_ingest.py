@@ -31,7 +31,7 @@ PLAIN = ReadingOptions()
 
 def entry(name: str = "oxford-42", **labels: object) -> Entry:
     record = last(name)
-    given = replace(record.labels, **labels)  # type: ignore[arg-type]
+    given = replace(record.labels, **labels)
     return Entry(Source(f"{name}.stl"), given, PLAIN)
 
 
@@ -40,7 +40,7 @@ HOLDINGS = Holdings([STORED])
 
 
 def status(sha256: str, name: str, replace_it: bool = False, **labels: object) -> str:
-    wanted = replace(STORED.labels, name=name, **labels)  # type: ignore[arg-type]
+    wanted = replace(STORED.labels, name=name, **labels)
     return HOLDINGS.status(sha256, Entry(Source("x.stl"), wanted, PLAIN), replace=replace_it)
 
 

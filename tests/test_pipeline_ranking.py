@@ -131,9 +131,9 @@ def test_every_output_and_the_check_speak_of_the_first_last(
             for zone in fit.zones
         )
         passed = sure and VERDICTS.index(first.verdict or "") <= VERDICTS.index(least)
-        assert meets(answer, least) == passed  # type: ignore[arg-type]
-        summary = Summary(least)  # type: ignore[arg-type]
-        summary.add(Outcome(SimpleNamespace(title="Ana", path=None), answer, None))  # type: ignore[arg-type]
+        assert meets(answer, least) == passed
+        summary = Summary(least)
+        summary.add(Outcome(SimpleNamespace(title="Ana", path=None), answer, None))
         if passed:
             assert summary.checked_code(0, as_json=False) == 0
         else:

@@ -297,7 +297,7 @@ def test_a_catalogue_that_is_changed_meanwhile_is_read_again(
     shelf = choice(path, None, None)
     first = matched(feet[2:], shelf, Question(by="flare")).candidates[0].last
     with open_catalogue(path, write=True) as catalogue:
-        if catalogue.reference().last == first:  # type: ignore[union-attr]
+        if catalogue.reference().last == first:
             catalogue.set_reference(next(n for n in catalogue.names() if n != first))
         catalogue.remove(first)
     again = matched(feet[2:], shelf, Question(by="flare"))
@@ -344,7 +344,7 @@ def test_an_upgrade_makes_wrong_blocks_anew_and_says_so(
         catalogue.renew_blocks()  # of 8 lasts each
     harmed(path, "UPDATE search_block SET hash = 'x' WHERE part = 'plan' AND block = 0")
     shelf = choice(path, None, None)
-    assert shelf.lasts.bad == frozenset()  # type: ignore[attr-defined]
+    assert shelf.lasts.bad == frozenset()
     assert [notice.code for notice in upgrade(path).warnings] == ["blocks_renewed"]
     harmed(path, "UPDATE search_block SET hash = 'x' WHERE part = 'toes' AND block = 1")
     shown = footfit("upgrade-catalogue", "--catalogue", path)

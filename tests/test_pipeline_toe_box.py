@@ -68,7 +68,7 @@ def asked(foot: Profiled | list[Profiled], catalogue: Path, **question: object) 
     from footfit.pipeline.shelf.candidates import choice
 
     feet = foot if isinstance(foot, list) else [foot]
-    return matched(feet, choice(catalogue, None, None), Question(top=0, **question))  # type: ignore[arg-type]
+    return matched(feet, choice(catalogue, None, None), Question(top=0, **question))
 
 
 def zone(fit: FootFit, name: str) -> ZoneFit:

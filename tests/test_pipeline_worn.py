@@ -71,7 +71,7 @@ def test_an_insole_takes_girth_and_height_and_no_length() -> None:
     ],
 )
 def test_load_brings_a_measure_to_half_load(zone: str, load: str, share: float, sd: float) -> None:
-    shift = zone_shift(zone, 200.0, Worn(load=load, time="evening"))  # type: ignore[arg-type]
+    shift = zone_shift(zone, 200.0, Worn(load=load, time="evening"))
     assert shift.more == pytest.approx(200.0 * share)
     assert shift.sd == pytest.approx(200.0 * sd)
 
@@ -125,15 +125,15 @@ def test_a_thickness_that_nobody_wears_is_refused() -> None:
         check_worn(Worn(insole_mm=40.0))
 
 
-def match(footfit: Footfit, foot: Path, catalogue: Path, *options: object) -> dict:  # type: ignore[type-arg]
+def match(footfit: Footfit, foot: Path, catalogue: Path, *options: object) -> dict:
     """The answer of a match, as JSON."""
     run = footfit("match", foot, "--json", "--catalogue", catalogue, *options)
     assert run.code == 0, run.err
-    answer: dict = json.loads(run.out)  # type: ignore[type-arg]
+    answer: dict = json.loads(run.out)
     return answer
 
 
-def zones(answer: dict) -> dict:  # type: ignore[type-arg]
+def zones(answer: dict) -> dict:
     """The zones by last and name, of shown lasts and the nearest."""
     lasts = answer["candidates"] + answer["nearest"]
     return {

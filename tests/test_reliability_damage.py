@@ -202,12 +202,12 @@ def test_a_stored_file_is_read_checked_and_upgraded(tmp_path: Path, stored: Path
     with open_catalogue(path, older=True) as catalogue:
         assert [finding for finding in catalogue.findings() if finding.damage] == []
         names = catalogue.names()
-    old = dict(values(path))  # type: ignore[arg-type]
+    old = dict(values(path))
     with open_catalogue(path, write=True, schema=later_schema()) as catalogue:
         assert [finding for finding in catalogue.findings() if finding.damage] == []
         assert catalogue.names() == names
         assert [record.labels.name for record in catalogue.lasts().records] == list(names)
-    new = dict(values(path))  # type: ignore[arg-type]
+    new = dict(values(path))
     for table in old.keys() - {"alembic_version"}:
         width = len(old[table][0])
         assert [row[:width] for row in new[table]] == old[table], table

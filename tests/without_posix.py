@@ -51,8 +51,8 @@ def take_away() -> None:
     import tempfile
 
     assert random, subprocess and tempfile  # they look for what is taken away when they load
-    processes.Popen.kill = processes.Popen.terminate  # type: ignore[method-assign]
-    multiprocessing.resource_tracker._HAVE_SIGMASK = False  # type: ignore[attr-defined]
+    processes.Popen.kill = processes.Popen.terminate
+    multiprocessing.resource_tracker._HAVE_SIGMASK = False
     for name in MODULES:
         sys.modules.pop(name, None)
     sys.meta_path.insert(0, _Refusal())

@@ -112,7 +112,7 @@ def varied(rng: np.random.Generator, **given: Any) -> LastSpec:
         heel_height_mm=heel_mm,
         toe_spring_mm=rng.uniform(6.0, 16.0) * (1.0 - heel_mm / 120.0),
         flare_deg=rng.uniform(-8.0, 18.0),
-        toe_shape=str(rng.choice(sorted(TOES))),  # type: ignore[arg-type]
+        toe_shape=str(rng.choice(sorted(TOES))),
         toe_turn_deg=rng.uniform(0.0, 8.0),
         waist_cut_mm=rng.uniform(0.0, 8.0),
         joint_bulge_mm=rng.uniform(0.0, 3.0),
@@ -163,7 +163,7 @@ def wide(
         heel_height_mm=heel,
         toe_spring_mm=rng.uniform(2.0, 16.0) * (1.0 - 1.2 * steep) * length_mm / 270.0,
         flare_deg=rng.uniform(-6.0, 16.0),
-        toe_shape=toe,  # type: ignore[arg-type]
+        toe_shape=toe,
         toe_turn_deg=rng.uniform(10.0, 16.0) if toe == "oblique" else rng.uniform(0.0, 8.0),
         waist_cut_mm=rng.uniform(0.0, 8.0) * length_mm / 270.0,
         joint_bulge_mm=rng.uniform(0.0, 3.0) * length_mm / 270.0,

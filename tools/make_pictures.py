@@ -65,7 +65,7 @@ def method_pictures(scan: Scan) -> dict[str, bytes]:
         reference = lasts.reference()
     drawn = {"align-footfit.png": png_bytes(frames_figure(aligned(scan)))}
     for method in ("paper", "paper-literal"):
-        shape = aligned(scan, method=method, reference=reference)  # type: ignore[arg-type]
+        shape = aligned(scan, method=method, reference=reference)
         drawn[f"align-{method}.png"] = png_bytes(frames_figure(shape))
     return drawn
 

@@ -216,7 +216,7 @@ def last_files(style: Style, rng: np.random.Generator) -> list[tuple[dict[str, s
     files = []
     for size, side, units in style.lasts:
         spec = sized(style.model, size)
-        vertices_mm, faces = last_mesh(replace(spec, side=side))  # type: ignore[arg-type]
+        vertices_mm, faces = last_mesh(replace(spec, side=side))
         vertices = posed(vertices_mm, rng) * {"mm": 1.0, "m": 1e-3}[units]
         name = f"{style.name}-{size}"
         values = (

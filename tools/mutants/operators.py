@@ -322,7 +322,7 @@ class _Finder:
 
     def span(self, node: ast.AST) -> tuple[int, int]:
         """Where a node begins and ends in the source."""
-        known = (node.lineno, node.col_offset, node.end_lineno, node.end_col_offset)  # type: ignore[attr-defined]
+        known = (node.lineno, node.col_offset, node.end_lineno, node.end_col_offset)
         return self.at(*known[:2]), self.at(*known[2:])
 
     def at(self, line: int | None, column: int | None) -> int:

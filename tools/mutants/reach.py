@@ -100,7 +100,7 @@ def reach(root: Path, cache: Path, workers: int, tests: Sequence[str] = ()) -> R
     return found
 
 
-def _measured(root: Path, cache: Path, name: str, code: str) -> dict[str, dict]:  # type: ignore[type-arg]
+def _measured(root: Path, cache: Path, name: str, code: str) -> dict[str, dict]:
     """What the tests of one file reach, from the cache or measured now."""
     own = "" if name == DOCTESTS else _digest([root / name])
     key = hashlib.sha256(f"{code}{own}".encode()).hexdigest()[:16]
@@ -111,7 +111,7 @@ def _measured(root: Path, cache: Path, name: str, code: str) -> dict[str, dict]:
         for old in cache.glob(f"{slug}.*.json"):
             old.unlink()
         kept.write_text(json.dumps(_measure(root, name)), encoding="utf-8")
-    known: dict[str, dict] = json.loads(kept.read_text(encoding="utf-8"))  # type: ignore[type-arg]
+    known: dict[str, dict] = json.loads(kept.read_text(encoding="utf-8"))
     return known
 
 

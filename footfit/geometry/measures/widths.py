@@ -90,7 +90,7 @@ def _lower_width(section: Outline, length_mm: float) -> float:
     return float(np.ptp(points[low, 0]))
 
 
-def _feather_width(section: Outline, length_mm: float) -> float:  # noqa: ARG001
+def _feather_width(section: Outline, _length_mm: float) -> float:
     """Between the two points of a section that lines of 45 degrees touch from below."""
     return _touched(section, 1.0) + _touched(section, -1.0)
 
