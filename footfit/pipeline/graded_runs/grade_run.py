@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Iterator, Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 
 from footfit.errors import ImplausibleSize, OutOfReach
 from footfit.geometry.measures.landmarks import Shape
@@ -37,17 +37,22 @@ REFINEMENTS = 4
 REFINED_BY = 0.85
 """A refinement takes back this share of a miss: the file answers by a little more than the frame,
 and a reading may jump."""
+ENDS = (HEEL, SPRING)
 Place = tuple[float, float]
 """How many sizes and widths a last is from the base."""
 
 
 @dataclass(frozen=True)
 class Node:
-    """A last on the way: its right shape in the base's frame, and where it is from the base."""
+    """A last on the way: its right shape in the base's frame, and where it is from the base.
+
+    ``raised_mm`` is how far its seat and its tip were raised on the way, by measure.
+    """
 
     shape: Shape
     sizes: float
     widths: float
+    raised_mm: Mapping[str, float] = field(default_factory=lambda: dict.fromkeys(ENDS, 0.0))
 
 
 @dataclass(frozen=True)
@@ -140,7 +145,8 @@ class Grader:
             labels=self._stands(planned),
             more_mm=(shift.get(HEEL, 0.0), shift.get(SPRING, 0.0)),
         )
-        return Node(graded(node.shape, step), sizes, widths)
+        raised = {name: node.raised_mm[name] + shift.get(name, 0.0) for name in ENDS}
+        return Node(graded(node.shape, step), sizes, widths, raised)
 
     def _targets(self, sizes: float, widths: float) -> dict[str, Planned]:
         return targets(self.plan, self.base_mm, sizes, widths)
@@ -151,19 +157,33 @@ class Grader:
     def _last(self, node: Node, fitting: Fitting) -> tuple[Node, GradedLast]:
         """A last of the run, made from a neighbour; made again if its file reads otherwise."""
         shift: dict[str, float] = {}
-        best: tuple[Node, GradedLast] | None = None
+        best: tuple[float, Node, GradedLast] | None = None
         for _ in range(1 + REFINEMENTS):
             new = self._step(node, fitting.sizes, fitting.widths, shift)
             last = self._written(new, fitting)
-            if best is None or _miss_mm(last) < _miss_mm(best[1]):
-                best = new, last
-            if _miss_mm(last) <= REFINED_MM:
+            misses = self._misses(new, last)
+            worst = max(map(abs, misses.values()), default=0.0)
+            if best is None or worst < best[0]:
+                best = worst, new, last
+            if worst <= REFINED_MM:
                 break
-            for each in last.measures:
-                if each.difference is not None:
-                    shift[each.name] = shift.get(each.name, 0.0) - REFINED_BY * each.difference
+            for name, miss in misses.items():
+                shift[name] = shift.get(name, 0.0) - REFINED_BY * miss
         assert best is not None
-        return best
+        return best[1:]
+
+    def _misses(self, node: Node, last: GradedLast) -> dict[str, float]:
+        """What a step should take back of each measure, in mm.
+
+        A held bottom is to stay, and so are its heel and its spring as they read. If the reading
+        moves, because its line lies over another part of a longer seat, each of the two gets half.
+        """
+        misses = {m.name: m.difference for m in last.measures if m.difference is not None}
+        if "bottom" not in self.plan.held:
+            return misses
+        raised = node.raised_mm
+        both = {name: 0.5 * (misses[name] + raised[name]) for name in ENDS if name in misses}
+        return misses | both
 
     def _written(self, node: Node, fitting: Fitting) -> GradedLast:
         """A last with the content of its file, and the measures that are read from that."""
@@ -299,12 +319,6 @@ def reading_of(base: BaseLast, stands: StanceLabels) -> ReadingOptions:
         toe_spring_mm=stands.toe_spring_mm,
         platform_mm=stands.platform_mm or None,
     )
-
-
-def _miss_mm(last: GradedLast) -> float:
-    """How far the worst measure is from its plan."""
-    worst = last.worst
-    return 0.0 if worst is None else abs(worst.difference or 0.0)
 
 
 def _away(fitting: Fitting) -> tuple[float, float]:
