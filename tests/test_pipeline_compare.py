@@ -215,6 +215,17 @@ def test_labels_say_how_a_last_of_a_file_stands_and_a_stored_one_has_its_own(foo
     assert f"footfit edit-last {LAST} --heel-height MM" in stored.err
 
 
+def test_a_last_in_the_foots_place_has_its_own_heel_and_that_is_said(footfit, foot):
+    from tests.conftest import SAMPLES
+
+    path = SAMPLES / "lasts" / f"{LAST}.stl"
+    drop = ("--scanned-at-drop", "20", "--json")
+    for first, expected in ((path, True), (foot, False)):
+        found = footfit("compare", first, path, *drop).document
+        codes = {each["code"] for each in found["warnings"]}
+        assert ("scanned_at_drop_unused" in codes) is expected
+
+
 def test_an_unknown_last_and_a_wrong_suffix_are_refused(footfit, foot, stocked, tmp_path):
     unknown = footfit("compare", foot, "no-such-last", "--catalogue", stocked)
     assert unknown.code == 4
