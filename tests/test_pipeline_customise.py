@@ -301,6 +301,14 @@ def test_a_base_that_is_too_far_is_refused(footfit: Footfit, tmp_path) -> None:
     assert not output.exists()
 
 
+def test_a_last_in_place_of_a_foot_is_refused(footfit: Footfit, tmp_path) -> None:
+    last, output = SAMPLES / "lasts" / "derby-40.stl", tmp_path / "custom.stl"
+    run = footfit("customise", last, "--base", last, "-o", output, "--json")
+    assert run.code == 5
+    assert json.loads(run.last_error)["code"] == "other_kind"
+    assert not output.exists()
+
+
 def test_the_command_writes_stores_and_draws(footfit: Footfit, tmp_path) -> None:
     file = tmp_path / "derby.stl"
     file.write_bytes(encoded_mesh(*base(), "stl"))

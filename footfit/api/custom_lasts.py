@@ -75,6 +75,7 @@ def customise(
         A foot or the base cannot be read.
     """
     from footfit.pipeline.customers.pair_sides import pair_of_feet
+    from footfit.pipeline.fit.refused_feet import refuse_lasts
     from footfit.pipeline.last_making.custom import base_choice
     from footfit.pipeline.last_making.custom.custom_making import customised
 
@@ -83,6 +84,7 @@ def customise(
     if len(given) not in (1, 2) or (both and len(given) == 2):
         raise BadOption("give one foot, with both=True or without, or the two of one customer")
     shapes = pair_of_feet([profiled_shape(foot, _reading(asked)) for foot in given])
+    refuse_lasts(shapes)
     lasts: list[results.CustomLast] = []
     if isinstance(base, str) and base == AUTO:
         if path is None:

@@ -84,7 +84,9 @@ def matched(
     """
     question = question or Question()
     if question.by != "shape":
-        refuse_lasts(feet, forced=question.force_foot)
+        refuse_lasts(
+            feet, forced=question.force_foot, hint=", and --force-foot takes it for a foot"
+        )
     shelf = shelf_of(library) if isinstance(library, results.Library) else library
     if not shelf.ranked.any():
         nothing = "no last passes these filters; see footfit list-lasts"

@@ -11,8 +11,8 @@ SURE_LAST = 0.08
 """A shape that fits a last so much better than a foot is surely a last (docs/decisions/0224)."""
 
 
-def refuse_lasts(feet: Sequence[Profiled], *, forced: bool) -> None:
-    """Refuse a last in place of a foot.
+def refuse_lasts(feet: Sequence[Profiled], *, forced: bool = False, hint: str = "") -> None:
+    """Refuse a last in place of a foot; ``hint`` ends the message.
 
     Raises
     ------
@@ -31,10 +31,10 @@ def refuse_lasts(feet: Sequence[Profiled], *, forced: bool) -> None:
             raise BadOption(words, info.path)
         if pose.kind == "last" and foot.aligned.prepared.kind_margin > SURE_LAST and not forced:
             words = (
-                "is surely a last, not a foot: give a scan of a foot. --by shape finds lasts like"
-                " this one; --force-foot takes it for a foot"
+                "is surely a last, not a foot: give a scan of a foot; footfit match --by shape"
+                " finds lasts like this one"
             )
-            raise OtherKind(words, info.path)
+            raise OtherKind(f"{words}{hint}", info.path)
 
 
 def refuse_unknown_length(feet: Sequence[Profiled]) -> None:
