@@ -31,10 +31,11 @@ from footfit.pipeline.graded_runs.grade_plan import (
     standing,
     targets,
 )
-from footfit.pipeline.graded_runs.grade_run import heel_by_shape_mm, read_otherwise
+from footfit.pipeline.graded_runs.grade_run import read_otherwise
 from footfit.pipeline.graded_runs.grade_shape import GradeStep, graded
 from footfit.pipeline.graded_runs.grading_rules import grading_rule
 from footfit.pipeline.graded_runs.run_increments import CHECKED
+from footfit.pipeline.scan.standing import heights_by_shape
 from footfit.report.terminal.last_making_tables import graded_run_table
 from footfit.report.terminal.scan_tables import terminal_text
 from footfit.results import GradedRun, LastLabels
@@ -230,7 +231,7 @@ def test_a_last_that_stands_by_its_label_alone_is_said() -> None:
     labels = StanceLabels(shape.labels.heel_height_mm + 4.0)
     raised = Shape(shape.vertices_mm, shape.faces, "last", labels)
     heel_mm = measured(raised)[HEEL]
-    by_shape_mm = heel_by_shape_mm(raised, heel_mm)
+    by_shape_mm = heights_by_shape(raised.stance)["heel_height"]
     unlabelled_mm = measured(Shape(shape.vertices_mm, shape.faces, "last"))[HEEL]
     assert by_shape_mm == pytest.approx(unlabelled_mm, abs=0.2)  # measured: 0.13
     row = GradedMeasure(HEEL, "mm", base_mm[HEEL], heel_mm, heel_mm, "held")

@@ -6,6 +6,7 @@ import json
 from dataclasses import replace
 from pathlib import Path
 
+import numpy as np
 import pytest
 
 import footfit
@@ -16,7 +17,7 @@ from footfit.meshes.write import encoded_mesh
 from footfit.number_words import signed
 from footfit.pipeline.graded_runs import grading_rules
 from footfit.pipeline.graded_runs.grading_rules import grading_rule, rule_of, shipped_rules
-from footfit.pipeline.graded_runs.run_increments import CHECKED, run_check
+from footfit.pipeline.graded_runs.run_increments import CHECKED, HEIGHTS_BY_SHAPE, run_check
 from footfit.pipeline.graded_runs.run_sizes import size_in_name, width_numbers
 from footfit.pipeline.last_making.tolerances import TOLERANCE_MM, tolerances
 from footfit.report.terminal.last_making_tables import check_run_table
@@ -240,6 +241,59 @@ def test_a_manifest_beside_the_files_says_their_sizes_and_how_they_stand(
     (tmp_path / "run.csv").write_text("date,runner\n")
     wrong = footfit("check-run", tmp_path)
     assert (wrong.code, "run.csv" in wrong.err) == (3, True), wrong.err
+
+
+def test_a_label_does_not_hide_a_wrong_heel(footfit: Footfit, tmp_path: Path) -> None:
+    """The heel is raised under a last whose label says the old height, which holds the measure."""
+    vertices, faces = last_mesh(LastSpec(flare_deg=6.0, rings=60, segments=48))
+    lines = ["path,size,family,size_system,heel_height_mm,toe_spring_mm"]
+    for size, scale in enumerate((0.976, 1.0, 1.024, 1.048), start=40):
+        points = vertices * scale
+        if size == 42:
+            x = (points[:, 0] - points[:, 0].min()) / np.ptp(points[:, 0])
+            points[:, 2] += 4.0 * np.clip((0.62 - x) / 0.62, 0.0, 1.0)
+        (tmp_path / f"derby-{size}.stl").write_bytes(encoded_mesh(points, faces, "stl"))
+        lines.append(f"derby-{size}.stl,{size},derby,eu,25,10")
+    manifest, catalogue = tmp_path / "run.csv", tmp_path / "lasts.footfit"
+    manifest.write_text("\n".join(lines))
+    checked = footfit("check-run", tmp_path, "--json")
+    assert checked.code == 7
+    assert "heel height by shape 4" in checked.err
+    (wrong,) = checked.document["off_lasts"]
+    assert (wrong["last"], wrong["measure"]) == ("derby-42.stl", "heel_height_by_shape")
+    assert wrong["off_mm"] == pytest.approx(4.0, abs=0.8)  # measured: 4.4
+    assert {last["stands_by"] for last in checked.document["lasts"]} == {"label"}
+    footfit("ingest-last", "--manifest", manifest, "--catalogue", catalogue)
+    stored = footfit("check-run", "derby", "--catalogue", catalogue, "--json")
+    assert (stored.code, stored.document["off_lasts"][0]["last"]) == (7, "derby-42")
+    compared = footfit("compare-lasts", "derby-41", "derby-42", "--catalogue", catalogue)
+    assert "by their shapes alone the heel height" in compared.err
+
+
+def by_shape(*heels_mm: float) -> list[RunLast]:
+    """Lasts that stand by their labels, whose shapes alone have these heels."""
+    heights = [{"heel_height": 22.4, HEIGHTS_BY_SHAPE[0]: mm} for mm in heels_mm]
+    return [
+        replace(each, stands_by="label", measures_mm=each.measures_mm | more)
+        for each, more in zip(run(*np.arange(len(heights)) * 5.0 + 230), heights, strict=True)
+    ]
+
+
+def test_shapes_may_wander_but_not_jump_beside_their_labels() -> None:
+    held_bottom_mm = (24.1, 23.3, 22.4, 21.2, 19.6, 17.5, 14.9)  # a run of grade-last
+    assert run_check(by_shape(*held_bottom_mm), TOLERANCE_MM).broken == ()
+    (wrong,) = run_check(by_shape(22.4, 22.3, 26.6, 22.1), TOLERANCE_MM).off_lasts
+    assert (wrong.measure, wrong.off_mm) == (HEIGHTS_BY_SHAPE[0], pytest.approx(4.4))
+
+
+def test_a_last_without_a_label_stands_by_its_shape_beside_those_with_one() -> None:
+    lasts = by_shape(22.4, 22.3, 22.2, 22.1)
+    heel = {**lasts[2].measures_mm, "heel_height": 26.6}
+    heel.pop(HEIGHTS_BY_SHAPE[0])
+    lasts[2] = replace(lasts[2], stands_by="shape", measures_mm=heel)
+    checked = run_check(lasts, TOLERANCE_MM)
+    assert {off.measure for off in checked.off_lasts} == {"heel_height", HEIGHTS_BY_SHAPE[0]}
+    assert checked.warnings == ()
 
 
 def test_the_table_shows_every_increment_and_marks_what_breaks() -> None:

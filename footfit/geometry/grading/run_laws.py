@@ -58,6 +58,21 @@ class Steps:
             return np.asarray(per_step * step)
         return np.asarray(self.value_mm[:-1] * np.expm1(per_step * step))
 
+    def near_mm(self, count: int) -> Floats:
+        """What the increments would be by the median of so many steps about each, (n - 1,).
+
+        Examples
+        --------
+        >>> steps = Steps(np.arange(7.0), np.array([0.0, 1.0, 2.0, 7.0, 4.0, 6.0, 9.0]))
+        >>> steps.near_mm(5).tolist()
+        [1.0, 1.0, 1.0, 2.0, 2.0, 2.0]
+        """
+        step = np.diff(self.place)
+        rates = self.increment_mm / step
+        starts = np.clip(np.arange(len(rates)) - count // 2, 0, max(len(rates) - count, 0))
+        medians = [np.median(rates[start : start + count]) for start in starts]
+        return np.asarray(medians * step)
+
 
 def median_rate(runs: Iterable[Steps]) -> float:
     """The median increment between neighbours, over the whole sizes between them.

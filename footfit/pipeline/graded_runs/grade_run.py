@@ -28,6 +28,7 @@ from footfit.pipeline.last_making.base_last import BaseLast
 from footfit.pipeline.last_making.tolerances import TOLERANCE_MM
 from footfit.pipeline.scan.preparation import right_copy
 from footfit.pipeline.scan.reading import prepared_source
+from footfit.pipeline.scan.standing import heights_by_shape
 from footfit.results import LastLabels, Notice
 from footfit.results.last_making.graded_run import GradedLast, GradedMeasure, GradedRun
 
@@ -224,7 +225,7 @@ class Grader:
             measures=measures,
             labels=labels,
             data=data,
-            heel_by_shape_mm=heel_by_shape_mm(shape, reached.get(HEEL)),
+            heel_by_shape_mm=heights_by_shape(shape.stance).get(HEEL),
         )
 
 
@@ -277,15 +278,6 @@ def file_shape(data: bytes, base: BaseLast, stands: StanceLabels) -> Shape:
     """The last that is read from the content of its file."""
     reading = reading_of(base, stands)
     return replace(prepared_source(Source(None, data, "stl"), reading).shape, kind="last")
-
-
-def heel_by_shape_mm(shape: Shape, heel_mm: float | None) -> float | None:
-    """What the heel of a last reads without labels; ``heel_mm`` is what it reads with them."""
-    stance = shape.stance
-    grounds = [cue.ground for cue in stance.cues if cue.name == "shape"] if stance else []
-    if stance is None or heel_mm is None or not grounds:
-        return None
-    return heel_mm + stance.touching_x_mm * (grounds[0] - stance.ground)
 
 
 def read_otherwise(lasts: Iterable[GradedLast]) -> tuple[Notice, ...]:

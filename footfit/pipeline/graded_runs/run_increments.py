@@ -23,6 +23,13 @@ CHECKED = (
     *("toe_height", "heel_height", "toe_spring_tip"),
 )
 """The measures of a run that are checked, in this order."""
+BY_SHAPE = "_by_shape"
+"""The end of the name of a height as the shape alone stands. A label holds the height itself, so a
+last whose shape is wrong would pass."""
+HEIGHTS_BY_SHAPE = (f"heel_height{BY_SHAPE}", f"toe_spring_tip{BY_SHAPE}")
+NEAR_STEPS = 5
+"""A height by shape is compared with so many steps about its own: with a held bottom the tread
+wanders, and the shape reads lower and lower (docs/decisions/0316)."""
 LEAST_LASTS = 3
 """Two lasts have one increment, which nothing can be compared with."""
 
@@ -79,6 +86,7 @@ def run_check(
         words = f"a run needs {LEAST_LASTS} sizes or more, and there {count}"
         raise BadOption(f"{words}: name more, or compare two with --rule")
     _refuse_twins(lasts)
+    lasts = _with_heights_by_shape(lasts)
     step = _least_step(lasts) if rule is None else rule.size_step
     lines = [*_size_lines(lasts, step)]
     width_lines, warnings = _width_lines(lasts, rule)
@@ -88,7 +96,7 @@ def run_check(
     known = [
         (part, name)
         for line in lines
-        for name in CHECKED
+        for name in (*CHECKED, *HEIGHTS_BY_SHAPE)
         if len((part := line.having(name)).lasts) > 1
     ]
     law = rule.law if rule else likely_law(_scaled_sizes(known))
@@ -105,6 +113,19 @@ def run_check(
         steps=tuple(_steps(known, by_kind, tolerance_mm)),
         warnings=(*warnings, *_lacking(lasts), *_alone(lasts, lines)),
     )
+
+
+def _with_heights_by_shape(lasts: Sequence[RunLast]) -> list[RunLast]:
+    """The lasts of a run in which some stand by their labels: the others stand by their shapes."""
+    if not any(name in last.measures_mm for last in lasts for name in HEIGHTS_BY_SHAPE):
+        return list(lasts)
+    result = []
+    for last in lasts:
+        own = {} if last.stands_by == "label" else last.measures_mm
+        heights = {f"{name}{BY_SHAPE}": mm for name, mm in own.items()}
+        known = {name: heights[name] for name in HEIGHTS_BY_SHAPE if name in heights}
+        result.append(replace(last, measures_mm={**last.measures_mm, **known}))
+    return result
 
 
 def _least_step(lasts: Sequence[RunLast]) -> float:
@@ -183,7 +204,7 @@ def _laws(
 ) -> Iterator[RunLaw]:
     """What each measure grows by in a size and in a width. A height may be held, so it is in mm."""
     for kind in ("size", "width"):
-        for measure in CHECKED:
+        for measure in (*CHECKED, *HEIGHTS_BY_SHAPE):
             runs = [
                 line.steps(name) for line, name in known if (line.kind, name) == (kind, measure)
             ]
@@ -220,6 +241,8 @@ def _steps(
         law, steps = laws[measure, line.kind], line.steps(measure)
         by = law.per_step if law.law == "arithmetic" else float(np.log1p(law.per_step / 100.0))
         expected = steps.expected_mm(law.law, by)
+        if measure.endswith(BY_SHAPE) and line.kind == "size":
+            expected = steps.near_mm(NEAR_STEPS)
         for at, (first, second) in enumerate(pairwise(line.lasts)):
             yield RunStep(
                 measure=measure,
@@ -237,7 +260,8 @@ def _steps(
 
 def _lacking(lasts: Sequence[RunLast]) -> tuple[Notice, ...]:
     """A warning for each measure that some lasts lack, and some have."""
-    counts = {name: sum(name in last.measures_mm for last in lasts) for name in CHECKED}
+    names = (*CHECKED, *HEIGHTS_BY_SHAPE)
+    counts = {name: sum(name in last.measures_mm for last in lasts) for name in names}
     return tuple(
         Notice(
             "measure_missing",

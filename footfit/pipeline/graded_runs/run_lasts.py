@@ -3,21 +3,26 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
+from contextlib import suppress
 from dataclasses import replace
 from functools import partial
 from pathlib import Path
 
 from footfit.catalogue.rows.last_names import meant_name, nearest_name
-from footfit.catalogue.store import open_catalogue
+from footfit.catalogue.store import Catalogue, open_catalogue
 from footfit.errors import BadOption, UnknownLast, UnreadableFile
+from footfit.geometry.measures.landmarks import Shape
+from footfit.geometry.stance.stance import Stance
 from footfit.locations import Location
 from footfit.pipeline.batch.runs import HERE, outcomes
 from footfit.pipeline.batch.sources import ReadingOptions, Source
-from footfit.pipeline.graded_runs.run_increments import CHECKED
+from footfit.pipeline.graded_runs.run_increments import BY_SHAPE, CHECKED
 from footfit.pipeline.graded_runs.run_sizes import SizeLabel, size_in_name, size_number
 from footfit.pipeline.library.manifest import LABEL_HEIGHTS, ManifestRow, read_manifest
 from footfit.pipeline.scan.measure import measured_scan
+from footfit.pipeline.scan.preparation import stored_shape
 from footfit.pipeline.scan.reading import AS_FOUND, aligned_source
+from footfit.pipeline.scan.standing import heights_by_shape, stance_labels
 from footfit.results import LastRecord, Measure, MeasuredScan
 from footfit.results.last_making.run_check import RunLast
 
@@ -36,15 +41,30 @@ def family_lasts(catalogue: Location, family: str) -> tuple[RunLast, ...]:
         There is no catalogue, or it cannot be read.
     """
     with open_catalogue(catalogue) as opened:
-        return tuple(map(stored_last, opened.lasts(family=family).records))
+        records = opened.lasts(family=family).records
+        return tuple(stored_last(record, _stored_stance(opened, record)) for record in records)
 
 
-def stored_last(record: LastRecord) -> RunLast:
-    """A last of the catalogue as a run has it; raises BadOption if its size is not known."""
+def stored_last(record: LastRecord, stance: Stance | None = None) -> RunLast:
+    """A last of the catalogue as a run has it; raises BadOption if its size is not known.
+
+    The ``stance`` of a last that stands by its label says how its shape alone stands.
+    """
     labels = record.labels
     number = size_number(labels.size, labels.size_system, labels.name)
     label = SizeLabel(str(labels.size), labels.width_label, "catalogue")
-    return _last(labels.name, label, number, record.side.side, record.measures)
+    last = _last(labels.name, label, number, record.side.side, record.measures)
+    return _stands(last, record.stance_by, stance)
+
+
+def _stored_stance(opened: Catalogue, record: LastRecord) -> Stance | None:
+    """How the mesh copy of a last stands that stands by its label; None if there is no copy."""
+    if record.stance_by != "label":
+        return None
+    with suppress(UnknownLast):
+        shape = stored_shape(opened.mesh_copy(record.labels.name).data, record.side.side)
+        return Shape(*shape, "last", stance_labels(record.labels)).stance
+    return None
 
 
 def named_lasts(catalogue: Location, names: Sequence[str]) -> tuple[RunLast, ...]:
@@ -67,7 +87,8 @@ def named_lasts(catalogue: Location, names: Sequence[str]) -> tuple[RunLast, ...
                 nearest = "" if near is None else f" (the nearest last is {near!r})"
                 words = f"no last and no family is named {name!r}{nearest}"
                 raise UnknownLast(f"{words}; see footfit list-lasts")
-        return tuple(stored_last(opened.record(name)) for name in names)
+        records = [opened.record(name) for name in names]
+        return tuple(stored_last(record, _stored_stance(opened, record)) for record in records)
 
 
 def file_lasts(
@@ -95,11 +116,12 @@ def file_lasts(
         if outcome.error is not None:
             raise outcome.error
         assert outcome.value is not None
+        scan, stance = outcome.value
         label, system = labels[outcome.item.path]
         name = Path(outcome.item.path or "-").name
-        side = outcome.value.alignment.side.side
         number = size_number(label.size, system, name)
-        lasts.append(_last(name, label, number, side, outcome.value.measures))
+        last = _last(name, label, number, scan.alignment.side.side, scan.measures)
+        lasts.append(_stands(last, None if stance is None else stance.decided_by, stance))
     return tuple(lasts)
 
 
@@ -110,8 +132,12 @@ def _beside(sources: Iterable[Source]) -> list[ManifestRow]:
     return [row for path in beside if path.is_file() for row in read_manifest(path)]
 
 
-def _measured(source: Source, readings: Mapping[str | None, ReadingOptions]) -> MeasuredScan:
-    return measured_scan(aligned_source(source, readings[source.path]))
+def _measured(
+    source: Source, readings: Mapping[str | None, ReadingOptions]
+) -> tuple[MeasuredScan, Stance | None]:
+    """A last, and how it stands."""
+    aligned = aligned_source(source, readings[source.path])
+    return measured_scan(aligned), aligned.prepared.shape.stance
 
 
 def _reading(source: Source, rows: Mapping[str, ManifestRow]) -> ReadingOptions:
@@ -146,3 +172,10 @@ def _last(
     values = {row.name: row.measured.value for row in measures}
     known = {name: value for name in CHECKED if (value := values.get(name)) is not None}
     return RunLast(name, label.size, number, label.width, side, label.size_from, known)
+
+
+def _stands(last: RunLast, stands_by: str | None, stance: Stance | None) -> RunLast:
+    """The last with what it stands by, and of one that stands by its label its heights by shape."""
+    by_shape = heights_by_shape(stance) if stands_by == "label" else {}
+    heights = {f"{name}{BY_SHAPE}": height_mm for name, height_mm in by_shape.items()}
+    return replace(last, stands_by=stands_by, measures_mm={**last.measures_mm, **heights})

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import replace
 
 import numpy as np
@@ -28,7 +28,7 @@ from footfit.pipeline.last_making.tolerances import TOLERANCE_MM, kind_of
 from footfit.pipeline.scan.align import aligned_scan
 from footfit.pipeline.scan.flare import profiled_scan
 from footfit.pipeline.scan.measure import check_side, last_record
-from footfit.pipeline.scan.standing import last_stance
+from footfit.pipeline.scan.standing import heights_by_shape, last_stance
 from footfit.results import (
     Comparison,
     LastLabels,
@@ -214,6 +214,7 @@ def _warnings(
         if not last.is_last:
             words = "its shape is nearer to a foot's than to a last's: it is measured as a foot"
             notices += notices_about(alignment.info.path, (Notice("looks_like_a_foot", words),))
+    notices += _shapes_otherwise(first, second, measures)
     heel = next((row for row in measures if row.name == "heel_height"), None)
     more = None if heel is None else heel.difference.value
     if more is not None and abs(more) > OTHER_HEEL_MM:
@@ -225,6 +226,24 @@ def _warnings(
         notices.append(Notice("other_heel", words))
     unique = {(notice.path, notice.code, notice.message): notice for notice in notices}
     return tuple(unique.values())
+
+
+def _shapes_otherwise(
+    first: Profiled, second: Profiled, measures: tuple[ValueDifference, ...]
+) -> Iterator[Notice]:
+    """A warning for each height whose difference the labels hold otherwise than the shapes."""
+    if not (_has_labels(first) and _has_labels(second)):
+        return
+    here, there = (heights_by_shape(last.aligned.prepared.shape.stance) for last in (first, second))
+    for row in (row for row in measures if row.name in here.keys() & there.keys()):
+        by_shape, by_label = there[row.name] - here[row.name], row.difference.value
+        if by_label is not None and abs(by_shape - by_label) > TOLERANCE_MM["height"]:
+            words = (
+                f"by their shapes alone the {row.name.replace('_', ' ')} differs by"
+                f" {signed(by_shape)} mm, and by their labels by {signed(by_label)} mm: a label or"
+                " a shape is wrong. Compare them without labels"
+            )
+            yield Notice("shapes_differ_otherwise", words)
 
 
 def outside_words(difference: LastDifference) -> str:

@@ -79,6 +79,22 @@ def last_stance(shape: Shape, info: MeshInfo | None = None) -> LastStance | None
     )
 
 
+def heights_by_shape(stance: Stance | None) -> dict[str, float]:
+    """The heel height and the toe spring at the tip (mm) of a last as its shape alone stands,
+    whatever its labels say; without those that are not known.
+    """
+    own = next((cue for cue in stance.cues if cue.name == "shape"), None) if stance else None
+    if stance is None or own is None:
+        return {}
+    turn, touching_mm = own.ground - stance.ground, stance.touching_x_mm
+    heel_mm, tip_mm = stance.heel_mm(), stance.tip_mm()
+    arms = (
+        ("heel_height", heel_mm, touching_mm),
+        ("toe_spring_tip", tip_mm, touching_mm - stance.length_mm),
+    )
+    return {name: mm + turn * arm_mm for name, mm, arm_mm in arms if mm is not None}
+
+
 def stance_notices(shape: Shape) -> tuple[Notice, ...]:
     """A label that is of no use, or that the shape or the other label contradicts."""
     labels, stance = shape.labels, shape.stance

@@ -19,7 +19,9 @@ class RunLast(Part):
     """One last of a run: its name, its labels, and its measures in mm by name.
 
     ``size_number`` is the size on the adults' scale. ``size_from`` says where the size comes from:
-    "catalogue", "manifest" or "file name".
+    "catalogue", "manifest" or "file name". ``stands_by`` is "label" or "shape", None if it is not
+    known how the last stands. Of one that stands by its label, ``measures_mm`` also has the heights
+    as its shape alone stands.
     """
 
     last: str
@@ -29,6 +31,7 @@ class RunLast(Part):
     side: str | None
     size_from: str
     measures_mm: Mapping[str, float]
+    stands_by: str | None = None
 
     def _keys(self) -> Json:
         measures = {name: json_number(value) for name, value in self.measures_mm.items()}
