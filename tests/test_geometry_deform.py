@@ -12,7 +12,8 @@ from benchmarks import stance
 from footfit.geometry.deform.chart import chart_of
 from footfit.geometry.deform.field import Bump, Field, least_determinant
 from footfit.geometry.deform.probes import girth_probe, span_probe
-from footfit.geometry.deform.solver import Goal, Knob, solution
+from footfit.geometry.deform.solver import Knob, solution
+from footfit.geometry.deform.wishes import Goal
 from footfit.geometry.measures.girths import ball_girth, instep_girth
 from footfit.geometry.measures.landmarks import AXES, Shape
 from footfit.geometry.measures.widths import ball_width

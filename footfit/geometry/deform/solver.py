@@ -15,46 +15,9 @@ import numpy as np
 from footfit.geometry.deform.chart import Places
 from footfit.geometry.deform.field import Field
 from footfit.geometry.deform.probes import Probe
-from footfit.geometry.numeric.arrays import Bools, Floats
+from footfit.geometry.deform.wishes import SOLVER, Goal, SolverSettings, Wishes
+from footfit.geometry.numeric.arrays import Floats
 
-
-@dataclass(frozen=True, slots=True)
-class SolverSettings:
-    """What the curves cost, and when it is enough.
-
-    Attributes
-    ----------
-    bend, size : float
-        What costs as much as a goal's ``miss_mm``, of a logarithm of a scale: the second difference
-        from knot to knot, and the value.
-    heights : float
-        What a scale of heights costs, over a scale of widths: it bends less of the surface.
-    settled_mm, near_mm : float
-        The search ends when no firm measure is farther from its target, and does not begin if none
-        is farther than ``near_mm``: a last that fits is left as it is.
-    rounds, shaping : int, int
-        After the first ``shaping`` rounds nothing is pulled any more, and a round is the smoothest
-        step that brings the firm measures to their targets.
-    step, most : float
-        Of the differences that a knob's effect is taken by, and the most that a knob is turned in
-        a round, in the knob's unit.
-    shorter : float
-        A step that does not help is tried again at this share of its length.
-    """
-
-    bend: float = 0.01
-    size: float = 0.05
-    heights: float = 0.5
-    settled_mm: float = 0.05
-    near_mm: float = 0.1
-    rounds: int = 12
-    shaping: int = 5
-    step: float = 3e-3
-    most: float = 0.25
-    shorter: float = 0.5
-
-
-SOLVER = SolverSettings()
 SCALES = ("wider", "higher")
 """The curves whose bends cost; the others have as few knobs as they need."""
 
@@ -73,31 +36,19 @@ class Knob:
     value: float = 0.0
 
 
-@dataclass(frozen=True, slots=True)
-class Goal:
-    """A measure's target in mm, and the probe that answers for it where the search begins.
-
-    A miss of ``miss_mm`` costs as much as a bend or a size of ``SolverSettings``. A goal that is
-    not ``firm`` is only pulled towards its target: the search does not wait for it.
-    """
-
-    target_mm: float
-    probe: Probe
-    miss_mm: float = 0.01
-    firm: bool = True
-
-
 @dataclass(frozen=True)
 class Solution:
     """A field, where it brings the vertices (n, 3), and the measures there, (goals,).
 
-    ``knobs`` are turned to where the search ended.
+    ``knobs`` are turned to where the search ended. ``targets_mm`` (goals,) are the targets; those
+    that gave way are where the search moved them.
     """
 
     field: Field
     knobs: tuple[Knob, ...]
     vertices_mm: Floats
     values_mm: Floats
+    targets_mm: Floats
     rounds: int
 
 
@@ -134,49 +85,49 @@ def solution(
     costs : (k, knobs), optional
         Sums of knobs that should stay small, beside their sizes and bends.
     """
-    targets = np.array([goal.target_mm for goal in goals])
-    miss = np.array([goal.miss_mm for goal in goals])
-    firm = np.array([goal.firm for goal in goals], dtype=bool)
+    wishes = Wishes.of(goals, settings)
     units = np.array([knob.unit for knob in knobs])
-    cheaper = np.array([settings.heights if k.curve == "higher" else 1.0 for k in knobs])
-    bends = [_bends(start, knobs, name) / settings.bend for name in SCALES]
-    own_costs = np.vstack([np.diag(1.0 / (settings.size * units)), *bends]) * cheaper
-    all_costs = own_costs if costs is None else np.vstack([own_costs, costs])
+    all_costs = _own_costs(start, knobs, units, settings)
+    if costs is not None:
+        all_costs = np.vstack([all_costs, costs])
     values = np.array([knob.value for knob in knobs])
 
-    def at(values: Floats, rounds: int) -> Solution:
+    def at(values: Floats) -> Solution:
         field = turned_field(start, knobs, values)
         turned = tuple(replace(k, value=v) for k, v in zip(knobs, values.tolist(), strict=True))
         moved = field.moved_points(vertices_mm)
-        return Solution(field, turned, moved, read(moved), rounds)
+        return Solution(field, turned, moved, read(moved), wishes.targets, 0)
 
-    best = at(values, 0)
-    if _worst(best, targets, firm) <= settings.near_mm:
+    best = at(values)
+    if wishes.missed_mm(best.values_mm) + wishes.beyond_mm(best.values_mm) <= settings.near_mm:
         return best
     effect = _effects(best.field, knobs, [goal.probe for goal in goals], vertices_mm, settings)
     rounds, most = 0, settings.most
-    while _worst(best, targets, firm) > settings.settled_mm and rounds < settings.rounds:
+    while rounds < settings.rounds and not wishes.met(best.values_mm):
         rounds += 1
-        misses, from_still = np.nan_to_num((targets - best.values_mm) / miss), values
-        if rounds > settings.shaping:  # the shape is found: only what the firm goals still miss
-            misses, from_still = np.where(firm, misses, 0.0), np.zeros(len(knobs))
-        step = _step(from_still, effect / miss[:, None], misses, all_costs)
+        if rounds == settings.shaping + 1:  # the shape is found: only what firm goals still miss
+            wishes = wishes.settled(best.values_mm)
+        from_still = values if wishes.shaping else np.zeros(len(knobs))
+        step, wishes = wishes.step(from_still, best.values_mm, effect, all_costs)
         step *= min(1.0, most / float(np.abs(step / units).max()))
-        trial = at(values + step, rounds)
+        trial = at(values + step)
         more = np.nan_to_num(trial.values_mm - best.values_mm - effect @ step)
-        if _worst(trial, targets, firm) < _worst(best, targets, firm):
+        if wishes.worse(best.values_mm, trial.values_mm):
             best, values, most = trial, values + step, settings.most
         else:
             most = settings.shorter * float(np.abs(step / units).max())
-        if np.isfinite(trial.values_mm[firm]).all():
+        if np.isfinite(trial.values_mm[wishes.firm]).all():
             effect += np.outer(more, step) / (step @ step)
-    return replace(best, rounds=rounds)
+    return replace(best, targets_mm=wishes.targets, rounds=rounds)
 
 
-def _worst(solved: Solution, targets_mm: Floats, firm: Bools) -> float:
-    """How far the worst of the firm measures is from its target; infinite if one is gone."""
-    off_mm = np.abs(targets_mm - solved.values_mm)[firm]
-    return float(np.where(np.isfinite(off_mm), off_mm, np.inf).max(initial=0.0))
+def _own_costs(
+    start: Field, knobs: Sequence[Knob], units: Floats, settings: SolverSettings
+) -> Floats:
+    """What the sizes of knobs and the bends of curves cost, (k, knobs)."""
+    cheaper = np.array([settings.heights if k.curve == "higher" else 1.0 for k in knobs])
+    bends = [_bends(start, knobs, name) / settings.bend for name in SCALES]
+    return np.asarray(np.vstack([np.diag(1.0 / (settings.size * units)), *bends]) * cheaper)
 
 
 def _effects(
@@ -201,16 +152,6 @@ def _effects(
             after = value(turned_field(start, [knob], np.array([step])))
             result[row, column] = (after - before) / step
     return result
-
-
-def _step(values: Floats, effects: Floats, misses: Floats, costs: Floats) -> Floats:
-    """By how much the knobs are turned next, (knobs,): the least squares of misses and costs.
-
-    ``effects`` (goals, knobs) and ``misses`` (goals,) are over what each miss may cost.
-    """
-    rows = np.vstack([effects, costs])
-    wanted = np.concatenate([misses, -costs @ values])
-    return np.asarray(np.linalg.lstsq(rows, wanted, rcond=None)[0])
 
 
 def _bends(start: Field, knobs: Sequence[Knob], curve: str) -> Floats:

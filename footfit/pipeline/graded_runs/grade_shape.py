@@ -11,7 +11,8 @@ from footfit.errors import OutOfReach
 from footfit.geometry.deform.chart import CHART, Chart, chart_of
 from footfit.geometry.deform.field import Field, least_determinant
 from footfit.geometry.deform.probes import DIRECTIONS, Probe, span_probe
-from footfit.geometry.deform.solver import SOLVER, Goal, Knob, solution
+from footfit.geometry.deform.solver import Knob, solution
+from footfit.geometry.deform.wishes import SOLVER, Goal
 from footfit.geometry.grading.length_flow import (
     LENGTHENING,
     ahead_mm,

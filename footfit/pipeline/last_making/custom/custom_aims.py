@@ -31,9 +31,14 @@ PULLED = ("ball_girth", "instep_girth", HEEL_GIRTH)
 FOLLOWING = ("heel_girth_instep",)
 """The girth without a target: the bottom, the back and the top, which are kept, nearly set it; and
 a foot that was scanned flat has another one in a heel."""
-INNER_GOOD, MOST_BALL_MM, MOST_HEEL_MM = 0.7, 6.0, 3.0
+INNER_GOOD, MOST_BALL_MM, MOST_HEEL_MM = 0.7, 10.0, 3.0
 """A zone that is only pulled comes so far into its good range, as a share of that; the ball moves
 at most so far, and the short heel girth, which the kept parts nearly set."""
+RANGE = 0.9
+"""What should be in its zone's good range stays within so much of it."""
+GIVES_WAY = {"ball_girth_least": "ball_girth", "instep_girth_least": "instep_girth"}
+"""The least tapes whose targets move if the upright girth of their zone would not be good."""
+ANYWHERE = (-np.inf, np.inf)
 LENGTH, BALL_LENGTH = "length", "ball_length"
 
 
@@ -55,9 +60,9 @@ class CustomAim:
     """A measure of the base and its target, in mm.
 
     ``zone`` is the zone whose allowance counts. An aim that is not ``firm`` is only pulled towards
-    its target. One that is ``pressed`` was only pulled before, and its zone was not good. A least
-    tape's target may be ``moved_mm`` from the profile's, because its zone was not good. ``foot`` is
-    None where no measure of the foot is compared alone.
+    its target. ``good_mm`` is where the measure should stay, so that its zone is good. A least
+    tape's target may be ``moved_mm`` from the profile's, because its zone would not be good.
+    ``foot`` is None where no measure of the foot is compared alone.
     """
 
     measure: str
@@ -67,13 +72,21 @@ class CustomAim:
     foot: float | None = None
     allowance: float | None = None
     firm: bool = True
-    pressed: bool = False
+    good_mm: tuple[float, float] = ANYWHERE
     moved_mm: float = 0.0
 
     @property
     def words(self) -> str:
         """The measure in words."""
         return self.measure.replace("_", " ")
+
+    def moved_to(self, target: float) -> CustomAim:
+        """The same aim with another target of the least tape."""
+        if self.allowance is None or self.measure not in GIVES_WAY:
+            return self
+        more = target - self.target
+        allowance, moved_mm = self.allowance + more, self.moved_mm + more
+        return replace(self, target=target, allowance=allowance, moved_mm=moved_mm)
 
 
 def fit_in(foot: Profiled, last: LastRecord, base: BaseLast, question: CustomQuestion) -> FootFit:
@@ -108,16 +121,34 @@ def custom_aims(foot: Profiled, base: BaseLast, question: CustomQuestion) -> tup
     for name in PULLED if question.bottom_kept else (*WIDTHS, *PULLED):
         own, stored = measure_named(name).value_of(base.shape).value, base.record.value_of(name)
         if own is not None and stored is not None and name in off:
-            allowance = rules[name].target + rules[name].cavity
-            target = stored + off[name]
-            firm = name in WIDTHS
-            if name in PULLED:  # where its least tape brings it, if that is good
-                grown = sum(a.target - a.base for a in aims if a.measure == f"{name}_least")
-                more = grown - inner_good(rules[name], stored + grown - target)
-                most = MOST_HEEL_MM if name == HEEL_GIRTH else np.inf
-                target = own + min(max(more, -most), most)
-            aims.append(CustomAim(name, name, own, target, target - allowance, allowance, firm))
+            rule = rules[name]
+            allowance, target = rule.target + rule.cavity, stored + off[name]
+            aim = CustomAim(name, name, own, target, target - allowance, allowance)
+            aims.append(_pulled(aim, rule, stored, aims) if name in PULLED else aim)
     return tuple(aims)
+
+
+def _pulled(
+    aim: CustomAim, rule: ZoneRule, stored_mm: float, aims: Sequence[CustomAim]
+) -> CustomAim:
+    """The aim of a girth that is pulled: where its least tape brings it, if that is good.
+
+    The girth of the heel is pulled only as far as the kept parts leave.
+    """
+    grown_mm = sum(a.target - a.base for a in aims if a.measure == f"{aim.measure}_least")
+    more_mm = grown_mm - inner_good(rule, stored_mm + grown_mm - aim.target)
+    good_mm = good_range(aim.base + aim.target - stored_mm, rule)
+    if aim.measure == HEEL_GIRTH:
+        more_mm = min(max(more_mm, -MOST_HEEL_MM), MOST_HEEL_MM)
+        if not good_mm[0] - MOST_HEEL_MM <= aim.base <= good_mm[1] + MOST_HEEL_MM:
+            good_mm = ANYWHERE
+    return replace(aim, target=aim.base + more_mm, firm=False, good_mm=good_mm)
+
+
+def good_range(target_mm: float, rule: ZoneRule) -> tuple[float, float]:
+    """Where a measure should stay whose zone asks for ``target_mm``."""
+    low, high = (target_mm + RANGE * (end - rule.target) for end in rule.good)
+    return low, high
 
 
 def inner_good(rule: ZoneRule, off: float) -> float:
@@ -145,10 +176,16 @@ def _ball_line(
     share, model = float(heels.share[0]), heels.question.model
     foot_mm = scanned + share * full_change(model, foot, BALL_LENGTH)[0]
     percent_mm = 0.01 * foot.aligned.alignment.extent_mm
-    low, high = (INNER_GOOD * end * percent_mm for end in rules["ball_line"].good)
-    target = foot_mm + min(max(own - foot_mm, low), high)
-    target = own + min(max(target - own, -MOST_BALL_MM), MOST_BALL_MM)
-    return [CustomAim(BALL_LENGTH, "ball_line", own, target, foot_mm, 0.0, firm=False)]
+    rule = rules["ball_line"]
+
+    off = (own - foot_mm) / percent_mm
+    ends = (off - inner_good(rule, off), *(RANGE * end for end in rule.good))
+    target, low, high = (
+        own + min(max(foot_mm + end * percent_mm - own, -MOST_BALL_MM), MOST_BALL_MM)
+        for end in ends
+    )
+    aim = CustomAim(BALL_LENGTH, "ball_line", own, target, foot_mm, 0.0, firm=False)
+    return [replace(aim, good_mm=(low, high))]
 
 
 def _girths(
@@ -168,6 +205,8 @@ def _girths(
         foot_mm = scanned_mm + share * full_change(model, foot, name)[0]
         allowance = _mean([rules[zone].target + rules[zone].cavity for zone in zones])
         aim = CustomAim(name, zones[-1], base_mm, foot_mm + allowance, foot_mm, allowance)
+        if name in GIVES_WAY:
+            aim = replace(aim, good_mm=good_range(aim.target, rules[GIVES_WAY[name]]))
         aims.append(replace(aim, firm=name not in FOLLOWING))
     return aims
 

@@ -13,13 +13,12 @@ from footfit.geometry.deform.chart import Chart, eased
 from footfit.geometry.deform.field import Bump, Field, least_determinant
 from footfit.geometry.deform.probes import Probe
 from footfit.geometry.deform.solver import (
-    SOLVER,
-    Goal,
     Knob,
     Solution,
     solution,
     turned_field,
 )
+from footfit.geometry.deform.wishes import SOLVER, Goal
 from footfit.geometry.measures.landmarks import AXES, Shape
 from footfit.geometry.numeric.arrays import Floats
 from footfit.number_words import plain
@@ -27,6 +26,7 @@ from footfit.pipeline.last_making.base_last import BaseLast
 from footfit.pipeline.last_making.custom.custom_aims import (
     BALL_LENGTH,
     FOLLOWING,
+    GIVES_WAY,
     LENGTH,
     CustomAim,
 )
@@ -148,10 +148,12 @@ def room_bumps(
 class CustomShape:
     """A base as a field has changed it: vertices (n, 3) of the right shape in the base's frame.
 
-    ``solved`` is without the room for single places; ``least_determinant`` is with it. ``scales``
-    are the largest factors by which widths and heights change, up or down.
+    ``aims`` are those that it was made for; targets of least tapes may have moved. ``solved`` is
+    without the room for single places; ``least_determinant`` is with it. ``scales`` are the largest
+    factors by which widths and heights change, up or down.
     """
 
+    aims: tuple[CustomAim, ...]
     solved: Solution
     vertices_mm: Floats
     least_determinant: float
@@ -178,19 +180,22 @@ def custom_shape(
     knobs : sequence of Knob
         Where the search begins; by default at ``start``.
     """
-    aims = [aim for aim in aims if aim.measure not in FOLLOWING]
+    own = [aim for aim in aims if aim.measure not in FOLLOWING]
     settings = WARM if knobs else SOLVER
-    knobs = knobs or _knobs(start.chart, aims)
+    knobs = knobs or _knobs(start.chart, own)
     first = turned_field(start, knobs, np.array([knob.value for knob in knobs]))
     moved = first.moved_points(base.shape.vertices_mm)
-    probes = carried.probes(moved, aims)
-    goals = [_goal(a, probe, asked_mm(a, base)) for a, probe in zip(aims, probes, strict=True)]
-    read = partial(carried.values_mm, aims=aims)
+    probes = carried.probes(moved, own)
+    goals = [_goal(a, probe, own, base) for a, probe in zip(own, probes, strict=True)]
+    read = partial(carried.values_mm, aims=own)
     costs = _costs(start.chart, knobs)
     solved = solution(start, knobs, base.shape.vertices_mm, goals, read, costs, settings)
     least = least_determinant(solved.field, base.shape.vertices_mm)
     wider, higher = solved.field.scales(base.shape.vertices_mm)
-    return CustomShape(solved, solved.vertices_mm, least, (_largest(wider), _largest(higher)))
+    targets_mm = {a.measure: mm for a, mm in zip(own, solved.targets_mm.tolist(), strict=True)}
+    met = tuple(aim.moved_to(targets_mm.get(aim.measure, aim.target)) for aim in aims)
+    scales = _largest(wider), _largest(higher)
+    return CustomShape(met, solved, solved.vertices_mm, least, scales)
 
 
 def _largest(factors: Floats) -> float:
@@ -240,12 +245,15 @@ def _pattern(chart: Chart, window: tuple[float, float]) -> Floats:
     return eased((chart.centres() - start) / (end - start))
 
 
-def _goal(aim: CustomAim, probe: Probe, target_mm: float) -> Goal:
+def _goal(aim: CustomAim, probe: Probe, aims: Sequence[CustomAim], base: BaseLast) -> Goal:
     """What the solver brings an aim to."""
+    target_mm = asked_mm(aim, base)
     if aim.firm:
-        return Goal(target_mm, probe)
+        upright = GIVES_WAY.get(aim.measure)
+        row = next((k for k, other in enumerate(aims) if other.measure == upright), None)
+        return Goal(target_mm, probe, range_mm=aim.good_mm, gives_way_to=row)
     miss_mm = CUSTOM.line_mm if aim.measure == BALL_LENGTH else CUSTOM.pulled_mm
-    return Goal(target_mm, probe, miss_mm, firm=False)
+    return Goal(target_mm, probe, miss_mm, firm=False, range_mm=aim.good_mm)
 
 
 def _costs(chart: Chart, knobs: Sequence[Knob]) -> Floats:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from contextlib import suppress
 from dataclasses import dataclass, field, replace
 
 import numpy as np
@@ -20,7 +19,6 @@ from footfit.pipeline.last_making.base_last import BaseLast
 from footfit.pipeline.last_making.custom.custom_aims import (
     FOLLOWING,
     LENGTH,
-    CustomAim,
     CustomQuestion,
     custom_aims,
     fit_in,
@@ -39,10 +37,7 @@ from footfit.pipeline.last_making.custom.custom_tries import (
     with_bumps,
 )
 from footfit.pipeline.last_making.custom.good_zones import (
-    PRESSED,
-    faults,
     not_good,
-    pressed_aims,
     with_reasons,
     zone_notices,
 )
@@ -101,22 +96,11 @@ def customised(
     worse = [z for z in TOE_BOX & set(verdicts) if verdicts[z][0] == "good" != verdicts[z][1]]
     if worse and verdicts[LENGTH][0] == "good":
         # The toe box moves with the length. The base's toe room is good too, so it is kept.
-        aims = tuple(replace(a, target=a.base) if a.measure == LENGTH else a for a in aims)
-        attempt = attempt_at(given, aims, attempt)
+        same = (replace(a, target=a.base) if a.measure == LENGTH else a for a in attempt.aims)
+        attempt = attempt_at(given, tuple(same), attempt)
         made = answer(attempt)
         words = "the toe room stays as it is in the base: at the profile's target the toe box"
         notices = [results.Notice("toe_room_kept", f"{words} would fit worse")]
-    tried: tuple[CustomAim, ...] = ()
-    for names in PRESSED:
-        pressed = pressed_aims(given, attempt, made.judged, question, foot, names)
-        if not pressed or pressed == tried:
-            continue
-        tried = pressed
-        with suppress(OutOfReach):
-            other = attempt_at(given, pressed, attempt)
-            mended = answer(other)
-            if faults(mended.judged) < faults(made.judged):
-                attempt, made = other, mended
     if making.rooms_mm:  # room is given on top of the targets, which are met without it
         lying_mm = attempt.made.lying(attempt.shape.vertices_mm)
         bumps = room_bumps(base.shape, chart, making.rooms_mm, lying_mm)
@@ -197,7 +181,7 @@ def _zones(base: BaseLast, attempt: Attempt) -> tuple[results.CustomZone, ...]:
     aims, made = attempt.aims, attempt.made
     zones = []
     for aim, room in zip(aims, attempt.room_mm.tolist(), strict=True):
-        if aim.pressed or not (aim.firm or aim.measure in FOLLOWING):
+        if not aim.firm and aim.measure not in FOLLOWING:
             continue
         value = value_mm(made.shape, aim.measure, base)
         grown = value - value_mm(base.shape, aim.measure, base)

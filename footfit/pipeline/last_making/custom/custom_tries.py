@@ -25,7 +25,7 @@ from footfit.geometry.search.pose_search import RoughPose
 from footfit.meshes.write import encoded_mesh
 from footfit.pipeline.batch.sources import ReadingOptions, Source
 from footfit.pipeline.last_making.base_last import BaseLast
-from footfit.pipeline.last_making.custom.custom_aims import CustomAim
+from footfit.pipeline.last_making.custom.custom_aims import ANYWHERE, CustomAim
 from footfit.pipeline.last_making.custom.custom_field import (
     CustomShape,
     custom_shape,
@@ -46,8 +46,8 @@ from footfit.results import LastLabels, PreparedScan, SideName
 
 SETTLED_MM = (0.15, 0.15, 0.15, 0.3, 0.3, 0.3)
 """The finished last is made again if it reads so far from a target: by the tries before."""
-PRESSED_TRIES = 2
-"""So many tries at most, if zones are pressed: there is a good last already."""
+OUT_MM = 0.2
+"""Another try is made if a measure reads so far out of its range, which is .9 of the good one."""
 TURN_DEG = 2.5
 """The flare is turned in steps of at most so much; each step begins where the last one ended."""
 
@@ -114,7 +114,8 @@ class Attempt:
     """A changed base and the last made of it.
 
     ``off_mm`` (aims,) is how far the last reads from each firm target, ``room_mm`` (aims,) what
-    room for single places adds to that.
+    room for single places adds to that, ``out_mm`` how far the worst measure reads out of its good
+    range.
     """
 
     aims: Sequence[CustomAim]
@@ -122,22 +123,37 @@ class Attempt:
     made: MadeLast
     off_mm: Floats
     room_mm: Floats
+    out_mm: float
 
     @property
-    def worth(self) -> tuple[bool, float]:
-        """What is least for the best try: whether it would be refused, and its worst miss."""
+    def worth(self) -> tuple[bool, float, float]:
+        """What is least for the best try: whether it would be refused, how far the worst measure is
+        out of its good range, and the worst miss.
+        """
         refused = limit_words(self.shape) is not None or missed(self.aims, self.off_mm) is not None
-        return refused, float(np.abs(self.off_mm).max())
+        out_mm = self.out_mm if self.out_mm > OUT_MM else 0.0
+        return refused, out_mm, float(np.abs(self.off_mm).max())
 
 
 def attempt_at(given: Given, aims: Sequence[CustomAim], first: Attempt | None = None) -> Attempt:
     """The best try at a custom last with these aims; it begins where ``first`` ended.
+
+    If it would be refused for the sake of zones, they are left as they are.
 
     Raises
     ------
     OutOfReach
         A target is missed, or lies beyond the limits of stretch.
     """
+    best = _best(given, aims, first)
+    if best.worth[0] and any(aim.good_mm != ANYWHERE for aim in aims):
+        best = _best(given, [replace(aim, good_mm=ANYWHERE) for aim in aims], None)
+    refuse_missed(best.aims, best.off_mm, best.shape, given.turn_deg)
+    return best
+
+
+def _best(given: Given, aims: Sequence[CustomAim], first: Attempt | None) -> Attempt:
+    """The best of some tries; each begins where the last one ended."""
     base, knobs = given.base, first.shape.solved.knobs if first else ()
     carried = (
         first.made.carried(base, first.shape.vertices_mm) if first else Carried(base.shape, base)
@@ -146,20 +162,18 @@ def attempt_at(given: Given, aims: Sequence[CustomAim], first: Attempt | None = 
     for step in range(1, steps):
         turned = _tried(given, aims, step / steps, carried, knobs)
         carried = turned.made.carried(base, turned.shape.vertices_mm)
-        knobs = turned.shape.solved.knobs
+        knobs, aims = turned.shape.solved.knobs, turned.aims
     tries: list[Attempt] = []
-    pressed = any(aim.pressed or aim.moved_mm for aim in aims)
-    for settled_mm in SETTLED_MM[: PRESSED_TRIES if pressed else None]:
+    for settled_mm in SETTLED_MM:
         with suppress(FootfitError) if tries else nullcontext():
             tried = _tried(given, aims, 1.0, carried, knobs)
             carried = tried.made.carried(base, tried.shape.vertices_mm)
-            knobs = tried.shape.solved.knobs
+            knobs, aims = tried.shape.solved.knobs, tried.aims
             tries.append(tried)
-        if not tries[-1].worth[0] and tries[-1].worth[1] <= settled_mm:
+        refused, out_mm, off_mm = tries[-1].worth
+        if not refused and off_mm <= settled_mm and (not out_mm or len(tries) > 1):
             break
-    best = min(tries, key=lambda each: each.worth)
-    refuse_missed(aims, best.off_mm, best.shape, given.turn_deg)
-    return best
+    return min(tries, key=lambda each: each.worth)
 
 
 def _tried(
@@ -173,8 +187,10 @@ def _tried(
     start = first_field(given.chart, share * given.turn_deg, bottom_kept=given.bottom_kept)
     shape = custom_shape(given.base, aims, start, carried, knobs)
     made = made_last(given.base, shape.vertices_mm, given.side, given.name)
-    off_mm = _off_mm(given.base, aims, made)
-    return Attempt(aims, shape, made, off_mm, np.zeros(len(aims)))
+    off_mm = _off_mm(given.base, shape.aims, made)
+    return Attempt(
+        shape.aims, shape, made, off_mm, np.zeros(len(aims)), _out_mm(given.base, shape.aims, made)
+    )
 
 
 def _off_mm(base: BaseLast, aims: Sequence[CustomAim], made: MadeLast) -> Floats:
@@ -184,6 +200,14 @@ def _off_mm(base: BaseLast, aims: Sequence[CustomAim], made: MadeLast) -> Floats
         for aim in aims
     ]
     return np.where(np.isnan(off), np.inf, off)
+
+
+def _out_mm(base: BaseLast, aims: Sequence[CustomAim], made: MadeLast) -> float:
+    """How far the worst measure of a finished last reads out of its good range."""
+    ranged = [aim for aim in aims if aim.good_mm != ANYWHERE]
+    values = np.array([value_mm(made.shape, aim.measure, base) for aim in ranged])
+    low, high = np.array([aim.good_mm for aim in ranged]).reshape(-1, 2).T
+    return float(np.nan_to_num(np.maximum(low - values, values - high)).max(initial=0.0))
 
 
 def with_bumps(given: Given, attempt: Attempt, bumps: Sequence[Bump]) -> Attempt:
