@@ -31,10 +31,10 @@ PULLED = ("ball_girth", "instep_girth", HEEL_GIRTH)
 FOLLOWING = ("heel_girth_instep",)
 """The girth without a target: the bottom, the back and the top, which are kept, nearly set it; and
 a foot that was scanned flat has another one in a heel."""
-INNER_GOOD, MOST_BALL_MM, MOST_HEEL_MM = 0.7, 10.0, 3.0
+INNER_GOOD, MOST_BALL_MM, MOST_HEEL_MM = 0.7, 12.0, 3.0
 """A zone that is only pulled comes so far into its good range, as a share of that; the ball moves
 at most so far, and the short heel girth, which the kept parts nearly set."""
-RANGE = 0.9
+RANGE = 0.95
 """What should be in its zone's good range stays within so much of it."""
 GIVES_WAY = {"ball_girth_least": "ball_girth", "instep_girth_least": "instep_girth"}
 """The least tapes whose targets move if the upright girth of their zone would not be good."""

@@ -46,8 +46,8 @@ from footfit.results import LastLabels, PreparedScan, SideName
 
 SETTLED_MM = (0.15, 0.15, 0.15, 0.3, 0.3, 0.3)
 """The finished last is made again if it reads so far from a target: by the tries before."""
-OUT_MM = 0.2
-"""Another try is made if a measure reads so far out of its range, which is .9 of the good one."""
+OUT_MM = 0.1
+"""Another try is made if a measure reads so far out of its range, which is .95 of the good one."""
 TURN_DEG = 2.5
 """The flare is turned in steps of at most so much; each step begins where the last one ended."""
 
