@@ -102,8 +102,10 @@ def solution(
     if wishes.missed_mm(best.values_mm) + wishes.beyond_mm(best.values_mm) <= settings.near_mm:
         return best
     effect = _effects(best.field, knobs, [goal.probe for goal in goals], vertices_mm, settings)
-    rounds, most = 0, settings.most
-    while rounds < settings.rounds and not wishes.met(best.values_mm):
+    rounds, most, failed = 0, settings.most, 0
+    while not (
+        rounds == settings.rounds or failed > settings.failing or wishes.met(best.values_mm)
+    ):
         rounds += 1
         if rounds == settings.shaping + 1:  # the shape is found: only what firm goals still miss
             wishes = wishes.settled(best.values_mm)
@@ -113,8 +115,9 @@ def solution(
         trial = at(values + step)
         more = np.nan_to_num(trial.values_mm - best.values_mm - effect @ step)
         if wishes.worse(best.values_mm, trial.values_mm):
-            best, values, most = trial, values + step, settings.most
+            best, values, most, failed = trial, values + step, settings.most, 0
         else:
+            failed += 1
             most = settings.shorter * float(np.abs(step / units).max())
         if np.isfinite(trial.values_mm[wishes.firm]).all():
             effect += np.outer(more, step) / (step @ step)

@@ -36,14 +36,16 @@ class SolverSettings:
     rounds, shaping : int, int
         After the first ``shaping`` rounds nothing is pulled any more, and a round is the smoothest
         step that brings the firm measures to their targets.
+    failing : int
+        The search ends if more steps than these, one after the other, do not help: the probes are
+        out of date.
     step, most : float
         Of the differences that a knob's effect is taken by, and the most that a knob is turned in
         a round, in the knob's unit.
     shorter : float
         A step that does not help is tried again at this share of its length.
-    edge_mm, loose_mm : float
-        What costs as much as a goal's ``miss_mm``: to be so far outside of a range, and so far from
-        a target that gives way to another goal's range.
+    loose_mm : float
+        The miss that costs as much, of a target that gives way to another goal's range.
     beyond_mm : float
         A range counts as left if a measure lies so far outside.
     """
@@ -55,10 +57,10 @@ class SolverSettings:
     near_mm: float = 0.1
     rounds: int = 12
     shaping: int = 5
+    failing: int = 12
     step: float = 3e-3
     most: float = 0.25
     shorter: float = 0.5
-    edge_mm: float = 0.02
     loose_mm: float = 1.0
     beyond_mm: float = 0.2
 
@@ -73,7 +75,8 @@ class Goal:
     A miss of ``miss_mm`` costs as much as a bend or a size of ``SolverSettings``. A goal that is
     not ``firm`` is only pulled towards its target: the search does not wait for it. Each goal
     should stay within its ``range_mm``. If the goal in the row ``gives_way_to`` cannot stay in its
-    own one, the target moves within ``range_mm``.
+    own one, the target moves within ``range_mm``. To be outside of a range by ``edge_mm`` costs as
+    much as a miss of ``miss_mm``.
     """
 
     target_mm: float
@@ -81,6 +84,7 @@ class Goal:
     miss_mm: float = 0.01
     firm: bool = True
     range_mm: tuple[float, float] = (-np.inf, np.inf)
+    edge_mm: float = 0.05
     gives_way_to: int | None = None
 
 
@@ -92,7 +96,7 @@ class Wishes:
     ----------
     asked, targets : (n,)
         The targets as they were given, and as they moved.
-    miss, firm : (n,)
+    miss, edge, firm : (n,)
         Of :class:`Goal`.
     low, high : (n,)
         The ends of their ranges.
@@ -105,6 +109,7 @@ class Wishes:
     asked: Floats
     targets: Floats
     miss: Floats
+    edge: Floats
     firm: Bools
     low: Floats
     high: Floats
@@ -121,6 +126,7 @@ class Wishes:
             targets,
             targets,
             np.array([goal.miss_mm for goal in goals]),
+            np.array([goal.edge_mm for goal in goals]),
             np.array([goal.firm for goal in goals], dtype=bool),
             np.array([goal.range_mm[0] for goal in goals]),
             np.array([goal.range_mm[1] for goal in goals]),
@@ -178,7 +184,7 @@ class Wishes:
             gives = (self.partner >= 0) & outside[self.partner] & self.shaping
             edge = outside & (gives | ~self.firm)
             miss = np.where(gives, self.settings.loose_mm, self.miss)
-            miss = np.where(edge, self.settings.edge_mm, miss)
+            miss = np.where(edge, self.edge, miss)
             wanted = np.where(edge, ends, self.asked if self.shaping else self.targets)
             counts = (self.firm & ~gives) | edge | self.shaping
             off = np.nan_to_num((wanted - values) * counts / miss)

@@ -27,6 +27,7 @@ from footfit.pipeline.last_making.custom.custom_aims import (
     BALL_LENGTH,
     FOLLOWING,
     GIVES_WAY,
+    HEEL_GIRTH,
     LENGTH,
     CustomAim,
 )
@@ -64,6 +65,9 @@ class CustomSettings:
     longer, girth : float
         The last becomes longer or shorter by at most this share of the arc, and a girth or a width
         by at most this share of itself.
+    edge_mm, heel_edge_mm : float
+        To be so far out of the good range of a zone, and of the heel's, costs as much as a firm
+        miss of .01 mm.
     determinant : float
         The least that the change may come to: 0 would be a fold.
     flare_deg : float
@@ -82,6 +86,8 @@ class CustomSettings:
     slope: float = 0.012
     pulled_mm: float = 1.0
     line_mm: float = 0.1
+    edge_mm: float = 0.05
+    heel_edge_mm: float = 0.2
     met_mm: float = 0.5
     length_met_mm: float = 0.3
     wider: float = 1.25
@@ -95,8 +101,8 @@ class CustomSettings:
 
 
 CUSTOM = CustomSettings()
-WARM = replace(SOLVER, shaping=3, rounds=8)
-"""A search that begins where another one ended."""
+COLD = replace(SOLVER, failing=3, shorter=0.3)
+"""A search that begins at the base."""
 FREE_MM = 100.0
 """The unit of a knob in mm whose size costs nothing."""
 MEDIAL, LATERAL, UP = AXES[1], -AXES[1], AXES[2]
@@ -144,6 +150,28 @@ def room_bumps(
     return tuple(bumps)
 
 
+@dataclass(frozen=True, slots=True)
+class Manner:
+    """How a search goes about it.
+
+    Attributes
+    ----------
+    heights : float
+        What a scale of heights costs, over a scale of widths.
+    softer : float
+        By how much cheaper it is to leave a zone's good range.
+    zones : bool
+        Whether zones are kept good, beside the targets.
+    """
+
+    heights: float = SOLVER.heights
+    softer: float = 1.0
+    zones: bool = True
+
+
+MANNER = Manner()
+
+
 @dataclass(frozen=True)
 class CustomShape:
     """A base as a field has changed it: vertices (n, 3) of the right shape in the base's frame.
@@ -166,6 +194,7 @@ def custom_shape(
     start: Field,
     carried: Carried,
     knobs: Sequence[Knob] = (),
+    manner: Manner = MANNER,
 ) -> CustomShape:
     """The base, changed so that its firm aims are met as ``carried`` reads them, or nearly so.
 
@@ -179,14 +208,18 @@ def custom_shape(
         How the changed base lies and stands.
     knobs : sequence of Knob
         Where the search begins; by default at ``start``.
+    manner : Manner
     """
     own = [aim for aim in aims if aim.measure not in FOLLOWING]
-    settings = WARM if knobs else SOLVER
+    settings = replace(COLD, shaping=3, rounds=8) if knobs else COLD
+    settings = replace(settings, heights=manner.heights)
     knobs = knobs or _knobs(start.chart, own)
     first = turned_field(start, knobs, np.array([knob.value for knob in knobs]))
     moved = first.moved_points(base.shape.vertices_mm)
     probes = carried.probes(moved, own)
-    goals = [_goal(a, probe, own, base) for a, probe in zip(own, probes, strict=True)]
+    length_mm = carried.base_length_mm
+    goals = [_goal(a, probe, asked_mm(a, length_mm)) for a, probe in zip(own, probes, strict=True)]
+    goals = _ranged(goals, own, manner)
     read = partial(carried.values_mm, aims=own)
     costs = _costs(start.chart, knobs)
     solved = solution(start, knobs, base.shape.vertices_mm, goals, read, costs, settings)
@@ -245,15 +278,28 @@ def _pattern(chart: Chart, window: tuple[float, float]) -> Floats:
     return eased((chart.centres() - start) / (end - start))
 
 
-def _goal(aim: CustomAim, probe: Probe, aims: Sequence[CustomAim], base: BaseLast) -> Goal:
+def _goal(aim: CustomAim, probe: Probe, target_mm: float) -> Goal:
     """What the solver brings an aim to."""
-    target_mm = asked_mm(aim, base)
     if aim.firm:
-        upright = GIVES_WAY.get(aim.measure)
-        row = next((k for k, other in enumerate(aims) if other.measure == upright), None)
-        return Goal(target_mm, probe, range_mm=aim.good_mm, gives_way_to=row)
+        return Goal(target_mm, probe)
     miss_mm = CUSTOM.line_mm if aim.measure == BALL_LENGTH else CUSTOM.pulled_mm
-    return Goal(target_mm, probe, miss_mm, firm=False, range_mm=aim.good_mm)
+    return Goal(target_mm, probe, miss_mm, firm=False)
+
+
+def _ranged(goals: list[Goal], aims: Sequence[CustomAim], manner: Manner) -> list[Goal]:
+    """The goals of aims, with the ranges in which zones are good."""
+    if not manner.zones:
+        return goals
+    rows = {aim.measure: row for row, aim in enumerate(aims)}
+    ranged = []
+    for goal, aim in zip(goals, aims, strict=True):
+        edge_mm = CUSTOM.heel_edge_mm if aim.measure == HEEL_GIRTH else CUSTOM.edge_mm
+        gives_way_to = rows.get(GIVES_WAY.get(aim.measure, ""))
+        edge_mm *= manner.softer
+        ranged.append(
+            replace(goal, range_mm=aim.good_mm, edge_mm=edge_mm, gives_way_to=gives_way_to)
+        )
+    return ranged
 
 
 def _costs(chart: Chart, knobs: Sequence[Knob]) -> Floats:

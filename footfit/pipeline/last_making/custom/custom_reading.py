@@ -4,9 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
+from functools import cached_property
 
 import numpy as np
 
+from footfit.errors import OutOfReach
 from footfit.geometry.deform.probes import DIRECTIONS, Probe, girth_probe, span_probe
 from footfit.geometry.measures.heel_girths import angle_to_deg, cone_edge
 from footfit.geometry.measures.landmarks import AXES, Shape
@@ -109,11 +111,11 @@ def value_mm(shape: Shape, measure: str, base: BaseLast, gain_mm: float | None =
     return np.nan if value is None else value
 
 
-def asked_mm(aim: CustomAim, base: BaseLast) -> float:
-    """What an aim's measure should read on the changed base; a length goes by the toe room."""
-    if aim.measure != LENGTH:
-        return aim.target
-    return value_mm(base.shape, LENGTH, base) + aim.target - aim.base
+def asked_mm(aim: CustomAim, length_mm: float) -> float:
+    """What an aim's measure should read on the changed base. A length goes by the toe room: it
+    reads ``length_mm`` on the base.
+    """
+    return aim.target if aim.measure != LENGTH else length_mm + aim.target - aim.base
 
 
 def _functional_mm(shape: Shape) -> float:
@@ -203,7 +205,13 @@ class Carried:
     ``frame`` (4, 4) leads from the base's resting frame to its own.
     """
 
-    def __init__(self, known: Shape, base: BaseLast, frame: Floats | None = None) -> None:
+    def __init__(
+        self,
+        known: Shape,
+        base: BaseLast,
+        frame: Floats | None = None,
+        base_length_mm: float | None = None,
+    ) -> None:
         assert known.bottom_arc is not None
         along, over = known.bottom_arc.shares(known.vertices_mm)
         middle = np.abs(known.vertices_mm[:, 1] - np.median(known.vertices_mm[:, 1])) < MIDDLE_MM
@@ -213,6 +221,14 @@ class Carried:
         self._known = known
         self._frame = np.eye(4) if frame is None else frame
         self._base, self._gain_mm = base, _gain_mm(known, base)
+        self._base_length_mm = base_length_mm
+
+    @property
+    def base_length_mm(self) -> float:
+        """What the length reads on the base."""
+        if self._base_length_mm is None:
+            self._base_length_mm = value_mm(self._base.shape, LENGTH, self._base)
+        return self._base_length_mm
 
     def lying(self, vertices_mm: Floats) -> Floats:
         """Vertices (n, 3) of the base's resting frame as the known shape lies."""
@@ -240,8 +256,17 @@ class Carried:
         return shape
 
     def probes(self, vertices_mm: Floats, aims: Sequence[CustomAim]) -> list[Probe]:
-        """What answers for each aim when moved vertices (n, 3) of the base move a little more."""
+        """What answers for each aim when moved vertices (n, 3) of the base move a little more.
+
+        Raises
+        ------
+        OutOfReach
+            Its ball is not found.
+        """
         shape = self.shape(vertices_mm)
+        places = shape.joints, shape.mt1, shape.mt5, shape.waist_crown
+        if any(place is None for place in places):
+            raise OutOfReach("the base cannot be changed so far that its ball is still found")
         return [self._lying_probe(probe_of(shape, aim.measure)) for aim in aims]
 
     def _lying_probe(self, own: Probe) -> Probe:
@@ -250,4 +275,23 @@ class Carried:
     def values_mm(self, vertices_mm: Floats, aims: Sequence[CustomAim]) -> Floats:
         """The aims' measures (aims,) of moved vertices (n, 3) of the base."""
         shape = self.shape(vertices_mm)
-        return np.array([value_mm(shape, aim.measure, self._base, self._gain_mm) for aim in aims])
+        return np.array(
+            [
+                self._heel_mm(shape)
+                if aim.measure == HEEL_GIRTH
+                else value_mm(shape, aim.measure, self._base, self._gain_mm)
+                for aim in aims
+            ]
+        )
+
+    def _heel_mm(self, shape: Shape) -> float:
+        """The short heel girth of a shape: in the plane in which the known one has it."""
+        more_mm, probe = self._heel
+        return more_mm + probe.value(shape.vertices_mm[probe.rows])
+
+    @cached_property
+    def _heel(self) -> tuple[float, Probe]:
+        """How much more the short heel girth reads than its probe, and that probe."""
+        probe = probe_of(self._known, HEEL_GIRTH)
+        own_mm = value_mm(self._known, HEEL_GIRTH, self._base)
+        return own_mm - probe.value(self._known.vertices_mm[probe.rows]), probe

@@ -14,7 +14,8 @@ from functools import cached_property
 import numpy as np
 
 from footfit import results
-from footfit.errors import FootfitError
+from footfit.errors import FootfitError, OutOfReach
+from footfit.geometry.deform.bending import bend_deg
 from footfit.geometry.deform.chart import Chart
 from footfit.geometry.deform.field import Bump
 from footfit.geometry.deform.solver import Knob
@@ -27,7 +28,9 @@ from footfit.pipeline.batch.sources import ReadingOptions, Source
 from footfit.pipeline.last_making.base_last import BaseLast
 from footfit.pipeline.last_making.custom.custom_aims import ANYWHERE, CustomAim
 from footfit.pipeline.last_making.custom.custom_field import (
+    MANNER,
     CustomShape,
+    Manner,
     custom_shape,
     first_field,
     limit_words,
@@ -48,11 +51,14 @@ SETTLED_MM = (0.15, 0.15, 0.15, 0.3, 0.3, 0.3)
 """The finished last is made again if it reads so far from a target: by the tries before."""
 OUT_MM = 0.1
 """Another try is made if a measure reads so far out of its range, which is .95 of the good one."""
+BENT_DEG = 2.0
+"""A last that bends the surface by more is made otherwise, if that helps."""
+FLATTER, SOFTER = Manner(heights=1.0), Manner(heights=0.8, softer=4.0)
 TURN_DEG = 2.5
 """The flare is turned in steps of at most so much; each step begins where the last one ended."""
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True)
 class Given:
     """What all tries at a custom last have: the base and its chart, the side and name of the new
     last, the turn of the flare, and whether the bottom keeps its outline.
@@ -64,6 +70,16 @@ class Given:
     name: str
     turn_deg: float
     bottom_kept: bool = False
+
+    @cached_property
+    def carried(self) -> Carried:
+        """How the base lies and stands."""
+        return Carried(self.base.shape, self.base)
+
+    @property
+    def length_mm(self) -> float:
+        """What the length reads on the base."""
+        return self.carried.base_length_mm
 
 
 @dataclass(frozen=True)
@@ -100,13 +116,14 @@ class MadeLast:
         """Right vertices (n, 3) of the base's frame in the last's canonical frame."""
         return moved_points(self.frame, vertices_mm)
 
-    def carried(self, base: BaseLast, vertices_mm: Floats) -> Carried:
+    def carried(self, given: Given, vertices_mm: Floats) -> Carried:
         """How bases that are changed a little otherwise lie and stand; ``vertices_mm`` (n, 3) are
         the right ones that it was made of, in the base's frame.
         """
-        known = Shape(self.lying(vertices_mm), base.shape.faces, "last", self.shape.labels)
+        faces = given.base.shape.faces
+        known = Shape(self.lying(vertices_mm), faces, "last", self.shape.labels)
         vars(known)["stance"] = self.shape.stance
-        return Carried(known, base, self.frame)
+        return Carried(known, given.base, self.frame, given.length_mm)
 
 
 @dataclass(frozen=True)
@@ -115,7 +132,7 @@ class Attempt:
 
     ``off_mm`` (aims,) is how far the last reads from each firm target, ``room_mm`` (aims,) what
     room for single places adds to that, ``out_mm`` how far the worst measure reads out of its good
-    range.
+    range. ``bend_deg`` is by how much the surface bends.
     """
 
     aims: Sequence[CustomAim]
@@ -124,56 +141,73 @@ class Attempt:
     off_mm: Floats
     room_mm: Floats
     out_mm: float
+    bend_deg: float
 
     @property
-    def worth(self) -> tuple[bool, float, float]:
-        """What is least for the best try: whether it would be refused, how far the worst measure is
-        out of its good range, and the worst miss.
+    def refused(self) -> bool:
+        """Whether it goes beyond a limit of stretch, or misses a target."""
+        over = limit_words(self.shape) is not None
+        return over or missed(self.aims, self.off_mm) is not None
+
+    @property
+    def worth(self) -> tuple[bool, bool, bool, float, float]:
+        """What is least for the best try: whether it would be refused, bends the surface, and
+        misses a target; how far the worst measure is out of its good range, and the worst miss.
         """
-        refused = limit_words(self.shape) is not None or missed(self.aims, self.off_mm) is not None
+        off_mm = float(np.abs(self.off_mm).max())
         out_mm = self.out_mm if self.out_mm > OUT_MM else 0.0
-        return refused, out_mm, float(np.abs(self.off_mm).max())
+        return self.refused, self.bend_deg > BENT_DEG, off_mm > SETTLED_MM[-1], out_mm, off_mm
 
 
 def attempt_at(given: Given, aims: Sequence[CustomAim], first: Attempt | None = None) -> Attempt:
     """The best try at a custom last with these aims; it begins where ``first`` ended.
 
-    If it would be refused for the sake of zones, they are left as they are.
+    If it would be refused, it is tried with less change of heights. If it bends the surface, zones
+    may be a little less good. At last they are left as they are.
 
     Raises
     ------
     OutOfReach
         A target is missed, or lies beyond the limits of stretch.
     """
-    best = _best(given, aims, first)
-    if best.worth[0] and any(aim.good_mm != ANYWHERE for aim in aims):
-        best = _best(given, [replace(aim, good_mm=ANYWHERE) for aim in aims], None)
+    best = _best(given, aims, first, MANNER)
+    for manner in (FLATTER if best.refused else SOFTER, Manner(zones=False)):
+        if best.worth[:2] == (False, False):
+            break
+        with suppress(OutOfReach):
+            best = min(best, _best(given, aims, None, manner), key=_worth)
     refuse_missed(best.aims, best.off_mm, best.shape, given.turn_deg)
     return best
 
 
-def _best(given: Given, aims: Sequence[CustomAim], first: Attempt | None) -> Attempt:
+def _best(
+    given: Given, aims: Sequence[CustomAim], first: Attempt | None, manner: Manner
+) -> Attempt:
     """The best of some tries; each begins where the last one ended."""
-    base, knobs = given.base, first.shape.solved.knobs if first else ()
-    carried = (
-        first.made.carried(base, first.shape.vertices_mm) if first else Carried(base.shape, base)
-    )
+    knobs = first.shape.solved.knobs if first else ()
+    carried = first.made.carried(given, first.shape.vertices_mm) if first else given.carried
     steps = 1 if first else max(1, int(np.ceil(abs(given.turn_deg) / TURN_DEG)))
     for step in range(1, steps):
-        turned = _tried(given, aims, step / steps, carried, knobs)
-        carried = turned.made.carried(base, turned.shape.vertices_mm)
+        turned = _tried(given, aims, step / steps, carried, knobs, manner)
+        carried = turned.made.carried(given, turned.shape.vertices_mm)
         knobs, aims = turned.shape.solved.knobs, turned.aims
     tries: list[Attempt] = []
     for settled_mm in SETTLED_MM:
         with suppress(FootfitError) if tries else nullcontext():
-            tried = _tried(given, aims, 1.0, carried, knobs)
-            carried = tried.made.carried(base, tried.shape.vertices_mm)
+            tried = _tried(given, aims, 1.0, carried, knobs, manner)
+            carried = tried.made.carried(given, tried.shape.vertices_mm)
             knobs, aims = tried.shape.solved.knobs, tried.aims
             tries.append(tried)
-        refused, out_mm, off_mm = tries[-1].worth
+        refused, _, _, out_mm, off_mm = tries[-1].worth
         if not refused and off_mm <= settled_mm and (not out_mm or len(tries) > 1):
             break
-    return min(tries, key=lambda each: each.worth)
+        if len(tries) > 2 and _worth(min(tries[:-2], key=_worth)) <= min(map(_worth, tries[-2:])):
+            break  # two more tries did not help
+    return min(tries, key=_worth)
+
+
+def _worth(attempt: Attempt) -> tuple[bool, bool, bool, float, float]:
+    return attempt.worth
 
 
 def _tried(
@@ -182,21 +216,29 @@ def _tried(
     share: float,
     carried: Carried,
     knobs: Sequence[Knob],
+    manner: Manner,
 ) -> Attempt:
     """One try, with a share of the turn."""
     start = first_field(given.chart, share * given.turn_deg, bottom_kept=given.bottom_kept)
-    shape = custom_shape(given.base, aims, start, carried, knobs)
+    shape = custom_shape(given.base, aims, start, carried, knobs, manner)
     made = made_last(given.base, shape.vertices_mm, given.side, given.name)
-    off_mm = _off_mm(given.base, shape.aims, made)
     return Attempt(
-        shape.aims, shape, made, off_mm, np.zeros(len(aims)), _out_mm(given.base, shape.aims, made)
+        aims=shape.aims,
+        shape=shape,
+        made=made,
+        off_mm=_off_mm(given, shape.aims, made),
+        room_mm=np.zeros(len(aims)),
+        out_mm=_out_mm(given.base, shape.aims, made),
+        bend_deg=bend_deg(given.base.shape.vertices_mm, shape.vertices_mm, given.base.shape.faces),
     )
 
 
-def _off_mm(base: BaseLast, aims: Sequence[CustomAim], made: MadeLast) -> Floats:
+def _off_mm(given: Given, aims: Sequence[CustomAim], made: MadeLast) -> Floats:
     """How far a finished last reads from each firm target, (aims,)."""
     off = [
-        value_mm(made.shape, aim.measure, base) - asked_mm(aim, base) if aim.firm else 0.0
+        value_mm(made.shape, aim.measure, given.base) - asked_mm(aim, given.length_mm)
+        if aim.firm
+        else 0.0
         for aim in aims
     ]
     return np.where(np.isnan(off), np.inf, off)
@@ -220,7 +262,7 @@ def with_bumps(given: Given, attempt: Attempt, bumps: Sequence[Bump]) -> Attempt
     """
     shape = with_room(given.base, attempt.shape, bumps)
     made = made_last(given.base, shape.vertices_mm, given.side, given.name)
-    room_mm = _off_mm(given.base, attempt.aims, made) - attempt.off_mm
+    room_mm = _off_mm(given, attempt.aims, made) - attempt.off_mm
     return replace(attempt, shape=shape, made=made, room_mm=room_mm)
 
 
