@@ -112,13 +112,16 @@ class Field:
         higher *= places.scaled_mm / np.maximum(places.over_mm, STEP_MM)
         return 1.0 + places.free * wider, 1.0 + places.free * higher
 
-    def moved_points(self, points_mm: Floats) -> Floats:
-        """Where the field moves points (n, 3) of the resting frame, in that frame."""
+    def moved_points(self, points_mm: Floats, places: Places | None = None) -> Floats:
+        """Where the field moves points (n, 3) of the resting frame, in that frame.
+
+        ``places`` are theirs in the chart, if they are known.
+        """
         standing = self.chart.standing(points_mm)
         if self.even:
             shift = self._even_shift(standing)
         else:
-            shift = self.moved(self.chart.places(standing)) - standing
+            shift = self.moved(places or self.chart.places(standing)) - standing
         return np.asarray(points_mm + shift @ self.chart.arc.stands[:3, :3])
 
     def _even_shift(self, standing: Floats) -> Floats:

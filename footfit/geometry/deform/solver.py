@@ -92,10 +92,13 @@ def solution(
         all_costs = np.vstack([all_costs, costs])
     values = np.array([knob.value for knob in knobs])
 
+    chart = start.chart
+    places = None if start.even else chart.places(chart.standing(vertices_mm))
+
     def at(values: Floats) -> Solution:
         field = turned_field(start, knobs, values)
         turned = tuple(replace(k, value=v) for k, v in zip(knobs, values.tolist(), strict=True))
-        moved = field.moved_points(vertices_mm)
+        moved = field.moved_points(vertices_mm, places)
         return Solution(field, turned, moved, read(moved), wishes.targets, 0)
 
     best = at(values)

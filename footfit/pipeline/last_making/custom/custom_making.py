@@ -183,7 +183,7 @@ def _zones(base: BaseLast, attempt: Attempt) -> tuple[results.CustomZone, ...]:
     for aim, room in zip(aims, attempt.room_mm.tolist(), strict=True):
         if not aim.firm and aim.measure not in FOLLOWING:
             continue
-        value = value_mm(made.shape, aim.measure, base)
+        value = made.value_mm(aim.measure)
         grown = value - value_mm(base.shape, aim.measure, base)
         reached = made.shape.length_mm if aim.measure == LENGTH else value
         zones.append(

@@ -98,15 +98,14 @@ def tape_plane(shape: Shape, measure: str) -> TapePlane | None:
     return None
 
 
-def value_mm(shape: Shape, measure: str, base: BaseLast, gain_mm: float | None = None) -> float:
+def value_mm(shape: Shape, measure: str, base: BaseLast, longer_mm: float | None = None) -> float:
     """A measure of a shape; of the length, that which the toe room goes by.
 
-    ``gain_mm`` is how much longer it is along its bottom, if that is known. NaN if the shape does
+    ``longer_mm`` is its :func:`gain_mm`, if that is known. NaN if the shape does
     not have the measure.
     """
     if measure == LENGTH:
-        gain_mm = _gain_mm(shape, base) if gain_mm is None else gain_mm
-        return _functional_mm(shape) + gain_mm
+        return _functional_mm(shape) + (gain_mm(shape, base) if longer_mm is None else longer_mm)
     value = measure_named(measure).taken_of(shape).value
     return np.nan if value is None else value
 
@@ -123,7 +122,7 @@ def _functional_mm(shape: Shape) -> float:
     return measure_named("functional_length").taken_of(shape).value or shape.length_mm
 
 
-def _gain_mm(shape: Shape, base: BaseLast) -> float:
+def gain_mm(shape: Shape, base: BaseLast) -> float:
     """How much longer a changed base is along its bottom, which counts for the toe room."""
     names = ("functional_length", LENGTH, "heel_height", *LENGTHS)
     values = {name: measure_named(name).taken_of(shape).value for name in names}
@@ -211,6 +210,7 @@ class Carried:
         base: BaseLast,
         frame: Floats | None = None,
         base_length_mm: float | None = None,
+        longer_mm: float | None = None,
     ) -> None:
         assert known.bottom_arc is not None
         along, over = known.bottom_arc.shares(known.vertices_mm)
@@ -220,7 +220,8 @@ class Carried:
         self._along = known.bottom_arc.stands[0, :3]
         self._known = known
         self._frame = np.eye(4) if frame is None else frame
-        self._base, self._gain_mm = base, _gain_mm(known, base)
+        self._base = base
+        self._gain_mm = gain_mm(known, base) if longer_mm is None else longer_mm
         self._base_length_mm = base_length_mm
 
     @property
@@ -252,7 +253,7 @@ class Carried:
             middle_mm=middle_mm,
         )
         shape = Shape(vertices_mm, known.faces, "last", known.labels)
-        vars(shape)["stance"] = moved  # it need not be found
+        vars(shape).update(stance=moved, filled=known.filled)  # they need not be found
         return shape
 
     def probes(self, vertices_mm: Floats, aims: Sequence[CustomAim]) -> list[Probe]:

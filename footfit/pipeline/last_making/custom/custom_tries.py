@@ -38,7 +38,7 @@ from footfit.pipeline.last_making.custom.custom_field import (
     refuse_missed,
     with_room,
 )
-from footfit.pipeline.last_making.custom.custom_reading import Carried, asked_mm, value_mm
+from footfit.pipeline.last_making.custom.custom_reading import Carried, asked_mm, gain_mm, value_mm
 from footfit.pipeline.scan.align import aligned_scan
 from footfit.pipeline.scan.flare import profiled_scan
 from footfit.pipeline.scan.measure import last_record
@@ -47,7 +47,7 @@ from footfit.pipeline.scan.reading import read
 from footfit.pipeline.scan.standing import stance_labels
 from footfit.results import LastLabels, PreparedScan, SideName
 
-SETTLED_MM = (0.15, 0.15, 0.15, 0.3, 0.3, 0.3)
+SETTLED_MM = (0.15, 0.3, 0.3, 0.3, 0.3, 0.3)
 """The finished last is made again if it reads so far from a target: by the tries before."""
 OUT_MM = 0.1
 """Another try is made if a measure reads so far out of its range, which is .95 of the good one."""
@@ -91,6 +91,7 @@ class MadeLast:
     frame.
     """
 
+    base: BaseLast
     prepared: PreparedScan
     labels: LastLabels
     vertices_mm: Floats
@@ -107,6 +108,15 @@ class MadeLast:
         """The record, with every measure and the flare."""
         return last_record(profiled_scan(aligned_scan(self.prepared)), self.labels)
 
+    @cached_property
+    def gain_mm(self) -> float:
+        """How much longer it is along its bottom than along its length."""
+        return gain_mm(self.shape, self.base)
+
+    def value_mm(self, measure: str) -> float:
+        """A measure as :func:`custom_reading.value_mm` reads it."""
+        return value_mm(self.shape, measure, self.base, self.gain_mm)
+
     @property
     def to_file(self) -> Floats:
         """From the shape's canonical right frame to the axes of the file, (4, 4)."""
@@ -120,10 +130,10 @@ class MadeLast:
         """How bases that are changed a little otherwise lie and stand; ``vertices_mm`` (n, 3) are
         the right ones that it was made of, in the base's frame.
         """
-        faces = given.base.shape.faces
+        faces = self.base.shape.faces
         known = Shape(self.lying(vertices_mm), faces, "last", self.shape.labels)
         vars(known)["stance"] = self.shape.stance
-        return Carried(known, given.base, self.frame, given.length_mm)
+        return Carried(known, self.base, self.frame, given.length_mm, self.gain_mm)
 
 
 @dataclass(frozen=True)
@@ -171,8 +181,8 @@ def attempt_at(given: Given, aims: Sequence[CustomAim], first: Attempt | None = 
         A target is missed, or lies beyond the limits of stretch.
     """
     best = _best(given, aims, first, MANNER)
-    for manner in (FLATTER if best.refused else SOFTER, Manner(zones=False)):
-        if best.worth[:2] == (False, False):
+    for manner in (SOFTER if best.bend_deg > BENT_DEG else FLATTER, Manner(zones=False)):
+        if not any(best.worth[:3]):
             break
         with suppress(OutOfReach):
             best = min(best, _best(given, aims, None, manner), key=_worth)
@@ -201,6 +211,8 @@ def _best(
         refused, _, _, out_mm, off_mm = tries[-1].worth
         if not refused and off_mm <= settled_mm and (not out_mm or len(tries) > 1):
             break
+        if all(limit_words(each.shape) for each in tries[-2:]) and len(tries) > 1:
+            break
         if len(tries) > 2 and _worth(min(tries[:-2], key=_worth)) <= min(map(_worth, tries[-2:])):
             break  # two more tries did not help
     return min(tries, key=_worth)
@@ -228,7 +240,7 @@ def _tried(
         made=made,
         off_mm=_off_mm(given, shape.aims, made),
         room_mm=np.zeros(len(aims)),
-        out_mm=_out_mm(given.base, shape.aims, made),
+        out_mm=_out_mm(shape.aims, made),
         bend_deg=bend_deg(given.base.shape.vertices_mm, shape.vertices_mm, given.base.shape.faces),
     )
 
@@ -236,18 +248,16 @@ def _tried(
 def _off_mm(given: Given, aims: Sequence[CustomAim], made: MadeLast) -> Floats:
     """How far a finished last reads from each firm target, (aims,)."""
     off = [
-        value_mm(made.shape, aim.measure, given.base) - asked_mm(aim, given.length_mm)
-        if aim.firm
-        else 0.0
+        made.value_mm(aim.measure) - asked_mm(aim, given.length_mm) if aim.firm else 0.0
         for aim in aims
     ]
     return np.where(np.isnan(off), np.inf, off)
 
 
-def _out_mm(base: BaseLast, aims: Sequence[CustomAim], made: MadeLast) -> float:
+def _out_mm(aims: Sequence[CustomAim], made: MadeLast) -> float:
     """How far the worst measure of a finished last reads out of its good range."""
     ranged = [aim for aim in aims if aim.good_mm != ANYWHERE]
-    values = np.array([value_mm(made.shape, aim.measure, base) for aim in ranged])
+    values = np.array([made.value_mm(aim.measure) for aim in ranged])
     low, high = np.array([aim.good_mm for aim in ranged]).reshape(-1, 2).T
     return float(np.nan_to_num(np.maximum(low - values, values - high)).max(initial=0.0))
 
@@ -291,7 +301,7 @@ def made_last(base: BaseLast, vertices_mm: Floats, side: SideName, name: str) ->
     prepared = prepared_scan(replace(scan, pose=pose), side, labels=stance_labels(labels))
     mirror = mirror_of(side)
     frame = mirror @ prepared.canonical_transform @ mirror
-    return MadeLast(prepared, labels, vertices_mm, faces, np.asarray(frame, np.float64))
+    return MadeLast(base, prepared, labels, vertices_mm, faces, np.asarray(frame, np.float64))
 
 
 def mirror_of(side: SideName | None) -> Floats:
