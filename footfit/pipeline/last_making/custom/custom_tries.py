@@ -51,8 +51,9 @@ SETTLED_MM = (0.15, 0.3, 0.3, 0.3, 0.3, 0.3)
 """The finished last is made again if it reads so far from a target: by the tries before."""
 OUT_MM = 0.1
 """Another try is made if a measure reads so far out of its range, which is .95 of the good one."""
-BENT_DEG = 2.0
-"""A last that bends the surface by more is made otherwise, if that helps."""
+BENT_DEG = 2.0, 4.0
+"""A last that bends the surface by more is made otherwise, if that helps; the second one counts if
+the bottom keeps its outline."""
 FLATTER, SOFTER = Manner(heights=1.0), Manner(heights=0.8, softer=4.0)
 TURN_DEG = 2.5
 """The flare is turned in steps of at most so much; each step begins where the last one ended."""
@@ -142,7 +143,7 @@ class Attempt:
 
     ``off_mm`` (aims,) is how far the last reads from each firm target, ``room_mm`` (aims,) what
     room for single places adds to that, ``out_mm`` how far the worst measure reads out of its good
-    range. ``bend_deg`` is by how much the surface bends.
+    range. ``bent_deg`` is by how much too far the surface bends.
     """
 
     aims: Sequence[CustomAim]
@@ -151,7 +152,7 @@ class Attempt:
     off_mm: Floats
     room_mm: Floats
     out_mm: float
-    bend_deg: float
+    bent_deg: float
 
     @property
     def refused(self) -> bool:
@@ -160,13 +161,14 @@ class Attempt:
         return over or missed(self.aims, self.off_mm) is not None
 
     @property
-    def worth(self) -> tuple[bool, bool, bool, float, float]:
-        """What is least for the best try: whether it would be refused, bends the surface, and
-        misses a target; how far the worst measure is out of its good range, and the worst miss.
+    def worth(self) -> tuple[bool, float, bool, float, float]:
+        """What is least for the best try: whether it would be refused, how much too far it bends
+        the surface, whether it misses a target, how far the worst measure is out of its good range,
+        and the worst miss.
         """
         off_mm = float(np.abs(self.off_mm).max())
         out_mm = self.out_mm if self.out_mm > OUT_MM else 0.0
-        return self.refused, self.bend_deg > BENT_DEG, off_mm > SETTLED_MM[-1], out_mm, off_mm
+        return self.refused, self.bent_deg, off_mm > SETTLED_MM[-1], out_mm, off_mm
 
 
 def attempt_at(given: Given, aims: Sequence[CustomAim], first: Attempt | None = None) -> Attempt:
@@ -181,7 +183,7 @@ def attempt_at(given: Given, aims: Sequence[CustomAim], first: Attempt | None = 
         A target is missed, or lies beyond the limits of stretch.
     """
     best = _best(given, aims, first, MANNER)
-    for manner in (SOFTER if best.bend_deg > BENT_DEG else FLATTER, Manner(zones=False)):
+    for manner in (SOFTER if best.bent_deg else FLATTER, Manner(zones=False)):
         if not any(best.worth[:3]):
             break
         with suppress(OutOfReach):
@@ -218,7 +220,7 @@ def _best(
     return min(tries, key=_worth)
 
 
-def _worth(attempt: Attempt) -> tuple[bool, bool, bool, float, float]:
+def _worth(attempt: Attempt) -> tuple[bool, float, bool, float, float]:
     return attempt.worth
 
 
@@ -234,6 +236,7 @@ def _tried(
     start = first_field(given.chart, share * given.turn_deg, bottom_kept=given.bottom_kept)
     shape = custom_shape(given.base, aims, start, carried, knobs, manner)
     made = made_last(given.base, shape.vertices_mm, given.side, given.name)
+    before_mm, most_deg = given.base.shape.vertices_mm, BENT_DEG[given.bottom_kept]
     return Attempt(
         aims=shape.aims,
         shape=shape,
@@ -241,7 +244,9 @@ def _tried(
         off_mm=_off_mm(given, shape.aims, made),
         room_mm=np.zeros(len(aims)),
         out_mm=_out_mm(shape.aims, made),
-        bend_deg=bend_deg(given.base.shape.vertices_mm, shape.vertices_mm, given.base.shape.faces),
+        bent_deg=max(
+            bend_deg(before_mm, shape.vertices_mm, given.base.shape.faces) - most_deg, 0.0
+        ),
     )
 
 

@@ -1,4 +1,4 @@
-"""Zones of a custom last that are not good: what can be pressed into good, and why not."""
+"""Zones of a custom last that are not good, and why."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from footfit.results import JudgedZone, Notice
 
 WHY = {
     "length": "the toe room is kept, because a longer or shorter toe box would fit worse",
-    "ball_line": f"the forepart keeps its length, but for {MOST_BALL_MM:g} mm",
+    "ball_line": f"the ball moves by at most {MOST_BALL_MM:g} mm",
     "ball_girth": "its section keeps the shape of the base, and its least tape is good",
     "instep_girth": "its section keeps the shape of the base, and its least tape is good",
     "short_heel_girth": "the bottom, the back and the top stay, and nearly set it",
