@@ -37,7 +37,12 @@ from footfit.geometry.measures.landmarks import Shape
 from footfit.geometry.measures.measure_table import measure_named
 from footfit.geometry.numeric.arrays import Floats
 from footfit.pipeline.last_making.base_last import BaseLast, scanned_base
-from footfit.pipeline.last_making.custom.custom_aims import CustomQuestion, custom_aims, fit_in
+from footfit.pipeline.last_making.custom.custom_aims import (
+    ANYWHERE,
+    CustomQuestion,
+    custom_aims,
+    fit_in,
+)
 from footfit.pipeline.last_making.custom.custom_making import Making, customised
 from footfit.pipeline.last_making.custom.custom_reading import Carried, tape_plane
 from footfit.results import CustomLast, Profiled
@@ -298,7 +303,8 @@ def _moved_by_equal_targets(pair: Pair) -> float:
     from footfit.pipeline.last_making.custom.custom_field import custom_shape, first_field
 
     aims = tuple(
-        replace(aim, target=aim.base) for aim in custom_aims(pair.foot, pair.base, pair.question)
+        replace(aim, target=aim.base, good_mm=ANYWHERE)
+        for aim in custom_aims(pair.foot, pair.base, pair.question)
     )
     start = first_field(chart_of(pair.base.shape), 0.0, bottom_kept=False)
     carried = Carried(pair.base.shape, pair.base)

@@ -39,6 +39,8 @@ class ChartSettings:
     low : float
         From the bottom's highest edge on, heights come to their full change over this share of the
         section's height.
+    low_widths : float
+        The same for widths, if the bottom keeps its outline.
     gentle : bool
         Whether the slope of that change rises smoothly and then stays. It never overshoots; else
         the change itself rises, and its slope is steepest half-way.
@@ -63,6 +65,7 @@ class ChartSettings:
     wall: float = 0.13
     faces_down: float = 0.5
     low: float = 0.35
+    low_widths: float = 0.6
     gentle: bool = True
     thin: float = 0.02
     deep: float = 1.0
@@ -113,7 +116,7 @@ class Places:
     across_mm, over_mm : (n,)
         From the middle line of the plan, and over the bottom's line.
     risen : (n,)
-        0 on the bottom, 1 where heights change in full.
+        0 on the bottom, 1 where widths change in full though the bottom keeps its outline.
     scaled_mm : (n,)
         The height that scales of heights change; 0 on the bottom.
     free : (n,)
@@ -186,7 +189,7 @@ class Chart:
         )
         ramp_mm = self.settings.low * height
         share_up = (over_mm - edge) / ramp_mm
-        risen = eased(share_up)
+        risen = eased((over_mm - edge) / (self.settings.low_widths * height))
         gentle = self.settings.gentle
         return Places(
             points_mm=points_mm,
@@ -194,7 +197,7 @@ class Chart:
             across_mm=y - middle,
             over_mm=over_mm,
             risen=risen,
-            scaled_mm=ramp_mm * eased_sum(share_up) if gentle else over_mm * risen,
+            scaled_mm=ramp_mm * eased_sum(share_up) if gentle else over_mm * eased(share_up),
             free=self._free(points_mm, share),
         )
 

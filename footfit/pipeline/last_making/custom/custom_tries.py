@@ -28,6 +28,7 @@ from footfit.pipeline.batch.sources import ReadingOptions, Source
 from footfit.pipeline.last_making.base_last import BaseLast
 from footfit.pipeline.last_making.custom.custom_aims import ANYWHERE, CustomAim
 from footfit.pipeline.last_making.custom.custom_field import (
+    CUSTOM,
     MANNER,
     CustomShape,
     Manner,
@@ -54,7 +55,8 @@ OUT_MM = 0.1
 BENT_DEG = 2.0, 4.0
 """A last that bends the surface by more is made otherwise, if that helps; the second one counts if
 the bottom keeps its outline."""
-FLATTER, SOFTER = Manner(heights=1.0), Manner(heights=0.8, softer=4.0)
+FLATTER, SLIMMER = Manner(heights=1.0), Manner(heights=0.25)
+SOFTER = Manner(heights=0.8, softer=4.0)
 TURN_DEG = 2.5
 """The flare is turned in steps of at most so much; each step begins where the last one ended."""
 
@@ -174,8 +176,8 @@ class Attempt:
 def attempt_at(given: Given, aims: Sequence[CustomAim], first: Attempt | None = None) -> Attempt:
     """The best try at a custom last with these aims; it begins where ``first`` ended.
 
-    If it would be refused, it is tried with less change of heights. If it bends the surface, zones
-    may be a little less good. At last they are left as they are.
+    If it would be refused, it is tried with less change of heights, or of widths. If it bends the
+    surface, zones may be a little less good. At last they are left as they are.
 
     Raises
     ------
@@ -183,13 +185,20 @@ def attempt_at(given: Given, aims: Sequence[CustomAim], first: Attempt | None = 
         A target is missed, or lies beyond the limits of stretch.
     """
     best = _best(given, aims, first, MANNER)
-    for manner in (SOFTER if best.bent_deg else FLATTER, Manner(zones=False)):
+    for manner in (_other_manner(best), Manner(zones=False)):
         if not any(best.worth[:3]):
             break
         with suppress(OutOfReach):
             best = min(best, _best(given, aims, None, manner), key=_worth)
     refuse_missed(best.aims, best.off_mm, best.shape, given.turn_deg)
     return best
+
+
+def _other_manner(attempt: Attempt) -> Manner:
+    """How to try again what is refused, or bends the surface."""
+    if attempt.bent_deg:
+        return SOFTER
+    return SLIMMER if attempt.shape.scales[0] > CUSTOM.wider else FLATTER
 
 
 def _best(
@@ -236,7 +245,8 @@ def _tried(
     start = first_field(given.chart, share * given.turn_deg, bottom_kept=given.bottom_kept)
     shape = custom_shape(given.base, aims, start, carried, knobs, manner)
     made = made_last(given.base, shape.vertices_mm, given.side, given.name)
-    before_mm, most_deg = given.base.shape.vertices_mm, BENT_DEG[given.bottom_kept]
+    before = given.base.shape
+    bent_deg = bend_deg(before.vertices_mm, shape.vertices_mm, before.faces)
     return Attempt(
         aims=shape.aims,
         shape=shape,
@@ -244,9 +254,7 @@ def _tried(
         off_mm=_off_mm(given, shape.aims, made),
         room_mm=np.zeros(len(aims)),
         out_mm=_out_mm(shape.aims, made),
-        bent_deg=max(
-            bend_deg(before_mm, shape.vertices_mm, given.base.shape.faces) - most_deg, 0.0
-        ),
+        bent_deg=max(bent_deg - BENT_DEG[given.bottom_kept], 0.0),
     )
 
 
