@@ -7,7 +7,7 @@ carried along. So each try begins where the last one ended, and carries what was
 from __future__ import annotations
 
 from collections.abc import Sequence
-from contextlib import nullcontext, suppress
+from contextlib import suppress
 from dataclasses import dataclass, replace
 from functools import cached_property
 
@@ -26,7 +26,7 @@ from footfit.geometry.search.pose_search import RoughPose
 from footfit.meshes.write import encoded_mesh
 from footfit.pipeline.batch.sources import ReadingOptions, Source
 from footfit.pipeline.last_making.base_last import BaseLast
-from footfit.pipeline.last_making.custom.custom_aims import ANYWHERE, CustomAim
+from footfit.pipeline.last_making.custom.custom_aims import ANYWHERE, HEEL_GIRTH, CustomAim
 from footfit.pipeline.last_making.custom.custom_field import (
     CUSTOM,
     MANNER,
@@ -49,7 +49,9 @@ from footfit.pipeline.scan.standing import stance_labels
 from footfit.results import LastLabels, PreparedScan, SideName
 
 SETTLED_MM = (0.15, 0.3, 0.3, 0.3, 0.3, 0.3)
-"""The finished last is made again if it reads so far from a target: by the tries before."""
+HELPS = 0.75
+"""The finished last is made again if it reads so far from a target: by the tries before. A try that
+leaves more than ``HELPS`` of the miss before is the last one."""
 OUT_MM = 0.1
 """Another try is made if a measure reads so far out of its range, which is .95 of the good one."""
 BENT_DEG = 2.0, 4.0
@@ -189,7 +191,7 @@ def attempt_at(given: Given, aims: Sequence[CustomAim], first: Attempt | None = 
         if not any(best.worth[:3]):
             break
         with suppress(OutOfReach):
-            best = min(best, _best(given, aims, None, manner), key=_worth)
+            best = min(best, _best(given, aims, best, manner), key=_worth)
     refuse_missed(best.aims, best.off_mm, best.shape, given.turn_deg)
     return best
 
@@ -204,8 +206,11 @@ def _other_manner(attempt: Attempt) -> Manner:
 def _best(
     given: Given, aims: Sequence[CustomAim], first: Attempt | None, manner: Manner
 ) -> Attempt:
-    """The best of some tries; each begins where the last one ended."""
-    knobs = first.shape.solved.knobs if first else ()
+    """The best of some tries; each begins where the last one ended.
+
+    In another manner than the usual one it begins at the base, which lies as ``first`` does.
+    """
+    knobs = first.shape.solved.knobs if first and manner == MANNER else ()
     carried = first.made.carried(given, first.shape.vertices_mm) if first else given.carried
     steps = 1 if first else max(1, int(np.ceil(abs(given.turn_deg) / TURN_DEG)))
     for step in range(1, steps):
@@ -214,18 +219,19 @@ def _best(
         knobs, aims = turned.shape.solved.knobs, turned.aims
     tries: list[Attempt] = []
     for settled_mm in SETTLED_MM:
-        with suppress(FootfitError) if tries else nullcontext():
+        try:
             tried = _tried(given, aims, 1.0, carried, knobs, manner)
-            carried = tried.made.carried(given, tried.shape.vertices_mm)
-            knobs, aims = tried.shape.solved.knobs, tried.aims
-            tries.append(tried)
-        refused, _, _, out_mm, off_mm = tries[-1].worth
-        if not refused and off_mm <= settled_mm and (not out_mm or len(tries) > 1):
+        except FootfitError:
+            if not tries:
+                raise
             break
-        if all(limit_words(each.shape) for each in tries[-2:]) and len(tries) > 1:
-            break
-        if len(tries) > 2 and _worth(min(tries[:-2], key=_worth)) <= min(map(_worth, tries[-2:])):
-            break  # two more tries did not help
+        carried = tried.made.carried(given, tried.shape.vertices_mm)
+        knobs, aims = tried.shape.solved.knobs, tried.aims
+        tries.append(tried)
+        _, _, _, out_mm, off_mm = tried.worth
+        met = off_mm <= settled_mm and (not out_mm or len(tries) > 1)
+        if met or (len(tries) > 1 and off_mm > HELPS * tries[-2].worth[-1]):
+            break  # a limit of stretch that is passed with all targets met stays passed
     return min(tries, key=_worth)
 
 
@@ -268,8 +274,10 @@ def _off_mm(given: Given, aims: Sequence[CustomAim], made: MadeLast) -> Floats:
 
 
 def _out_mm(aims: Sequence[CustomAim], made: MadeLast) -> float:
-    """How far the worst measure of a finished last reads out of its good range."""
-    ranged = [aim for aim in aims if aim.good_mm != ANYWHERE]
+    """How far the worst measure of a finished last reads out of its good range; without the heel's
+    girth, which the kept parts nearly set.
+    """
+    ranged = [aim for aim in aims if aim.good_mm != ANYWHERE and aim.measure != HEEL_GIRTH]
     values = np.array([made.value_mm(aim.measure) for aim in ranged])
     low, high = np.array([aim.good_mm for aim in ranged]).reshape(-1, 2).T
     return float(np.nan_to_num(np.maximum(low - values, values - high)).max(initial=0.0))
