@@ -145,9 +145,9 @@ def _pulled(
     return replace(aim, target=aim.base + more_mm, firm=False, good_mm=good_mm)
 
 
-def good_range(target_mm: float, rule: ZoneRule) -> tuple[float, float]:
-    """Where a measure should stay whose zone asks for ``target_mm``."""
-    low, high = (target_mm + RANGE * (end - rule.target) for end in rule.good)
+def good_range(target_mm: float, rule: ZoneRule, share: float = RANGE) -> tuple[float, float]:
+    """Where a measure should stay whose zone asks for ``target_mm``: a share of its good range."""
+    low, high = (target_mm + share * (end - rule.target) for end in rule.good)
     return low, high
 
 

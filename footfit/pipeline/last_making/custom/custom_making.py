@@ -14,7 +14,6 @@ from footfit.geometry.deform.field import Field
 from footfit.geometry.measures.landmarks import Shape
 from footfit.geometry.mesh.surface import face_normals, vertex_normals
 from footfit.geometry.numeric.arrays import Floats, row_dots
-from footfit.pipeline.fit.zones import TOE_BOX
 from footfit.pipeline.last_making.base_last import BaseLast
 from footfit.pipeline.last_making.custom.custom_aims import (
     FOLLOWING,
@@ -37,7 +36,9 @@ from footfit.pipeline.last_making.custom.custom_tries import (
     with_bumps,
 )
 from footfit.pipeline.last_making.custom.good_zones import (
+    nearer_length,
     not_good,
+    toe_faults,
     with_reasons,
     zone_notices,
 )
@@ -92,15 +93,14 @@ def customised(
 
     attempt = attempt_at(given, aims)
     made, notices, lost = answer(attempt), [], set[str]()
-    verdicts = {zone.name: (zone.base_verdict, zone.custom_verdict) for zone in made.judged}
-    worse = [z for z in TOE_BOX & set(verdicts) if verdicts[z][0] == "good" != verdicts[z][1]]
-    if worse and verdicts[LENGTH][0] == "good":
-        # The toe box moves with the length. The base's toe room is good too, so it is kept.
-        same = (replace(a, target=a.base) if a.measure == LENGTH else a for a in attempt.aims)
-        attempt = attempt_at(given, tuple(same), attempt)
-        made = answer(attempt)
-        words = "the toe room stays as it is in the base: at the profile's target the toe box"
-        notices = [results.Notice("toe_room_kept", f"{words} would fit worse")]
+    nearer = nearer_length(attempt.aims, made.judged, question)
+    if nearer is not None:
+        other = attempt_at(given, nearer, attempt)
+        mended = answer(other)
+        if toe_faults(mended.judged) < toe_faults(made.judged):
+            attempt, made = other, mended
+            words = "the toe room stays near that of the base: at the profile's target the toe box"
+            notices = [results.Notice("toe_room_kept", f"{words} would fit worse")]
     if making.rooms_mm:  # room is given on top of the targets, which are met without it
         lying_mm = attempt.made.lying(attempt.shape.vertices_mm)
         bumps = room_bumps(base.shape, chart, making.rooms_mm, lying_mm)

@@ -6,13 +6,19 @@ from collections.abc import Collection, Sequence
 from dataclasses import replace
 
 from footfit.number_words import signed
+from footfit.pipeline.fit.zones import TOE_BOX
 from footfit.pipeline.last_making.custom.custom_aims import (
+    LENGTH,
     MOST_BALL_MM,
     CustomAim,
     CustomQuestion,
+    good_range,
 )
-from footfit.results import JudgedZone, Notice
+from footfit.results import JudgedZone, Notice, Verdict
 
+GOOD_ROOM = 0.9
+"""A toe room that is next to the base's stays within so much of its good range."""
+VERDICTS: tuple[Verdict, ...] = ("good", "acceptable", "poor", "reject")
 WHY = {
     "length": "the toe room is kept, because a longer or shorter toe box would fit worse",
     "ball_line": f"the ball moves by at most {MOST_BALL_MM:g} mm",
@@ -30,6 +36,41 @@ WHY = {
 def not_good(judged: Sequence[JudgedZone]) -> list[JudgedZone]:
     """The zones of a custom last that are judged, and are not good."""
     return [zone for zone in judged if zone.custom_verdict not in (None, "good")]
+
+
+def toe_faults(judged: Sequence[JudgedZone]) -> int:
+    """How bad the zones of the toe box are together: 1 for each that is acceptable, 2 for poor."""
+    return sum(
+        VERDICTS.index(zone.custom_verdict)
+        for zone in judged
+        if zone.name in TOE_BOX and zone.custom_verdict is not None
+    )
+
+
+def nearer_length(
+    aims: Sequence[CustomAim], judged: Sequence[JudgedZone], question: CustomQuestion
+) -> tuple[CustomAim, ...] | None:
+    """The aims with a good toe room that is next to the base's, if the toe box needs that.
+
+    The toe box moves with the length. It needs it if one of its zones becomes worse: poor, or no
+    longer good though the base's toe room is good.
+    """
+    length = next(zone for zone in judged if zone.name == LENGTH)
+    kept = length.base_verdict == "good"
+    for zone in judged:
+        base, custom = zone.base_verdict, zone.custom_verdict
+        if zone.name not in TOE_BOX or base is None or custom is None:
+            continue
+        if VERDICTS.index(custom) > max(VERDICTS.index(base), 0 if kept else 1):
+            break
+    else:
+        return None
+    (rule,) = (rule for rule in question.profile.zones if rule.zone == LENGTH)
+    low, high = good_range(rule.target, rule, GOOD_ROOM)
+    if length.base is None:
+        return None
+    room_mm = min(max(length.base, low), high) - length.base
+    return tuple(replace(a, target=a.base + room_mm) if a.measure == LENGTH else a for a in aims)
 
 
 def with_reasons(
