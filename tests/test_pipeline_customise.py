@@ -29,7 +29,7 @@ from footfit.pipeline.last_making.custom.custom_aims import (
     good_range,
 )
 from footfit.pipeline.last_making.custom.custom_field import CustomShape, refuse_missed
-from footfit.pipeline.last_making.custom.good_zones import with_reasons, zone_notices
+from footfit.pipeline.last_making.custom.good_zones import nearer_length, with_reasons, zone_notices
 from footfit.report.page.custom_page import custom_page
 from footfit.report.terminal.custom_tables import custom_table
 from footfit.report.terminal.scan_tables import terminal_text
@@ -239,6 +239,26 @@ def test_the_upright_girth_of_the_instep_is_good_too() -> None:
     assert -1.8 <= moved.allowance < 2.0
     assert abs(moved.reached - moved.target) < CLOSE_MM
     assert any(notice.code == "target_moved" for notice in made.warnings)
+
+
+def test_the_toe_room_stays_near_the_base_if_the_toe_box_needs_it() -> None:
+    """Walking: a toe room is good from 10 to 20 mm, and .9 of that is 10.4 to 19.4 mm."""
+    asked = CustomQuestion(fit_profile("walking"), heel_question(), BAREFOOT)
+    aims = (CustomAim("length", "length", 270.0, 258.0),)
+
+    def room_mm(base_mm: float, base: str, toes: tuple[str, str]) -> float | None:
+        zones = [
+            JudgedZone("length", "toe room", "mm", 14.0, base_mm, base, 14.0, "good"),
+            JudgedZone("toes", "toes", "mm", -1.0, -5.0, toes[0], -7.5, toes[1]),
+        ]
+        nearer = nearer_length(aims, zones, asked)
+        return None if nearer is None else base_mm + nearer[0].target - 270.0
+
+    assert room_mm(26.0, "acceptable", ("acceptable", "poor")) == pytest.approx(19.4)
+    assert room_mm(26.0, "acceptable", ("good", "acceptable")) is None
+    assert room_mm(16.0, "good", ("good", "acceptable")) == pytest.approx(16.0)
+    assert room_mm(19.9, "good", ("acceptable", "poor")) == pytest.approx(19.4)
+    assert room_mm(16.0, "good", ("poor", "poor")) is None
 
 
 def test_the_ball_line_of_a_customer_stays_good() -> None:
