@@ -62,6 +62,26 @@ def combined(name: str, cues: Iterable[Cue]) -> Cue:
     return Cue(name, grounds @ weights / weights.sum(), float(weights.sum() ** -0.5))
 
 
+def doubted(name: str, cues: Iterable[Cue]) -> Cue:
+    """The mean of some cues, less sure if they contradict each other.
+
+    The standard deviation grows by half of Birge's ratio, sqrt(chi^2 / (n - 1)), if that is more
+    than 1: cues within some two standard deviations of each other are usual.
+
+    Examples
+    --------
+    >>> round(doubted("shape", [Cue("tread", 0.1, 0.01), Cue("seat", 0.12, 0.01)]).sd, 4)
+    0.0071
+    >>> round(doubted("shape", [Cue("tread", 0.1, 0.01), Cue("seat", 0.2, 0.01)]).sd, 4)
+    0.025
+    """
+    cues = tuple(cues)
+    mean = combined(name, cues)
+    chi_squared = sum(((cue.ground - mean.ground) / cue.sd) ** 2 for cue in cues)
+    ratio = float(np.sqrt(chi_squared / max(len(cues) - 1, 1)))
+    return Cue(name, mean.ground, mean.sd * max(1.0, 0.5 * ratio))
+
+
 def agreed(name: str, cues: Iterable[Cue]) -> Cue:
     """The mean of some cues, with a standard deviation that covers how far they are apart.
 

@@ -2,7 +2,7 @@
 
 Heel height and toe spring trade one against the other, and a last has no mark of how it stands.
 Two cues are read from its bottom: a model of all of it (:mod:`footfit.geometry.stance.tread_fit`),
-and the mean slope near the tread's usual place.
+and the mean slope near the place where that model has the tread.
 """
 
 from __future__ import annotations
@@ -36,11 +36,11 @@ class GroundSettings:
         cost is below ``low_cost``, and the toe springs by less than ``low_spring`` of the length.
         A wrong fit has the toe rise far from the ground, because its ground is too low.
     starts_deg : tuple of float
-        Else the grounds that more fits begin from; the least cost wins.
-    most_spring, most_uneven_deg, doubt : float
-        If the toe of the winner springs by more than this share of the length, or its tread is less
-        level than this, the best fit without such a fault wins instead, up to so many times the
-        winner's cost.
+        Else the grounds that more fits begin from. The least cost wins.
+    seat : tuple of float
+        Where the seat lies along the ground, over the length.
+    seat_back_deg : float
+        No seat falls backwards by more than this.
     range_deg : tuple of float
         A ground outside of this range is no ground.
     rounds, damping, settled_deg
@@ -54,7 +54,8 @@ class GroundSettings:
         The same of the slope whose change tells what bends. It is wider, because noise of 0.3 mm
         moved the weights, and so the heel, by up to 5 mm.
     near_reach : float
-        Standard deviation of the weights about the tread's place, over the length.
+        Standard deviation of the weights about the place where the fit has the tread, over the
+        length.
     near_bend : float
         Curvature times length at which the weight has fallen to .61: what bends is no tread.
     near_sd_deg : float
@@ -63,19 +64,15 @@ class GroundSettings:
     near_level_deg : float
         If the slopes near the tread spread by more than this, it is not level, and the spread is
         all added to the standard deviation; if by less, that share of it.
-    fit_doubt : float
-        The fit's standard deviation counts this many times: on two families of lasts its error
-        was two to five times that of the near slope.
     """
 
     first_deg: float = 9.0
     low_deg: float = 17.0
     low_cost: float = 25.0
-    low_spring: float = 0.06
+    low_spring: float = 0.04
     starts_deg: tuple[float, ...] = (1.0, 17.0, 25.0, 33.0, 41.0, 49.0)
-    most_spring: float = 0.09
-    most_uneven_deg: float = 10.0
-    doubt: float = 6.0
+    seat: tuple[float, float] = (0.06, 0.14)
+    seat_back_deg: float = 4.0
     range_deg: tuple[float, float] = (-1.5, 60.0)
     rounds: int = 10
     damping: float = 0.8
@@ -89,12 +86,11 @@ class GroundSettings:
     near_bend: float = 0.8
     near_sd_deg: float = 0.5
     near_level_deg: float = 2.5
-    fit_doubt: float = 4.0
     level_break_deg: float = 4.0
     level_behind: float = 0.12
     level_reach: float = 0.05
     level_deg: float = 1.0
-    level_doubt: float = 9.0
+    level_doubt: float = 10.0
     level_least_deg: float = 0.25
 
 
@@ -131,11 +127,14 @@ def bottom_cues(
     if rough is None or line is None or bottom is None:
         return None
     fit = _fit(lambda _: bottom, rough.ground, rough.parameters, settings)
-    near = None if fit is None else _near_slope(line, fit.ground, settings)
-    if fit is None or near is None:
+    if fit is None:
+        return None
+    place = float(np.interp(fit.parameters[3], bottom.arc, bottom.places(fit.ground)))
+    near = _near_slope(line, fit.ground, place, settings)
+    if near is None:
         return None
     tread, level_sd = near
-    whole = Cue("bottom", fit.ground, settings.fit_doubt * fit.ground_sd)
+    whole = Cue("bottom", fit.ground, fit.ground_sd)
     return BottomCues(tread, whole, line, level_sd)
 
 
@@ -157,6 +156,14 @@ class _Trials:
         return self._cut[number]
 
 
+    def least_ground(self) -> float:
+        """The lowest ground by all lines so far, and a little more: a fit that lies on it is where
+        the search was stopped, and no fit.
+        """
+        seats = (_least_ground(cut.line, self.settings) for cut in self._cut.values() if cut)
+        return max(seats, default=-np.inf) + float(np.radians(self.settings.settled_deg))
+
+
 def _bottom(line: MiddleLine | None) -> SlopedLine | None:
     """A middle line as the model is fitted to it."""
     return None if line is None else sloped(line, model_arc(), TREAD_FIT.bandwidth)
@@ -172,26 +179,16 @@ def _rough_fit(trials: _Trials, settings: GroundSettings) -> TreadFit | None:
     fits = [fit, *(_fit(trials.near, start, start, settings) for start in starts)]
     least, most = np.radians(settings.range_deg)
     possible = [each for each in fits if each is not None and least < each.ground < most]
-    possible.sort(key=lambda each: each.cost)
-    near = (each for each in possible if each.cost < settings.doubt * possible[0].cost)
-    sound = (each for each in near if _is_sound(each, trials, settings))
-    return next(sound, possible[0] if possible else None)
+    standing = [each for each in possible if each.ground > trials.least_ground()]
+    return min(standing or possible, key=lambda each: each.cost, default=None)
 
 
 def _is_low(fit: TreadFit, trials: _Trials, settings: GroundSettings) -> bool:
     """Whether a fit is that of a low heel, with a toe that springs as toes do."""
     lowest = np.radians(settings.range_deg[0])
+    lowest = max(lowest, trials.least_ground())
     low = lowest < fit.ground < np.radians(settings.low_deg) and fit.cost < settings.low_cost
     return low and _spring(fit, trials) < settings.low_spring
-
-
-def _is_sound(fit: TreadFit, trials: _Trials, settings: GroundSettings) -> bool:
-    """Whether the toe of a fit springs as toes do, and its tread is about level."""
-    bottom = trials.near(fit.ground)
-    if bottom is None or _spring(fit, trials) > settings.most_spring:
-        return False
-    tread = _near_slope(bottom.line, fit.ground, settings)
-    return tread is not None and tread[0].sd < np.radians(settings.most_uneven_deg)
 
 
 def _spring(fit: TreadFit, trials: _Trials) -> float:
@@ -217,7 +214,7 @@ def _fit(
         bottom = bottom_at(ground)
         if bottom is None:
             return None
-        fit = fitted_tread(bottom, ground, start)
+        fit = fitted_tread(bottom, ground, start, _least_ground(bottom.line, settings))
         start = fit.parameters
         off = fit.ground - ground
         ground += settings.damping * off
@@ -226,10 +223,24 @@ def _fit(
     return fit
 
 
+def _least_ground(line: MiddleLine, settings: GroundSettings) -> float:
+    """The lowest ground on which the seat does not fall backwards, radians.
+
+    A line that is cut for a ground far too low has a steeper seat, and so a lower bound.
+    """
+    x, z = line.points_mm.T
+    place = (x - line.ends_mm[0]) / line.length_mm
+    seat = (place > settings.seat[0]) & (place < settings.seat[1])
+    if seat.sum() < 3:
+        return -np.inf
+    rise = np.arctan(np.polyfit(x[seat], z[seat], 1)[0]) + line.ground
+    return float(rise - np.radians(settings.seat_back_deg))
+
+
 def _near_slope(
-    line: MiddleLine, ground: float, settings: GroundSettings
+    line: MiddleLine, ground: float, place: float, settings: GroundSettings
 ) -> tuple[Cue, float] | None:
-    """The mean slope near the tread's usual place, and how sure the tread's level is."""
+    """The mean slope near a tread's place, and how sure the tread's level is."""
     arc = np.linspace(*settings.near_window, settings.near_samples)
     bottom = sloped(line, arc, settings.near_bandwidth)
     if bottom is None:
@@ -238,7 +249,7 @@ def _near_slope(
     if smooth is None:
         return None
     bend = np.gradient(smooth.slope, arc)
-    off = bottom.places(ground) - TREAD_FIT.tread[0]
+    off = bottom.places(ground) - place
     weight = np.exp(-0.5 * ((off / settings.near_reach) ** 2 + (bend / settings.near_bend) ** 2))
     weight /= weight.sum()
     mean = float(weight @ bottom.slope)
@@ -254,7 +265,7 @@ def _level_sd(off: Floats, slope: Floats, settings: GroundSettings) -> float:
     Parameters
     ----------
     off : (k,)
-        Places along the bottom, from the tread's usual one, over the length.
+        Places along the bottom, from the tread's, over the length.
     slope : (k,)
         From the ground, radians.
     """

@@ -13,7 +13,7 @@ import numpy as np
 
 from footfit.geometry.numeric.arrays import Floats, Ints
 from footfit.geometry.numeric.smoothing import local_quadratic
-from footfit.geometry.stance.cues import NO_LABELS, Cue, StanceLabels, agreed, combined
+from footfit.geometry.stance.cues import NO_LABELS, Cue, StanceLabels, agreed, combined, doubted
 from footfit.geometry.stance.ground import BottomCues, bottom_cues
 from footfit.geometry.stance.middle_line import MiddleLine, low_points, middle_line, turned
 
@@ -35,6 +35,9 @@ class StanceSettings:
         seats to the pitch that wearers like best.
     pitch_sd_deg : float
         The spread of the seat's pitch under a last without a heel.
+    usual_sd_deg, doubt : float
+        The level of a tread is unsure by this many times what the standard deviation of its cues
+        is more than the usual one.
     heel_sd_mm, spring_sd_mm : float
         How far a label may be from the true heel and toe spring.
     rounds, settled_mm, recut_deg
@@ -50,6 +53,8 @@ class StanceSettings:
     pitch: float = 0.78
     pitch_spread: float = 0.48
     pitch_sd_deg: float = 2.0
+    usual_sd_deg: float = 0.5
+    doubt: float = 1.5
     heel_sd_mm: float = 1.5
     spring_sd_mm: float = 1.0
     rounds: int = 8
@@ -227,7 +232,8 @@ def stance_of(
     cues = _shape_cues(last, bottom)
     said = _label_cues(last, labels, cues[-1].ground)
     if not said:
-        return replace(last.on(cues[-1], "shape", cues), level_sd=bottom.level_sd)
+        level_sd = _level_sd(bottom.level_sd, cues[-1].sd, last.settings)
+        return replace(last.on(cues[-1], "shape", cues), level_sd=level_sd)
     label = agreed("label", said)
     cues = (*cues, *(said if len(said) > 1 else ()), label)
     return replace(last.on(label, "label", cues), level_sd=label.sd)
@@ -274,7 +280,13 @@ def _shape_cues(last: _StandingLast, bottom: BottomCues) -> tuple[Cue, ...]:
     cues: tuple[Cue, ...] = (bottom.tread, bottom.bottom)
     seat = _seat_cue(last.on(combined("shape", cues)), last.settings)
     cues = cues if seat is None else (*cues, seat)
-    return (*cues, combined("shape", cues))
+    return (*cues, doubted("shape", cues))
+
+
+def _level_sd(of_tread: float, of_shape: float, settings: StanceSettings) -> float:
+    """How sure the level of a tread is, with what the cues leave open beyond the usual, radians."""
+    usual = np.radians(settings.usual_sd_deg)
+    return float(np.hypot(of_tread, settings.doubt * np.sqrt(max(of_shape**2 - usual**2, 0.0))))
 
 
 def _seat_cue(stance: Stance, settings: StanceSettings) -> Cue | None:

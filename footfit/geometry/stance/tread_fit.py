@@ -40,6 +40,11 @@ class TreadFitSettings:
         The tread's place along the ground, and its standard deviation among lasts.
     turn, power, fall : tuple of float
         The usual value and its spread: a factor's logarithm for ``turn`` and ``fall``.
+    tip : float
+        Where the toe spring is judged.
+    toe : tuple of float
+        How high toes spring there at most, over the length, and the spread of those that spring
+        higher. A ground that is too low has the toe far over it.
     least, most : tuple of float
         Bounds of (ground, fall, turn, tread, spring, power).
     scale : tuple of float
@@ -51,11 +56,13 @@ class TreadFitSettings:
     bandwidth: float = 0.012
     height_sd: float = 0.0012
     slope_sd: float = 0.06
-    tread: tuple[float, float] = (0.68, 0.01)
-    turn: tuple[float, float] = (0.17, 0.25)
+    tread: tuple[float, float] = (0.68, 0.02)
+    turn: tuple[float, float] = (0.17, 0.5)
     power: tuple[float, float] = (1.2, 0.2)
     fall: tuple[float, float] = (0.4, 1.5)
-    least: tuple[float, ...] = (-0.03, 0.01, 0.03, 0.5, 0.0, 0.5)
+    tip: float = 0.94
+    toe: tuple[float, float] = (0.02, 0.02)
+    least: tuple[float, ...] = (-0.026, 0.01, 0.03, 0.5, 0.0, 0.5)
     most: tuple[float, ...] = (1.2, 2.0, 0.5, 0.9, 30.0, 3.0)
     scale: tuple[float, ...] = (0.05, 0.2, 0.1, 0.03, 1.0, 0.3)
     rounds: int = 25
@@ -128,7 +135,11 @@ def model_arc(settings: TreadFitSettings = TREAD_FIT) -> Floats:
 
 
 def fitted_tread(
-    line: SlopedLine, ground: float, start: Floats | float, settings: TreadFitSettings = TREAD_FIT
+    line: SlopedLine,
+    ground: float,
+    start: Floats | float,
+    least_ground: float = -np.inf,
+    settings: TreadFitSettings = TREAD_FIT,
 ) -> TreadFit:
     """The model that fits a line best, by damped Gauss-Newton steps.
 
@@ -140,10 +151,13 @@ def fitted_tread(
         The ground along which the tread's place is counted, radians.
     start : (6,) or float
         The parameters to begin with, or the ground's angle alone.
+    least_ground : float
+        The ground is not sought below this angle, radians.
     """
     least, most, scale = (
         np.array(value) for value in (settings.least, settings.most, settings.scale)
     )
+    least[0] = max(least[0], least_ground)
     begin = np.array(start)
     if begin.ndim == 0:
         fall = max(float(begin) - float(line.slope.min()), _LEAST_FALL)
@@ -186,19 +200,23 @@ def _residuals(
     height_change -= height_change.mean(axis=1, keepdims=True)
     share = np.sqrt(_CORRELATED / len(off))
     place, place_change = _place_at(parameters[3], line.arc, places)
+    toe, toe_change = _toe(parameters[3:], settings.tip)
     prior = np.array(
         [
             (place - settings.tread[0]) / settings.tread[1],
             np.log(parameters[2] / settings.turn[0]) / settings.turn[1],
             (parameters[5] - settings.power[0]) / settings.power[1],
             np.log(parameters[1] / settings.fall[0]) / settings.fall[1],
+            max(toe - settings.toe[0], 0.0) / settings.toe[1],
         ]
     )
-    prior_change = np.zeros((4, 6))
+    prior_change = np.zeros((5, 6))
     prior_change[0, 3] = place_change / settings.tread[1]
     prior_change[1, 2] = 1.0 / (parameters[2] * settings.turn[1])
     prior_change[2, 5] = 1.0 / settings.power[1]
     prior_change[3, 1] = 1.0 / (parameters[1] * settings.fall[1])
+    if toe > settings.toe[0]:
+        prior_change[4, 3:] = toe_change / settings.toe[1]
     weights = share / settings.height_sd, share / settings.slope_sd
     return (
         np.concatenate([height * weights[0], off * weights[1], prior]),
@@ -211,6 +229,16 @@ def _place_at(at: float, arc: Floats, places: Floats) -> tuple[float, float]:
     step = float(arc[1] - arc[0])
     before, place, after = np.interp([at - step, at, at + step], arc, places)
     return float(place), float((after - before) / (2 * step))
+
+
+def _toe(parameters: Floats, tip: float) -> tuple[float, Floats]:
+    """How high the toe springs at a place by (tread, spring, power), and the derivatives (3,)."""
+    tread, spring, power = parameters
+    ahead = max(tip - tread, 1e-9)
+    rise = spring * ahead**power
+    toe = rise * ahead / (power + 1.0)
+    by_power = toe * (np.log(ahead) - 1.0 / (power + 1.0))
+    return float(toe), np.array([-rise, ahead ** (power + 1.0) / (power + 1.0), by_power])
 
 
 @lru_cache(maxsize=4)
