@@ -40,7 +40,7 @@ NO_LABELS = StanceLabels()
 class Cue:
     """A ground by one cue and its standard deviation, both in radians.
 
-    ``name`` is "tread" (the slope of the bottom near the tread's usual place), "bottom" (a model of
+    ``name`` is "tread" (the slope of the bottom near its tread), "bottom" (a model of
     shank, tread and toe spring), "seat" (the pitch that seats have under such heels), "shape" (all
     three) or "label"; of two labels "heel_label" and "spring_label" too.
     """

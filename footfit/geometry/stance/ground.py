@@ -155,7 +155,6 @@ class _Trials:
             self._cut[number] = _bottom(middle_line(self.vertices_mm, self.faces, number * step))
         return self._cut[number]
 
-
     def least_ground(self) -> float:
         """The lowest ground by all lines so far, and a little more: a fit that lies on it is where
         the search was stopped, and no fit.
