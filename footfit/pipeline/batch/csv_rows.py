@@ -267,10 +267,12 @@ def _checked_names(
     """
     names = [plain_name(cell) for cell in cells]
     known = f"the columns are {', '.join(columns)}"
+    meant: list[str] = []
     for place, (name, cell) in enumerate(zip(names, cells, strict=True)):
         with faults.collecting():
             if name and name not in columns:
                 close = get_close_matches(name, columns, n=1)
+                meant += close
                 hint = f"did you mean {close[0]!r}? " if close else ""
                 raise BadManifest(f"unknown column {cell.strip()!r}; {hint}{known}", origin)
             if name and name in names[:place]:
@@ -278,7 +280,8 @@ def _checked_names(
     missing = [name for name in required if name not in names]
     for name in missing:
         with faults.collecting():
-            raise BadManifest(f"no column {name!r}; {known}", origin)
+            if name not in meant:
+                raise BadManifest(f"no column {name!r}; {known}", origin)
     if missing:
         faults.refuse(origin)
     return names

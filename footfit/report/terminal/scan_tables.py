@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import io
 from collections.abc import Sequence
+from typing import Literal
 
 from rich import box
 from rich.console import Console, Group, RenderableType
@@ -66,11 +67,14 @@ def facts(*rows: tuple[str, str | Text], title: str | None = None) -> Renderable
 
 
 def lined_table(*columns: str, right: frozenset[str] = frozenset()) -> Table:
-    """An empty table with a line under its head; the columns of ``right`` hold numbers."""
+    """An empty table with a line under its head; the columns of ``right`` hold numbers. The name of
+    a zone stays on one line.
+    """
     table = Table(box=box.SIMPLE_HEAD, pad_edge=False, padding=(0, 1, 0, 0), header_style="bold")
     for column in columns:
-        number = column in right
-        table.add_column(column, justify="right" if number else "left", overflow="fold")
+        number, whole = column in right, column == "zone"
+        align: Literal["left", "right"] = "right" if number else "left"
+        table.add_column(column, justify=align, overflow="fold", no_wrap=whole)
     return table
 
 
