@@ -17,7 +17,8 @@ from footfit.cli.outputs import (
     write_output,
     write_outputs,
 )
-from footfit.errors import BadOption, OutputExists
+from footfit.errors import BadOption, NameTaken, OutputExists
+from footfit.results import Library
 from footfit.whole_files import give_name, partial_beside
 from tests.conftest import Footfit
 
@@ -200,3 +201,59 @@ def test_the_longest_name_that_a_folder_takes_is_written(sign: str, tmp_path: Pa
     with pytest.raises(BadOption, match="too long"):
         write_output(path.with_name(path.name + "xx"), "third", force=False)
     assert list(tmp_path.iterdir()) == [path]
+
+
+def test_what_goes_with_files_is_done_with_all_of_them_or_not_at_all(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    path, stored = tmp_path / "last.stl", []
+
+    def refused() -> None:
+        raise NameTaken("the same mesh is in the catalogue")
+
+    with pytest.raises(NameTaken):
+        write_outputs({path: b"a"}, force=False, then=refused)
+    assert list(tmp_path.iterdir()) == []
+
+    def full(_descriptor: int) -> None:
+        raise OSError(errno.ENOSPC, "No space left on device")
+
+    monkeypatch.setattr(os, "fsync", full)
+    with pytest.raises(BadOption, match="cannot be written"):
+        write_outputs({path: b"a"}, force=False, then=lambda: stored.append(1))
+    assert (stored, list(tmp_path.iterdir())) == ([], [])
+
+
+def test_a_csv_is_written_with_the_other_files_or_not_at_all(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    page = OutputFile(tmp_path / "page.html", (), lambda _result, _kind: "page")
+    outputs = Outputs((page,), table=Library, csv=tmp_path / "table.csv")
+    monkeypatch.setattr(Outputs, "csv_text", lambda *_: "a,b")
+    assert len(outputs.write("result", with_csv=True)) == 2
+    (tmp_path / "page.html").unlink()
+    with pytest.raises(OutputExists):
+        outputs.write("result", with_csv=True)
+    assert not (tmp_path / "page.html").exists()
+
+
+@pytest.mark.parametrize(
+    "command",
+    [
+        ("customise", "foot.stl", "-o", "x.stl", "--html", "./x.stl"),
+        ("customise", "foot.stl", "-o", "x.stl", "--plot", "q.svg", "--html", "q.svg"),
+        ("compare-lasts", "a.stl", "b.stl", "--plot", "q.svg", "--html", "../{here}/q.svg"),
+        ("coverage", "feet.csv", "--html", "c.html", "--cache", "c.html"),
+        ("curvature", "foot.stl", "-o", "x.svg", "--plot", "x.svg"),
+        ("match", "foot.stl", "--html", "p.html", "--sheet", "p.html"),
+    ],
+)
+def test_no_command_writes_one_file_twice(
+    command: tuple[str, ...], footfit: Footfit, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    for name in ("foot.stl", "a.stl", "b.stl", "feet.csv"):
+        (tmp_path / name).write_text("not read")
+    run = footfit(*(part.format(here=tmp_path.name) for part in command))
+    assert (run.code, "is named for two outputs; name two files" in run.err) == (2, True), run.err
+    assert len(list(tmp_path.iterdir())) == 4

@@ -257,3 +257,34 @@ def test_a_file_of_a_result_is_of_a_known_kind(foot: Path) -> None:
 if __name__ == "__main__":
     with tempfile.TemporaryDirectory() as name, contextlib.chdir(fill_shop(Path(name))):
         PAGE.write_text(page_as_it_runs({}), encoding="utf-8")
+
+
+@pytest.mark.parametrize(
+    ("function", "given", "words"),
+    [
+        (footfit.customise, {"keep": True}, "did you mean 'keep_bottom'"),
+        (footfit.customise, {"profil": "dress"}, "did you mean 'profile'"),
+        (footfit.customise, {"room": {}}, "did you mean 'room_mm'"),
+        (footfit.measure, {"unit": "cm"}, "did you mean 'units'"),
+        (footfit.read, {"sides": "left"}, "has no keyword 'sides'"),
+        (footfit.Catalogue.match, {"profiles": "dress"}, "did you mean 'profile'"),
+        (footfit.Catalogue.edit_last, {"styles": "x"}, "did you mean 'style'"),
+        *(
+            (function, {"bogus": 1}, "has no keyword 'bogus'")
+            for function in (
+                *(footfit.grade, footfit.compare_lasts, footfit.draw_last, footfit.drawing),
+                *(footfit.match, footfit.flare, footfit.align, footfit.compare, footfit.coverage),
+                *(footfit.curvature, footfit.Catalogue.match_each, footfit.Catalogue.compare),
+                footfit.Catalogue.ingest,
+            )
+        ),
+    ],
+)
+def test_a_mistyped_keyword_is_refused(function, given, words) -> None:
+    with pytest.raises(TypeError, match=words):
+        function("a", "b", **given)
+
+
+def test_sizes_are_a_text() -> None:
+    with pytest.raises(errors.BadOption, match="the sizes are a text"):
+        footfit.grade("last.stl", [42, 43])  # type: ignore[arg-type]

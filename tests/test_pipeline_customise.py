@@ -341,6 +341,23 @@ def test_a_base_that_is_too_far_is_refused(footfit: Footfit, tmp_path) -> None:
     assert not output.exists()
 
 
+def test_a_base_is_refused_by_its_file_and_the_same_foot_is_not_taken_twice(
+    footfit: Footfit, tmp_path
+) -> None:
+    output = tmp_path / "custom.stl"
+    twice = footfit("customise", FOOT, FOOT, "-o", output)
+    assert (twice.code, "is given twice" in twice.err) == (2, True), twice.err
+    missing = footfit("customise", FOOT, "--base", "nothing.stl", "-o", output)
+    assert (missing.code, "no such file" in missing.err) == (3, True), missing.err
+    small = tmp_path / "small.stl"
+    small.write_bytes(encoded_mesh(*last_mesh(LastSpec(length_mm=225.0, rings=80)), "stl"))
+    refused = footfit("customise", FOOT, "--base", small, "-o", output, "--json")
+    error = json.loads(refused.last_error)
+    assert error["path"] == str(small)
+    assert re.search(r"must go from \S+ to \S+ mm, by \S+ mm, and at most", error["message"])
+    assert list(tmp_path.iterdir()) == [small]
+
+
 def test_a_last_in_place_of_a_foot_is_refused(footfit: Footfit, tmp_path) -> None:
     last, output = SAMPLES / "lasts" / "derby-40.stl", tmp_path / "custom.stl"
     run = footfit("customise", last, "--base", last, "-o", output, "--json")

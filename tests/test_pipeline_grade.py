@@ -211,6 +211,10 @@ def test_a_run_reaches_its_plan_and_is_stored_with_its_parentage(
     assert (record.labels.family, record.labels.parent) == ("derby", "derby-42")
     assert made is not None
     assert (made.made_by, made.rule, made.figures["sizes"]) == ("grade", "eu", 1.0)
+    other = (*command[:-1], tmp_path / "other", "--family", "other", "--store")
+    same = footfit(*other, "--catalogue", catalogue)
+    assert (same.code, "has the same mesh as 'derby-eu" in same.err) == (2, True), same.err
+    assert not (tmp_path / "other").exists()
     again = footfit(*command, "--catalogue", catalogue, "--store")
     assert again.code == 2
     assert "--force" in again.err

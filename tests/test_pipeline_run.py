@@ -65,6 +65,21 @@ def test_a_wrong_step_breaks_one_increment_and_no_last_is_wrong() -> None:
     assert checked.broken[0].words.endswith("9.0 mm, 5.0 mm expected, 4.0 mm too much")
 
 
+@pytest.mark.parametrize(
+    ("text", "words"),
+    [
+        ("girth=1,girth=2", "names girth twice"),
+        ("", "takes a text such as girth=2"),
+        (" , ", "takes a text such as"),
+        ("girth=100", "takes mm from 0 to 50"),
+        ({"girth": 1}, "takes a text such as girth=2"),
+    ],
+)
+def test_a_tolerance_is_refused_in_words(text: object, words: str) -> None:
+    with pytest.raises(BadOption, match=words):
+        tolerances(text)  # type: ignore[arg-type]
+
+
 def test_a_tolerance_decides_what_breaks() -> None:
     uneven = run(230.0, 235.0, 241.0, 246.0, 251.0)
     assert run_check(uneven, TOLERANCE_MM).broken == ()

@@ -20,6 +20,7 @@ from footfit.api.inputs import (
     Shape,
     growth_options,
     heel_options,
+    known_keywords,
     reading_options,
     stance_keywords,
     worn_options,
@@ -55,6 +56,7 @@ def open_catalogue(path: LocationName) -> Catalogue:
     return Catalogue(location_of(path))
 
 
+@known_keywords(MatchKeywords)
 def match(feet: Feet, catalogue: LocationName, **question: Unpack[MatchKeywords]) -> results.Match:
     """The lasts of a catalogue that fit one foot, or the two feet of one customer.
 
@@ -82,6 +84,7 @@ class Catalogue(CatalogueFile):
 
     # ------------------------------------------------------------ feet
 
+    @known_keywords(MatchKeywords)
     def match(self, feet: Feet, **question: Unpack[MatchKeywords]) -> results.Match:
         """The lasts that fit one foot, or the list of the two feet of one customer.
 
@@ -106,6 +109,7 @@ class Catalogue(CatalogueFile):
         shapes = pair_of_feet([aligned_shape(foot, question) for foot in given])
         return answered(shapes, self._choice(question), asked)
 
+    @known_keywords(MatchKeywords)
     def match_each(
         self,
         feet: Meshes | list[Customer],
@@ -132,6 +136,7 @@ class Catalogue(CatalogueFile):
             given = (one_pair if pair else alone)(sources(given))
         return matches(given, reading, library, asked, jobs=jobs)
 
+    @known_keywords(CompareKeywords)
     def compare(
         self, foot: Shape, last: str, **reading: Unpack[CompareKeywords]
     ) -> results.Comparison:
@@ -193,6 +198,7 @@ class Catalogue(CatalogueFile):
 
     # ------------------------------------------------------------ lasts
 
+    @known_keywords(IngestKeywords)
     def ingest(
         self,
         lasts: Meshes | None = None,
@@ -346,6 +352,7 @@ class Catalogue(CatalogueFile):
         with self._written() as catalogue:
             return catalogue.rename(name, new_name)
 
+    @known_keywords(LabelKeywords)
     def edit_last(self, name: str, **labels: Unpack[LabelKeywords]) -> results.EditOutcome:
         """Change labels of a last; raises UnknownLast, or BadOption for a value no last has."""
         from footfit.pipeline.library.edit import edit_last

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, Any, Unpack
 
 from footfit import results
@@ -12,11 +12,12 @@ from footfit.api.inputs import (
     Mesh,
     WornKeywords,
     heel_options,
+    known_keywords,
     source_of,
     worn_options,
 )
 from footfit.api.scans import profiled_shape
-from footfit.errors import BadOption, UnreadableFile
+from footfit.errors import BadOption, OutOfReach, UnreadableFile
 from footfit.locations import Location, LocationName, location_of
 from footfit.pipeline.batch.sources import ReadingOptions, is_no_path
 from footfit.results import SideName
@@ -44,6 +45,7 @@ class CustomKeywords(CompareKeywords, WornKeywords, total=False):
     name: str
 
 
+@known_keywords(CustomKeywords)
 def customise(
     feet: Feet,
     base: Mesh = AUTO,
@@ -93,7 +95,14 @@ def customise(
         lasts, rest = [first], shapes[1:]
     else:
         chosen, rest = _base(base, path), shapes
-    lasts += [base_choice.customised_from(foot, chosen, making, path) for foot in rest]
+    for foot in rest:
+        try:
+            lasts.append(base_choice.customised_from(foot, chosen, making, path))
+        except OutOfReach as error:
+            alignment = foot.aligned.alignment
+            which = f"for the {alignment.side.side} foot ({alignment.info.path or '-'})"
+            words = f"{which} {error.message}" if len(shapes) > 1 else error.message
+            raise OutOfReach(words, error.path) from error
     if both:
         other: SideName = "left" if lasts[0].side == "right" else "right"
         lasts.append(customised(shapes[0], chosen, making, other))
@@ -101,18 +110,23 @@ def customise(
 
 
 def store_custom(
-    custom: results.CustomLast, catalogue: LocationName, *, replace: bool = False
+    custom: results.CustomLast | Sequence[results.CustomLast],
+    catalogue: LocationName,
+    *,
+    replace: bool = False,
 ) -> None:
-    """Store a custom last in a catalogue, with its full mesh and how it was made.
+    """Store a custom last in a catalogue, or several, with their full meshes and how they were
+    made. Of several all are stored, or none.
 
     Raises
     ------
     CatalogueUnusable, NameTaken
         The catalogue cannot be written; it has another last of that name.
     """
-    from footfit.pipeline.last_making.custom.base_choice import store_custom_last
+    from footfit.pipeline.last_making.custom.base_choice import store_custom_lasts
 
-    store_custom_last(location_of(catalogue), custom, replaces=replace)
+    customs = [custom] if isinstance(custom, results.CustomLast) else custom
+    store_custom_lasts(location_of(catalogue), customs, replaces=replace)
 
 
 def _reading(asked: Mapping[str, Any]) -> dict[str, Any]:
@@ -154,9 +168,12 @@ def _base(base: Mesh, path: Location | None) -> BaseLast:
     """
     from footfit.pipeline.last_making.base_last import scanned_base, stored_base
     from footfit.pipeline.last_making.custom.base_choice import base_folders
+    from footfit.pipeline.library.named_lasts import names_a_last, stored_name
 
     if isinstance(base, str) and is_no_path(base):
         if path is None:
+            raise UnreadableFile("there is no such file: check the path", base)
+        if not names_a_last(base) and stored_name(path, base) is None:
             raise UnreadableFile("there is no such file: check the path", base)
         return stored_base(path, base, base_folders(path))
     return scanned_base(source_of(base, {}), ReadingOptions())

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Literal, Unpack
 
-from footfit.api.inputs import ReadingKeywords, Shape
+from footfit.api.inputs import ReadingKeywords, Shape, known_keywords
 from footfit.api.scans import aligned_shape
 from footfit.errors import BadOption
 
@@ -16,6 +16,7 @@ PaperChoice = Literal["a4", "a3", "letter", "roll"]
 """What a PDF is printed on; a roll is one sheet, as an SVG and a DXF are."""
 
 
+@known_keywords(ReadingKeywords)
 def drawing(shape: Shape, *, foot: bool = False, **reading: Unpack[ReadingKeywords]) -> Drawing:
     """The views of a last, or of a ``foot``, in true size: bottom, plan, side, sections.
 
@@ -59,6 +60,7 @@ def drawing_file(drawing: Drawing, kind: str = "pdf", paper: PaperChoice | None 
     return write(layout(drawing, PAPERS["roll"]))
 
 
+@known_keywords(ReadingKeywords)
 def draw_last(
     shape: Shape,
     kind: str = "pdf",

@@ -3,8 +3,19 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Mapping
-from typing import TYPE_CHECKING, Any, Literal, Protocol, TypedDict, Union, runtime_checkable
+from collections.abc import Callable, Mapping
+from functools import wraps
+from typing import (
+    TYPE_CHECKING,
+    Any,
+    Literal,
+    Protocol,
+    TypedDict,
+    TypeVar,
+    Union,
+    cast,
+    runtime_checkable,
+)
 
 from footfit.pipeline.batch.runs import Jobs
 from footfit.pipeline.batch.sources import ReadingOptions, Source
@@ -23,6 +34,9 @@ if TYPE_CHECKING:
 
     from footfit.meshes.exchange import Trimesh
 
+F = TypeVar("F", bound=Callable[..., Any])
+NEAR_KEYWORD = 0.45
+"""A known keyword that is so like a mistyped one is named; 1 is the same."""
 FilePath = str | os.PathLike[str]
 Mesh = Union[FilePath, bytes, tuple["ArrayLike", "ArrayLike"], "Trimesh", Scan, Source]
 """A file, its bytes, vertices (n, 3) with faces (m, 3), a trimesh mesh, a `read`, a source."""
@@ -175,6 +189,33 @@ class SurfaceMesh(Protocol):
 
     vertices: ArrayLike
     faces: ArrayLike
+
+
+def known_keywords(keywords: type) -> Callable[[F], F]:
+    """Let a function refuse keywords that neither it has nor the ``keywords`` that it unpacks.
+
+    Else Python would take a mistyped keyword, and nothing would come of it.
+    """
+
+    def guarded(function: F) -> F:
+        code = function.__code__
+        own = code.co_varnames[: code.co_argcount + code.co_kwonlyargcount]
+        optional: frozenset[str] = getattr(keywords, "__optional_keys__")  # noqa: B009
+        known = (*own, *sorted(optional))
+
+        @wraps(function)
+        def checked(*args: Any, **given: Any) -> Any:
+            for name in given.keys() - set(known):
+                from difflib import get_close_matches
+
+                near = get_close_matches(name, known, 1, NEAR_KEYWORD)
+                words = f"; did you mean {near[0]!r}?" if near else f": take {', '.join(known)}"
+                raise TypeError(f"{function.__name__}() has no keyword {name!r}{words}")
+            return function(*args, **given)
+
+        return cast("F", checked)
+
+    return guarded
 
 
 def source_of(mesh: Mesh, scale: Mapping[str, Any]) -> Source:

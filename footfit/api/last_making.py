@@ -12,6 +12,7 @@ from footfit.api.inputs import (
     GradeKeywords,
     ReadingKeywords,
     Shape,
+    known_keywords,
     reading_options,
     stance_keywords,
 )
@@ -26,6 +27,7 @@ if TYPE_CHECKING:
     from footfit.pipeline.graded_runs.grade_run import Grader
 
 
+@known_keywords(GradeKeywords)
 def grade(
     last: FilePath,
     sizes: str,
@@ -59,7 +61,11 @@ def grade(
     NotInCatalogue, InputError, GeometryRefused
         There is no such last; its file cannot be read.
     """
-    from footfit.pipeline.graded_runs.grade_store import require_storable_run, store_run
+    from footfit.pipeline.graded_runs.grade_store import (
+        require_storable_run,
+        storable_lasts,
+        store_run,
+    )
 
     grading = grader_of(last, sizes, catalogue=catalogue, **options)
     if not store:
@@ -68,9 +74,11 @@ def grade(
         raise BadOption("name the catalogue that the run is stored in")
     place = location_of(catalogue)
     require_storable_run(place, grading, replace_stored=replace)
-    return store_run(place, grading, grading.run(grading.lasts()), replace_stored=replace)
+    lasts = storable_lasts(place, grading.lasts())
+    return store_run(place, grading, grading.run(lasts), replace_stored=replace)
 
 
+@known_keywords(GradeKeywords)
 def grader_of(
     last: FilePath,
     sizes: str,
@@ -85,6 +93,8 @@ def grader_of(
     from footfit.pipeline.last_making.base_last import scanned_base, stored_base
     from footfit.pipeline.library.named_lasts import names_a_last
 
+    if not isinstance(sizes, str):
+        raise BadOption(f"the sizes are a text such as '38:46' or '39,40.5', not {sizes!r}")
     name = os.fspath(last)
     stands = stance_keywords(options)
     if not is_no_path(name):
@@ -172,6 +182,7 @@ def check_run(
     return run_check(lasts, tolerance_mm, stated, family)
 
 
+@known_keywords(ReadingKeywords)
 def compare_lasts(
     first: Shape,
     second: Shape,

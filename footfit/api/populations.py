@@ -16,6 +16,7 @@ from footfit.api.inputs import (
     ReadingKeywords,
     WornKeywords,
     heel_options,
+    known_keywords,
     reading_options,
     worn_options,
 )
@@ -53,6 +54,7 @@ class CoverageKeywords(ReadingKeywords, HeelKeywords, WornKeywords, total=False)
     cache: FilePath | None
 
 
+@known_keywords(CoverageKeywords)
 def coverage(feet: Meshes, catalogue: FilePath, **asked: Unpack[CoverageKeywords]) -> Coverage:
     """Whom the lasts of a catalogue serve: shares of feet, the gaps, and the lasts to make next.
 

@@ -16,6 +16,7 @@ from footfit.api.inputs import (
     ScaleKeywords,
     Shape,
     heel_options,
+    known_keywords,
     reading_options,
     source_of,
     stance_keywords,
@@ -41,6 +42,7 @@ if TYPE_CHECKING:
 T = TypeVar("T")
 
 
+@known_keywords(ScaleKeywords)
 def read(mesh: Mesh, **scale: Unpack[ScaleKeywords]) -> Scan:
     """The surface of a mesh in mm, welded and cleaned, in the axes of its file.
 
@@ -54,6 +56,7 @@ def read(mesh: Mesh, **scale: Unpack[ScaleKeywords]) -> Scan:
     return reading.read(source_of(mesh, scale), reading_options(scale))
 
 
+@known_keywords(ReadingKeywords)
 def align(
     mesh: Mesh,
     *,
@@ -84,6 +87,7 @@ def align(
     return aligned_source(source_of(mesh, reading), reading_options(reading), method, reference)
 
 
+@known_keywords(ReadingKeywords)
 def flare(shape: Shape, **reading: Unpack[ReadingKeywords]) -> Profiled:
     """The flare of a foot or a last: its profile, and the angle with its uncertainty.
 
@@ -95,6 +99,7 @@ def flare(shape: Shape, **reading: Unpack[ReadingKeywords]) -> Profiled:
     return profiled_shape(shape, reading)
 
 
+@known_keywords(ReadingKeywords)
 def measure(
     shape: Shape,
     *,
@@ -121,6 +126,7 @@ def measure(
     return scan if usual_length_mm is None else for_feet_of(scan, usual_length_mm)
 
 
+@known_keywords(ScaleKeywords)
 def curvature(
     mesh: Mesh, *, radius_mm: float | None = None, **scale: Unpack[ScaleKeywords]
 ) -> SurfaceCurvature:
@@ -138,6 +144,7 @@ def curvature(
     return surface_curvature(read(mesh, **scale), radius_mm)
 
 
+@known_keywords(CompareKeywords)
 def compare(foot: Shape, last: Mesh, **reading: Unpack[CompareKeywords]) -> Comparison:
     """A foot in a last that has a file of its own; for a stored last see `Catalogue.compare`.
 

@@ -7,7 +7,14 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Unpack
 
 from footfit import results
-from footfit.api.inputs import FilePath, RecordKeywords, Shape, heel_options, worn_options
+from footfit.api.inputs import (
+    FilePath,
+    RecordKeywords,
+    Shape,
+    heel_options,
+    known_keywords,
+    worn_options,
+)
 from footfit.api.scans import profiled_shape
 from footfit.catalogue import store
 from footfit.errors import BadOption
@@ -23,6 +30,7 @@ class FitLog:
 
     path: Location
 
+    @known_keywords(RecordKeywords)
     def record(
         self,
         last: str,

@@ -153,9 +153,13 @@ class Catalogue(CatalogueReader):
         UnknownLast, BadOption
             Its parent is not in the catalogue; its name cannot be stored.
         """
-        last = NewLast(record, copy, sections, parentage)
+        self.add_all([NewLast(record, copy, sections, parentage)], replace=replace)
+
+    def add_all(self, lasts: Iterable[NewLast], *, replace: bool = False) -> None:
+        """Store lasts in one transaction: all of them, or none; raises as `add`."""
         with self.file.atomic() as connection:
-            _add(connection, last, replace=replace)
+            for last in lasts:
+                _add(connection, last, replace=replace)
 
     def add_many(
         self, lasts: Iterable[LastRecord | NewLast], *, replace: bool = False

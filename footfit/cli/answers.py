@@ -141,20 +141,27 @@ def answer_result(result: Any, mode: OutputMode, outputs: Outputs) -> None:
     except (ReaderGone, AnswerLost) as error:
         lost = error
     with progress(mode) as bar:
-        write_files(outputs, result, mode, bar)
-    say_written(outputs.write_csv([result]), quiet=mode.quiet)
+        write_files(outputs, result, mode, bar, with_csv=True)
+    if outputs.csv == STDOUT:
+        outputs.write_csv([result])
     if lost is not None:
         raise lost
 
 
 def write_files(
-    outputs: Outputs, result: Any, mode: OutputMode, bar: Progress, number: int = 0
+    outputs: Outputs,
+    result: Any,
+    mode: OutputMode,
+    bar: Progress,
+    number: int = 0,
+    *,
+    with_csv: bool = False,
 ) -> None:
     """Write the files of a result; the bar of a single customer names this phase."""
     if mode.total == 1 and outputs.writes_files:
         bar.show()
         bar.begin("page")
-    written = outputs.write(result, number)
+    written = outputs.write(result, number, with_csv=with_csv)
     bar.hide()
     say_written(written, quiet=mode.quiet)
 

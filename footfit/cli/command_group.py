@@ -117,6 +117,7 @@ class PlainCommand(_HelpAsAnswer, TyperCommand):
     def invoke(self, ctx: Any) -> Any:
         """Run the command, unless it would write over a file that it reads."""
         written: list[str] = []
+        files: list[Path] = []
         read: list[str] = []
         for parameter in self.params:
             value = ctx.params.get(parameter.name)
@@ -124,9 +125,12 @@ class PlainCommand(_HelpAsAnswer, TyperCommand):
             is_output = getattr(parameter, "rich_help_panel", None) == OUTPUT
             names = [str(name) for name in values if isinstance(name, (str, Path))]
             (written if is_output else read).extend(names)
+            if is_output and parameter.type.name in ("path", "file", "directory"):
+                files.extend(Path(name) for name in names if Path(name).suffix)
         if written:
-            from footfit.cli.outputs import refuse_inputs
+            from footfit.cli.outputs import refuse_inputs, refuse_twice
 
+            refuse_twice(path for path in files if not path.is_dir())
             refuse_inputs(written, read)
         return super().invoke(ctx)
 

@@ -92,10 +92,7 @@ class Outputs:
             raise BadOption("--csv - and --json both write to stdout; give --csv a file")
         if self.csv != STDOUT:
             refuse_existing(self.csv, force=self.force)
-        paths = [path.absolute() for path in self.paths]
-        for path in self.paths:
-            if paths.count(path.absolute()) > 1:
-                raise BadOption("is named for two outputs; name two files", str(path))
+        refuse_twice(self.paths)
 
     @property
     def paths(self) -> list[Path]:
@@ -162,12 +159,14 @@ class Outputs:
         """Whether a result has a file of its own."""
         return any(file.path is not None for file in self.files)
 
-    def write(self, result: Any, number: int = 0) -> list[Path]:
+    def write(self, result: Any, number: int = 0, *, with_csv: bool = False) -> list[Path]:
         """Write the files of a result, once the content of all is there; return their paths.
 
-        ``number`` is the result's place among all.
+        ``number`` is the result's place among all. A single result has its CSV among its files.
         """
-        contents = []
+        contents: list[tuple[Path, bytes | str]] = []
+        if with_csv and self.csv is not None and self.csv != STDOUT:
+            contents.append((self.csv, self.csv_text([result])))
         for file in self.files:
             if file.path is not None:
                 target = file.target(self.stems[number] if self.stems else "")
@@ -179,13 +178,18 @@ class Outputs:
             write_outputs(dict(contents), force=self.force)
         return [path for path, _ in contents]
 
-    def write_csv(self, results: Iterable[Any]) -> list[Path]:
-        """Write the tables, to stdout or to a file whose path is returned."""
+    def csv_text(self, results: Iterable[Any]) -> str:
+        """The tables as CSV."""
         from footfit.report.csv import csv_text
 
+        assert self.table is not None
+        return csv_text(self.table, results)
+
+    def write_csv(self, results: Iterable[Any]) -> list[Path]:
+        """Write the tables, to stdout or to a file whose path is returned."""
         if self.csv is None or self.table is None:
             return []
-        text = csv_text(self.table, results)
+        text = self.csv_text(results)
         if self.csv == STDOUT:
             answer(text)
             return []
@@ -197,6 +201,21 @@ def say_written(paths: Iterable[Path], *, quiet: bool) -> None:
     """Write a line for each file that was written."""
     for path in paths:
         say(f"wrote {path}", quiet=quiet)
+
+
+def refuse_twice(paths: Iterable[Path]) -> None:
+    """Refuse one file for two outputs, however its path is written.
+
+    Raises
+    ------
+    BadOption
+        One output would take the place of the other.
+    """
+    seen = set()
+    for path in paths:
+        if path.resolve() in seen:
+            raise BadOption("is named for two outputs; name two files", str(path))
+        seen.add(path.resolve())
 
 
 def file_id(path: Path) -> tuple[int, int]:
@@ -296,8 +315,16 @@ def write_output(path: Path, data: bytes | str, *, force: bool) -> None:
     write_outputs({path: data}, force=force)
 
 
-def write_outputs(contents: Mapping[Path, bytes | str], *, force: bool) -> None:
+def write_outputs(
+    contents: Mapping[Path, bytes | str],
+    *,
+    force: bool,
+    then: Callable[[], object] = lambda: None,
+) -> None:
     """Write all files, or none: each gets its name when all are on the disk.
+
+    What goes with the files, such as storing a last, is done by ``then`` before they get their
+    names. If it fails, no file is written; if a file cannot be written, it is not done.
 
     Raises
     ------
@@ -312,6 +339,7 @@ def write_outputs(contents: Mapping[Path, bytes | str], *, force: bool) -> None:
                 complete[path] = partials.enter_context(partial_beside(path))
                 complete[path].write_bytes(data.encode("utf-8") if isinstance(data, str) else data)
                 sync(complete[path])
+        then()
         for path, partial in complete.items():
             with _refused_by_system(path):
                 give_name(partial, path, replace=force)

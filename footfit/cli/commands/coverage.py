@@ -94,7 +94,7 @@ def coverage(
     from footfit.api.files import page
     from footfit.api.populations import coverage_asker
     from footfit.cli.answers import answer_result
-    from footfit.cli.outputs import OutputFile, Outputs
+    from footfit.cli.outputs import OutputFile, Outputs, refuse_twice
     from footfit.pipeline.batch.runs import common_code
     from footfit.report.csv import csv_text
     from footfit.results.population.coverage_answer import Coverage, LastsTable
@@ -105,6 +105,7 @@ def coverage(
     )
     outputs = Outputs(files, Coverage, csv, force)
     outputs.refuse(as_json=mode.json)
+    refuse_twice([*outputs.paths, *([] if cache is None else [cache])])
     filters = {"style": style, "size_system": size_system, "stock": stock}
     asked: dict[str, Any] = {
         "profile": profile,

@@ -87,20 +87,27 @@ def customise(
     from footfit.cli.outputs import say_written, write_outputs
     from footfit.cli.progress import progress
     from footfit.errors import BadOption
+    from footfit.pipeline.last_making.custom.base_choice import require_free_names
 
-    pair = len(feet) == 2 or both
+    sources = sources_of(feet, reading, quiet=mode.quiet)
+    if len(sources) > 2 or (both and len(sources) == 2):
+        raise BadOption("give one foot, with --both or without, or the two feet of one customer")
+    if len(sources) < len(feet):
+        raise BadOption("is given twice: name the left and the right foot", feet[0])
+    pair = len(sources) == 2 or both
     written = [
         *placed(output, files.mesh_file, pair=pair),
         *placed(plot, files.picture, pair=pair),
         *placed(html, lambda custom, _: files.page(custom), pair=pair),
     ]
-    refuse(written, (*feet, base), force=force)
-    sources = sources_of(feet, reading, quiet=mode.quiet)
-    if len(sources) > 2 or (both and len(sources) == 2):
-        raise BadOption("give one foot, with --both or without, or the two feet of one customer")
+    read = [source.path or "-" for source in sources]
+    refuse(written, (*read, base), force=force)
+    location = lasts.path()
+    if store is not None and not force:
+        sides = ("left", "right")
+        require_free_names(location, [f"{store}-{side}" for side in sides] if pair else [store])
     with progress(mode) as bar:
         bar.show()
-        location = lasts.path()
         there = not isinstance(location, Path) or location.exists()
         made = custom_lasts.customise(
             list(sources),
@@ -121,9 +128,14 @@ def customise(
         for side, path, content in written
         if side in (None, custom.side)
     ]
-    if store is not None:
-        made = stored(made, store, lasts, force=force)
-    write_outputs(dict(contents), force=force)  # before the answer, whose reader may be gone
+    made = made if store is None else named(made, store)
+
+    def store_made() -> None:
+        if store is not None:
+            custom_lasts.store_custom(made, lasts.open_to_make().path, replace=force)
+
+    # Before the answer, whose reader may be gone. What cannot be written is not stored.
+    write_outputs(dict(contents), force=force, then=store_made)
     say_written([path for path, _ in contents], quiet=mode.quiet)
     for custom in made:
         tell(custom, mode)
@@ -187,20 +199,14 @@ def rooms(given: Sequence[str]) -> dict[str, float]:
     return result
 
 
-def stored(
-    made: Sequence[CustomLast], name: str, lasts: options.Lasts, *, force: bool
-) -> tuple[CustomLast, ...]:
-    """The lasts, once they are in the catalogue; two lasts get their side in their names."""
+def named(made: Sequence[CustomLast], name: str) -> tuple[CustomLast, ...]:
+    """The lasts by the name that the catalogue has them under; two lasts get their side in it."""
     from dataclasses import replace
 
-    from footfit.api import custom_lasts
-
-    catalogue = lasts.open_to_make()
     result = []
     for custom in made:
         own = f"{name}-{custom.side}" if len(made) > 1 else name
         labels = replace(custom.record.labels, name=own)
-        custom = replace(custom, record=replace(custom.record, labels=labels), stored_as=own)
-        custom_lasts.store_custom(custom, catalogue.path, replace=force)
-        result.append(custom)
+        record = replace(custom.record, labels=labels)
+        result.append(replace(custom, record=record, stored_as=own))
     return tuple(result)

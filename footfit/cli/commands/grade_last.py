@@ -71,6 +71,7 @@ def grade_last(
         Outputs,
         folder_made,
         refuse_existing,
+        refuse_twice,
         say_written,
         write_outputs,
     )
@@ -80,6 +81,7 @@ def grade_last(
     from footfit.pipeline.graded_runs.grade_store import (
         RunManifest,
         require_storable_run,
+        storable_lasts,
         store_run,
     )
     from footfit.pipeline.graded_runs.run_lasts import RUN_MANIFEST
@@ -115,15 +117,23 @@ def grade_last(
             refuse_existing(path, force=force)
             if path.exists() and Path(last).exists() and path.samefile(last):
                 raise BadOption("is the base itself: name another folder", str(path))
+        refuse_twice([*files.values(), output / RUN_MANIFEST, *outputs.paths])
+        graded = grading.lasts()
         if store:
             require_storable_run(lasts.path(), grading, replace_stored=force)
-        made = [replace(each, output=str(files[each.last])) for each in grading.lasts()]
+            graded = storable_lasts(lasts.path(), graded)
+        made = [replace(each, output=str(files[each.last])) for each in graded]
     run = replace(grading.run(made), folder=str(output))
-    manifest = csv_text(RunManifest, [RunManifest(run.lasts, run.side)])
-    meshes = {files[each.last]: each.data for each in run.lasts}
+    contents: dict[Path, bytes | str] = {files[each.last]: each.data for each in run.lasts}
+    contents[output / RUN_MANIFEST] = csv_text(RunManifest, [RunManifest(run.lasts, run.side)])
+    contents |= {path: outputs.csv_text([run]) for path in outputs.paths}
+
+    def keep() -> None:
+        nonlocal run
+        if store:
+            run = store_run(lasts.path(), grading, run, replace_stored=force)
+
     with folder_made(output):
-        write_outputs({**meshes, output / RUN_MANIFEST: manifest}, force=force)
-    if store:
-        run = store_run(lasts.path(), grading, run, replace_stored=force)
-    say_written([*meshes, output / RUN_MANIFEST], quiet=mode.quiet)
-    answer_result(run, mode, outputs)
+        write_outputs(contents, force=force, then=keep)
+    say_written(contents, quiet=mode.quiet)
+    answer_result(run, mode, replace(outputs, csv=csv if csv == options.STDOUT else None))

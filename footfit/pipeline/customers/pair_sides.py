@@ -44,7 +44,7 @@ def _on_two_sides(first: Foot, second: Foot) -> tuple[Foot, Foot]:
     if _firmness(weaker)[0]:
         raise SameSide(
             f"this foot and {paths[1]} are both {stronger.side} feet, and a pair has a left and a"
-            " right one: check the two files, or match each foot alone",
+            " right one: check the two files, or give each foot alone",
             paths[0],
         )
     if weaker is sides[0]:

@@ -6,7 +6,7 @@ import math
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, field, replace
 
-from footfit.errors import ImplausibleSize, OutOfReach
+from footfit.errors import ImplausibleSize, NotAFoot, OutOfReach
 from footfit.geometry.measures.landmarks import Shape
 from footfit.geometry.measures.measure_table import measure_named
 from footfit.geometry.stance.cues import StanceLabels
@@ -85,7 +85,7 @@ class Grader:
                 made[here], last = self._last(self._node(made, *_before(*here)), fitting)
             except OutOfReach as error:
                 raise OutOfReach(f"{self.name_of(fitting)}: {error.message}") from error
-            except ImplausibleSize as error:
+            except (ImplausibleSize, NotAFoot) as error:  # no last is so long, or has that form
                 words = "would be longer or shorter than any last: ask for fewer sizes"
                 raise OutOfReach(f"{self.name_of(fitting)} {words}") from error
             yield last

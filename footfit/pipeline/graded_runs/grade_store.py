@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+import hashlib
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import fields, replace
 from typing import Any, ClassVar
 
+from footfit.catalogue.group_commit import NewLast
 from footfit.catalogue.rows.last_names import caseless
 from footfit.catalogue.store import open_catalogue
 from footfit.errors import BadOption, NameTaken, NotInCatalogue
@@ -47,18 +49,29 @@ def require_storable_run(path: Location, grader: Grader, *, replace_stored: bool
 
 
 def store_run(path: Location, grader: Grader, run: GradedRun, *, replace_stored: bool) -> GradedRun:
-    """Store the lasts of a run, each in its own transaction; return the run as it is stored.
+    """Store the lasts of a run, all or none; return the run as it is stored.
 
     The base gets the family's label if it has none. The last that is the base itself is not stored.
 
     Raises
     ------
     NameTaken, UnknownLast, CatalogueUnusable
-        A last cannot be stored; those before it are.
+        A last cannot be stored.
     """
-    stored = []
+    new: list[NewLast] = []
     with open_catalogue(path, write=True, create=False) as catalogue:
         name = catalogue.name(run.base)
+        for last in run.lasts:
+            if is_base(last):
+                continue
+            reading = reading_of(grader.base, stance_labels(last.labels))
+            shape = profiled_source(Source(f"{last.last}.stl", last.data, "stl"), reading)
+            aligned = shape.aligned
+            copy = compact_copy(aligned.vertices_mm, aligned.faces, COPY_FACES)
+            sections = kept_sections(aligned.prepared.shape)
+            record = last_record(shape, replace(last.labels, parent=name))
+            new.append(NewLast(record, copy, sections, parentage_of_run(run, last, name)))
+        catalogue.add_all(new, replace=replace_stored)
         if grader.base.record.labels.family is None:
             family = run.family
             catalogue.edit(
@@ -68,20 +81,32 @@ def store_run(path: Location, grader: Grader, run: GradedRun, *, replace_stored:
                     None,
                 ),
             )
-        for last in run.lasts:
-            if last.sizes == last.widths == 0.0:
-                stored.append(last)
-                continue
-            reading = reading_of(grader.base, stance_labels(last.labels))
-            shape = profiled_source(Source(f"{last.last}.stl", last.data, "stl"), reading)
-            aligned = shape.aligned
-            copy = compact_copy(aligned.vertices_mm, aligned.faces, COPY_FACES)
-            sections = kept_sections(aligned.prepared.shape)
-            record = last_record(shape, replace(last.labels, parent=name))
-            parentage = parentage_of_run(run, last, name)
-            catalogue.add(record, copy, sections, parentage, replace=replace_stored)
-            stored.append(replace(last, stored=True))
-    return replace(run, lasts=tuple(stored))
+    return replace(run, lasts=tuple(replace(last, stored=not is_base(last)) for last in run.lasts))
+
+
+def is_base(last: GradedLast) -> bool:
+    """Whether a last of a run is the base itself."""
+    return last.sizes == last.widths == 0.0
+
+
+def storable_lasts(path: Location, lasts: Iterable[GradedLast]) -> Iterator[GradedLast]:
+    """The lasts of a run as they are made; the first whose mesh is stored already is refused.
+
+    Raises
+    ------
+    NameTaken
+        The catalogue has the same mesh under another name.
+    """
+    with open_catalogue(path) as catalogue:
+        holders = {each.info.sha256: each.labels.name for each in catalogue.lasts().records}
+    for last in lasts:
+        holder = holders.get(hashlib.sha256(last.data).hexdigest())
+        if holder is not None and caseless(holder) != caseless(last.last) and not is_base(last):
+            words = (
+                f"{last.last!r} has the same mesh as {holder!r}, which is in the catalogue: take"
+            )
+            raise NameTaken(f"{words} that run, or give --family the name that it has")
+        yield last
 
 
 def parentage_of_run(run: GradedRun, last: GradedLast, base: str) -> Parentage:

@@ -38,6 +38,11 @@ class BaseLast:
         """The last's name; of a file, its name without the suffix."""
         return self.record.labels.name
 
+    @property
+    def path(self) -> str:
+        """What an error names: the file of a base in a file, else its name in the catalogue."""
+        return (self.mesh.kind == "file" and self.record.info.path) or self.name
+
 
 def stored_base(path: Location, name: str, folders: Iterable[Path] = ()) -> BaseLast:
     """A last of the catalogue at ``path``, with the best mesh that there is of it.

@@ -30,25 +30,32 @@ def tolerances(text: str | None) -> dict[str, float]:
     Raises
     ------
     BadOption
-        A part is not KIND=MM.
+        A part is not KIND=MM, a kind is named twice, or there is none.
 
     Examples
     --------
     >>> tolerances("girth=1,5; width=0.5")["girth"], tolerances(None)["length"]
     (1.5, 1.5)
     """
-    result = dict(TOLERANCE_MM)
-    for given in _parts(text or ""):
+    if text is None:
+        return dict(TOLERANCE_MM)
+    kinds = ", ".join(f"{name}={mm:g}" for name, mm in TOLERANCE_MM.items())
+    if not isinstance(text, str) or not _parts(text):
+        raise BadOption(f"--tolerance takes a text such as {kinds}, not {text!r}")
+    result: dict[str, float] = {}
+    for given in _parts(text):
         kind, _, number = (each.strip() for each in given.partition("="))
         try:
             value = float(number.replace(",", "."))
         except ValueError:
             value = math.nan
-        if kind.casefold() not in result or not 0.0 <= value <= MOST_MM:
-            kinds = ", ".join(f"{name}={mm:g}" for name, mm in TOLERANCE_MM.items())
-            raise BadOption(f"--tolerance takes mm such as {kinds}, not {given!r}")
+        if kind.casefold() not in TOLERANCE_MM or not 0.0 <= value <= MOST_MM:
+            words = f"--tolerance takes mm from 0 to {MOST_MM:g}, such as {kinds}"
+            raise BadOption(f"{words}, not {given!r}")
+        if kind.casefold() in result:
+            raise BadOption(f"--tolerance names {kind} twice: give it one value")
         result[kind.casefold()] = value
-    return result
+    return {**TOLERANCE_MM, **result}
 
 
 def _parts(text: str) -> list[str]:

@@ -11,7 +11,7 @@ import numpy as np
 
 from footfit.catalogue.rows.last_names import caseless, meant_name, nearest_name
 from footfit.catalogue.store import open_catalogue
-from footfit.errors import CatalogueUnusable, FootfitError, NoCatalogue, UnreadableFile
+from footfit.errors import CatalogueUnusable, FootfitError, NoCatalogue, UnknownLast, UnreadableFile
 from footfit.geometry.measures.landmarks import Shape
 from footfit.locations import Location
 from footfit.meshes.copies.compact_copy import expanded_mesh
@@ -42,9 +42,10 @@ class NamedLast:
         Raises
         ------
         UnreadableFile
-            There is no such file, and no such last; the message gives the nearest name.
+            There is no such file; the message gives the nearest name of a last.
         UnknownLast, CatalogueUnusable
-            The last was stored without its mesh; it, or the catalogue, cannot be read.
+            It is a name, not a path, and there is no such last; the last was stored without its
+            mesh; it, or the catalogue, cannot be read.
         """
         no_file = UnreadableFile("there is no such file", self.name)
         try:
@@ -63,7 +64,8 @@ class NamedLast:
         if near is None and not is_bare(self.name):
             raise no_file
         words = "" if near is None else f"; the nearest name of a last is {near!r}"
-        raise UnreadableFile(f"there is no such file or last{words}", self.name)
+        unknown = UnknownLast if is_bare(self.name) else UnreadableFile
+        raise unknown(f"there is no such file or last{words}", self.name)
 
 
 def is_bare(argument: str) -> bool:

@@ -2,19 +2,21 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from contextlib import suppress
 from dataclasses import replace
 from pathlib import Path
 
+from footfit.catalogue.group_commit import NewLast
+from footfit.catalogue.rows.last_names import caseless
 from footfit.catalogue.store import Catalogue, open_catalogue
-from footfit.errors import FootfitError, NameTaken, NoCandidate, OutOfReach
+from footfit.errors import FootfitError, NameTaken, NoCandidate, NoCatalogue, OutOfReach
 from footfit.locations import Location
 from footfit.pipeline.fit.match import Question, matched
 from footfit.pipeline.last_making.base_last import BaseLast, stored_base
 from footfit.pipeline.last_making.custom.custom_making import Making, customised
 from footfit.pipeline.shelf.candidates import choice
-from footfit.results import MeshCopy, Profiled, SideName
+from footfit.results import Profiled, SideName
 from footfit.results.last_making.custom_last import CustomLast
 
 TRIED = 3
@@ -75,7 +77,7 @@ def customised_from_best(
         try:
             return base, customised(feet[0], base, making)
         except OutOfReach as error:
-            first = first or OutOfReach(error.message, base.name)
+            first = first or OutOfReach(error.message, base.path)
     if first is None:
         raise NoCandidate("no last of the catalogue has a mesh: ingest lasts first", str(path))
     raise first
@@ -103,7 +105,7 @@ def customised_from(
         words = (
             turned if better is None else f"; use --base {better.name}{_heel_words(better, base)}"
         )
-        raise OutOfReach(f"{error.message}{words}", base.name) from error
+        raise OutOfReach(f"{error.message}{words}", base.path) from error
 
 
 def _better_base(foot: Profiled, path: Location, making: Making, base: BaseLast) -> BaseLast | None:
@@ -131,23 +133,45 @@ def _heel_mm(base: BaseLast) -> float:
     return base.record.heel_height_mm or 0.0
 
 
-def store_custom_last(path: Location, custom: CustomLast, *, replaces: bool = False) -> None:
-    """Store a custom last with its full mesh, and with how it was made.
+def require_free_names(path: Location, names: Iterable[str]) -> None:
+    """Refuse names that lasts of the catalogue have, before any work.
+
+    Raises
+    ------
+    NameTaken
+        There is a last of that name.
+    """
+    try:
+        with open_catalogue(path) as catalogue:
+            known = {caseless(name): name for name in catalogue.names()}
+    except NoCatalogue:
+        return
+    for name in names:
+        if caseless(name) in known:
+            words = "is in the catalogue: add --force, or give --store another name"
+            raise NameTaken(f"{known[caseless(name)]!r} {words}")
+
+
+def store_custom_lasts(
+    path: Location, customs: Sequence[CustomLast], *, replaces: bool = False
+) -> None:
+    """Store custom lasts with their full meshes, and with how they were made: all, or none.
 
     Raises
     ------
     CatalogueUnusable, NameTaken
-        The catalogue cannot be written; it has another last of that name.
+        The catalogue cannot be written; it has another last of such a name.
     """
     from footfit.meshes.copies.compact_copy import compact_copy
 
-    copy: MeshCopy = compact_copy(custom.vertices_mm, custom.faces, len(custom.faces))
+    if not replaces:
+        require_free_names(path, [custom.record.labels.name for custom in customs])
     with open_catalogue(path, write=True) as catalogue:
-        record, names = custom.record, catalogue.names()
-        if not replaces and record.labels.name in names:
-            words = "is in the catalogue: add --force, or give --store another name"
-            raise NameTaken(f"{record.labels.name!r} {words}")
-        known = custom.base in names
-        labels = replace(record.labels, parent=custom.base if known else None)
-        record = replace(record, labels=labels)
-        catalogue.add(record, copy, custom.sections, custom.parentage, replace=replaces)
+        names, lasts = catalogue.names(), []
+        for custom in customs:
+            copy = compact_copy(custom.vertices_mm, custom.faces, len(custom.faces))
+            parent = custom.base if custom.base in names else None
+            labels = replace(custom.record.labels, parent=parent)
+            record = replace(custom.record, labels=labels)
+            lasts.append(NewLast(record, copy, custom.sections, custom.parentage))
+        catalogue.add_all(lasts, replace=replaces)

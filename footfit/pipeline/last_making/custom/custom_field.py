@@ -325,8 +325,11 @@ def refuse_far(aims: Sequence[CustomAim], base: BaseLast) -> None:
         of_length = aim.measure == LENGTH
         most_mm = CUSTOM.longer * arc.length_mm if of_length else CUSTOM.girth * aim.base
         if aim.firm and abs(aim.target - aim.base) > most_mm:
-            change = f"{plain(aim.base)} mm to {plain(aim.target)} mm"
-            words = f"from {change} is more than {plain(most_mm)} mm"
+            change = f"{plain(abs(aim.target - aim.base))} mm"
+            words = (
+                f"it must go from {plain(aim.base)} to {plain(aim.target)} mm, by {change}, and at"
+                f" most {plain(most_mm)} mm is possible"
+            )
             raise OutOfReach(f"the {aim.words} is out of reach of this base: {words}")
 
 
