@@ -192,6 +192,30 @@ def test_targets_are_met_with_a_turned_flare_and_room_comes_on_top() -> None:
     assert 2.4 < width.room < 4.5  # the joints lie askew, and the forepart is turned by 4 degrees
 
 
+@pytest.mark.parametrize(
+    ("place", "size_mm", "girth"),
+    [
+        ("instep-top", 6.0, "instep_girth_least"),
+        ("waist-medial", 3.0, "waist_girth_least"),
+        ("waist-lateral", 2.0, "waist_girth_least"),
+        ("heel-lateral", 6.0, "heel_width"),
+    ],
+)
+def test_room_swells_as_far_as_is_asked_at_the_place_of_its_name(place, size_mm, girth) -> None:
+    (roomy,) = footfit.customise(foot(), base(), room_mm={place: size_mm})
+    swelling = np.linalg.norm(roomy.vertices_mm - custom().vertices_mm, axis=1)
+    assert swelling.max() == pytest.approx(size_mm, abs=0.1)  # what issue 13 asks for
+    (room,) = roomy.rooms
+    assert (room.name, room.asked_mm) == (place, size_mm)
+    assert room.reached_mm == pytest.approx(swelling.max(), abs=0.001)
+    grown = {zone.name: zone.room for zone in roomy.zones}
+    assert max(grown, key=lambda name: grown[name]) == girth
+    assert grown[girth] > 0.5 * size_mm
+    assert {part.name: part.moved_mm for part in roomy.kept}["top plane"] == 0.0
+    assert f"{size_mm:.1f} mm asked" in terminal_text(custom_table(roomy), 100)
+    assert f"{size_mm:.1f} mm asked" in custom_page(roomy)
+
+
 def test_a_zone_that_is_not_good_is_named_with_its_reason() -> None:
     zones = [
         JudgedZone("length", "toe room", "mm", 14.0, 14.0, "good", 14.0, "good"),
@@ -378,6 +402,7 @@ def test_the_command_writes_stores_and_draws(footfit: Footfit, tmp_path) -> None
     assert run.code == 0
     document = run.document
     assert (document["base"], document["stored_as"]) == ("derby", "anna")
+    assert document["output"] == str(output)
     assert document["base_mesh"]["kind"] == "full copy"
     assert max(map(abs, girth_misses(output.read_bytes(), document).values())) < CLOSE_MM
     assert "anna" in page.read_text(encoding="utf-8")
@@ -397,6 +422,7 @@ def test_the_table_and_the_page_say_what_was_made() -> None:
     table = terminal_text(custom_table(made), 100)
     assert "derby-42" in table
     assert "follows" in table
+    assert "is acceptable for this foot, because of toes" in table
     page = custom_page(made)
     assert "ball girth least" in page
     assert page == custom_page(made)

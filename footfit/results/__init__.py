@@ -46,6 +46,7 @@ from footfit.results.last_making.custom_last import CustomZone as CustomZone
 from footfit.results.last_making.custom_last import GirthPlane as GirthPlane
 from footfit.results.last_making.custom_last import JudgedZone as JudgedZone
 from footfit.results.last_making.custom_last import KeptPlace as KeptPlace
+from footfit.results.last_making.custom_last import RoomPlace as RoomPlace
 from footfit.results.last_making.drawing import Drawing as Drawing
 from footfit.results.last_making.graded_run import GradedLast as GradedLast
 from footfit.results.last_making.graded_run import GradedMeasure as GradedMeasure

@@ -82,6 +82,8 @@ def customise(
 
     Example: footfit customise foot.stl --base derby-42 -o custom.stl
     """
+    from dataclasses import replace
+
     from footfit.api import custom_lasts, files
     from footfit.cli.answers import sources_of, tell
     from footfit.cli.outputs import say_written, write_outputs
@@ -122,6 +124,8 @@ def customise(
             **reading.keywords(),
             **worn.keywords(),
         )
+    files_of = {side: str(path) for side, path, _ in placed(output, files.mesh_file, pair=pair)}
+    made = tuple(replace(c, output=files_of.get(c.side, files_of.get(None))) for c in made)
     contents = [
         (path, content(custom, path.suffix.lower().removeprefix(".")))
         for custom in made

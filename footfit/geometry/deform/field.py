@@ -62,6 +62,7 @@ class Field:
         place. The field with the opposite curves then leads back, in the same chart. It turns no
         plan and has no bumps.
     bumps : tuple of Bump
+        The top plane does not hold them, so none may reach it.
     """
 
     chart: Chart
@@ -97,9 +98,10 @@ class Field:
         )
         if self.turned.any():
             shift += self._bent(points + shift) - (points + shift)
-        for bump in self.bumps:
+        shift *= places.free[:, None]
+        for bump in self.bumps:  # in full: a bump ends before what is held
             shift += bump.shift(points)
-        return np.asarray(points + places.free[:, None] * shift)
+        return np.asarray(points + shift)
 
     def scales(self, points_mm: Floats) -> tuple[Floats, Floats]:
         """By which factors widths and heights change at points (n, 3) of the resting frame, (n,)

@@ -7,6 +7,7 @@ from rich.text import Text
 
 from footfit.number_words import plain, signed
 from footfit.report.terminal.scan_tables import lined_table
+from footfit.report.wording.custom_words import custom_verdict_words, room_words
 from footfit.report.wording.text import file_name, visible
 from footfit.results import CustomLast, CustomZone, JudgedZone
 
@@ -15,6 +16,7 @@ def custom_table(custom: CustomLast) -> RenderableType:
     """The targets and what was reached, the zones of the profile, and what was kept."""
     return Group(
         _headline(custom),
+        Text(custom_verdict_words(custom), "bold"),
         Text(_made_words(custom)),
         Text(),
         _zones_table(custom),
@@ -22,6 +24,7 @@ def custom_table(custom: CustomLast) -> RenderableType:
             "follows: the parts that are kept nearly set this girth, so it has no own target.",
             "dim",
         ),
+        *(Text(words) for words in room_words(custom)),
         Text(),
         Text(f"The zones of profile {custom.profile}: last minus foot"),
         _judged_table(custom),
@@ -63,7 +66,7 @@ def _note(zone: CustomZone) -> str:
     """What should be known of a target."""
     if zone.follows:
         return "follows"
-    return f"with {signed(zone.room)} of room" if abs(zone.room) >= 0.05 else ""
+    return f"{signed(zone.room)} by --room" if abs(zone.room) >= 0.05 else ""
 
 
 def _judged_table(custom: CustomLast) -> RenderableType:

@@ -109,6 +109,18 @@ class KeptPlace(Part):
 
 
 @dataclass(frozen=True, slots=True)
+class RoomPlace(Part):
+    """A place that ``--room`` gives a swelling: what was asked for, and what it comes to.
+
+    ``reached_mm`` is how far the surface moves there at most, over the same last without the room.
+    """
+
+    name: str
+    asked_mm: float
+    reached_mm: float
+
+
+@dataclass(frozen=True, slots=True)
 class CustomLast(Document):
     """A last that was made from a base for one foot.
 
@@ -116,7 +128,7 @@ class CustomLast(Document):
     whole, and ``flare_turn_deg`` how far the plan was turned. ``largest_move_mm`` is that of any
     place of the surface. ``least_determinant`` says how far the change is from a fold: 1 keeps all
     volumes, 0 folds. The mesh is in the axes of the written file, with ``moved_mm`` (n,) + outward
-    at each vertex; ``base_vertices_mm`` (n, 3) is the base there.
+    at each vertex; ``base_vertices_mm`` (n, 3) is the base there. ``output`` is the written file.
     """
 
     base: str
@@ -145,6 +157,8 @@ class CustomLast(Document):
     base_vertices_mm: Floats
     faces: Ints
     moved_mm: Floats
+    rooms: tuple[RoomPlace, ...] = ()
+    output: str | None = None
     stored_as: str | None = None
 
     schema = "customise/1"

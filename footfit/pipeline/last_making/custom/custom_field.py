@@ -1,16 +1,16 @@
-"""The field that makes a custom last of its base: its knobs, its limits, and room for one place."""
+"""The field that makes a custom last of its base: its knobs and its limits."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from functools import partial
 
 import numpy as np
 
-from footfit.errors import BadOption, OutOfReach
+from footfit.errors import OutOfReach
 from footfit.geometry.deform.chart import Chart, eased
-from footfit.geometry.deform.field import Bump, Field, least_determinant
+from footfit.geometry.deform.field import Field, least_determinant
 from footfit.geometry.deform.probes import Probe
 from footfit.geometry.deform.solver import (
     Knob,
@@ -19,7 +19,6 @@ from footfit.geometry.deform.solver import (
     turned_field,
 )
 from footfit.geometry.deform.wishes import SOLVER, Goal
-from footfit.geometry.measures.landmarks import AXES, Shape
 from footfit.geometry.numeric.arrays import Floats
 from footfit.number_words import plain
 from footfit.pipeline.last_making.base_last import BaseLast
@@ -72,8 +71,6 @@ class CustomSettings:
         The least that the change may come to: 0 would be a fold.
     flare_deg : float
         The most that the flare is turned.
-    room_mm, room_radius : float, float
-        The most room that is given to one place, and how far it reaches, over the arc.
     """
 
     free: tuple[float, float] = (0.05, 0.82)
@@ -96,8 +93,6 @@ class CustomSettings:
     girth: float = 0.15
     determinant: float = 0.3
     flare_deg: float = 6.0
-    room_mm: float = 12.0
-    room_radius: float = 0.10
 
 
 CUSTOM = CustomSettings()
@@ -105,49 +100,6 @@ COLD = replace(SOLVER, failing=3, shorter=0.3)
 """A search that begins at the base."""
 FREE_MM = 100.0
 """The unit of a knob in mm whose size costs nothing."""
-MEDIAL, LATERAL, UP = AXES[1], -AXES[1], AXES[2]
-ROOM_PLACES: dict[str, tuple[float, Floats]] = {
-    "ball-medial": (0.70, MEDIAL),
-    "ball-lateral": (0.63, LATERAL),
-    "ball-top": (0.68, UP),
-    "toe-top": (0.86, UP),
-    "toe-medial": (0.86, MEDIAL),
-    "toe-lateral": (0.80, LATERAL),
-    "instep-top": (0.52, UP),
-    "waist-medial": (0.42, MEDIAL),
-    "waist-lateral": (0.45, LATERAL),
-    "heel-medial": (0.12, MEDIAL),
-    "heel-lateral": (0.12, LATERAL),
-}
-"""Where room can be given: about where along the arc, and towards which side."""
-
-
-def room_bumps(
-    base: Shape, chart: Chart, rooms_mm: Mapping[str, float], lying_mm: Floats
-) -> tuple[Bump, ...]:
-    """The swellings of the places that are given room.
-
-    ``lying_mm`` (n, 3) is the changed base in its own canonical frame: a place is where that is
-    outermost.
-
-    Raises
-    ------
-    BadOption
-        There is no such place, or the room is too large.
-    """
-    bumps = []
-    standing = chart.standing(base.vertices_mm)
-    along, over = chart.arc.shares(base.vertices_mm)
-    for name, size_mm in rooms_mm.items():
-        if name not in ROOM_PLACES:
-            raise BadOption(f"no place is named {name!r}; --room takes {', '.join(ROOM_PLACES)}")
-        if not 0.0 < size_mm <= CUSTOM.room_mm:
-            raise BadOption(f"--room {name} takes up to {CUSTOM.room_mm:g} mm, not {size_mm:g}")
-        share, outward = ROOM_PLACES[name]
-        near = np.flatnonzero((np.abs(along - share) < 0.04) & ((over < 0.16) | (outward[2] > 0)))
-        centre = standing[near[np.argmax(lying_mm[near] @ outward)]]
-        bumps.append(Bump(centre, outward, CUSTOM.room_radius * chart.arc.length_mm, size_mm))
-    return tuple(bumps)
 
 
 @dataclass(frozen=True, slots=True)
@@ -246,24 +198,6 @@ def _knobs(chart: Chart, aims: Sequence[CustomAim]) -> list[Knob]:
     if any(aim.measure == BALL_LENGTH for aim in aims):
         knobs.append(Knob("ahead", _pattern(chart, CUSTOM.forepart), FREE_MM))
     return knobs
-
-
-def with_room(base: BaseLast, shape: CustomShape, bumps: Sequence[Bump]) -> CustomShape:
-    """A changed base, with room for single places on top.
-
-    Raises
-    ------
-    OutOfReach
-        The last would fold.
-    """
-    field = replace(shape.solved.field, bumps=tuple(bumps))
-    moved = field.moved_points(base.shape.vertices_mm)
-    least = least_determinant(field, base.shape.vertices_mm)
-    roomy = replace(shape, vertices_mm=moved, least_determinant=least)
-    words = limit_words(roomy)
-    if words is not None:
-        raise OutOfReach(f"there is no place for so much room: {words}; give less --room")
-    return roomy
 
 
 def first_field(chart: Chart, turn_deg: float, *, bottom_kept: bool) -> Field:

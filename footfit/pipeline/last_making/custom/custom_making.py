@@ -25,9 +25,14 @@ from footfit.pipeline.last_making.custom.custom_aims import (
 from footfit.pipeline.last_making.custom.custom_field import (
     CUSTOM,
     refuse_far,
-    room_bumps,
 )
 from footfit.pipeline.last_making.custom.custom_reading import tape_plane, value_mm
+from footfit.pipeline.last_making.custom.custom_rooms import (
+    joint_notices,
+    reached_rooms,
+    refuse_unknown,
+    room_bumps,
+)
 from footfit.pipeline.last_making.custom.custom_tries import (
     Attempt,
     Given,
@@ -81,7 +86,7 @@ def customised(
         raise OutOfReach("no measure of the foot can be compared with the base: scan it again")
     refuse_far(aims, base)
     chart = chart_of(base.shape)
-    room_bumps(base.shape, chart, making.rooms_mm, base.shape.vertices_mm)  # are they known?
+    refuse_unknown(making.rooms_mm)
     own: SideName = foot.aligned.alignment.side.side or "right"
     given = Given(base, chart, side or own, making.name, _flare_turn_deg(foot, base, making))
     given = replace(given, bottom_kept=question.bottom_kept)
@@ -103,8 +108,12 @@ def customised(
             notices = [results.Notice("toe_room_kept", f"{words} would fit worse")]
     if making.rooms_mm:  # room is given on top of the targets, which are met without it
         lying_mm = attempt.made.lying(attempt.shape.vertices_mm)
-        bumps = room_bumps(base.shape, chart, making.rooms_mm, lying_mm)
-        roomy = answer(with_bumps(given, attempt, bumps))
+        bumps = room_bumps(base.shape, chart, making.rooms_mm, attempt.made.shape, lying_mm)
+        swollen = with_bumps(given, attempt, bumps)
+        notices += joint_notices(attempt.made.shape, swollen.made.shape)
+        ends_mm = attempt.shape.vertices_mm, swollen.shape.vertices_mm
+        rooms = reached_rooms(base.shape, chart, making.rooms_mm, bumps, ends_mm)
+        roomy = replace(answer(swollen), rooms=rooms)
         lost = {z.name for z in not_good(roomy.judged)} - {z.name for z in not_good(made.judged)}
         made = roomy
     if foot.aligned.alignment.pose.kind == "last":
@@ -238,7 +247,7 @@ def _kept(
 ) -> tuple[tuple[results.KeptPlace, ...], float]:
     """How far the parts that stay moved, and how far the toe moved ahead as a whole.
 
-    Without the room for single places, which is no part of ``field``.
+    The room for single places counts too: it may be given to what else stays.
     """
     chart = field.chart
     before, after = chart.standing(base.vertices_mm), chart.standing(vertices_mm)

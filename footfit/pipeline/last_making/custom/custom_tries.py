@@ -37,9 +37,9 @@ from footfit.pipeline.last_making.custom.custom_field import (
     limit_words,
     missed,
     refuse_missed,
-    with_room,
 )
 from footfit.pipeline.last_making.custom.custom_reading import Carried, asked_mm, gain_mm, value_mm
+from footfit.pipeline.last_making.custom.custom_rooms import with_room
 from footfit.pipeline.scan.align import aligned_scan
 from footfit.pipeline.scan.flare import profiled_scan
 from footfit.pipeline.scan.measure import last_record
