@@ -91,6 +91,9 @@ def test_the_written_file_meets_its_targets() -> None:
     data = footfit.mesh_file(made, "stl")
     document = json.loads(json.dumps(made.to_dict()))
     names = [zone["name"] for zone in document["zones"]]
+    spreads = [zone[f"{of}_sd"] for zone in document["zones"] for of in ("base", "reached")]
+    assert all(0.0 < sd < 2.0 for sd in spreads)  # of a second scan, in mm
+    assert document["judged"][0]["custom_sd"] > 0.0
     assert names[0] == "length"
     assert {"ball_girth_least", "waist_girth_least", "instep_girth_least", "ball_width"} <= {*names}
     misses = girth_misses(data, document)

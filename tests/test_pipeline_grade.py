@@ -38,7 +38,7 @@ from footfit.pipeline.graded_runs.run_increments import CHECKED
 from footfit.pipeline.scan.standing import heights_by_shape
 from footfit.report.terminal.last_making_tables import graded_run_table
 from footfit.report.terminal.scan_tables import terminal_text
-from footfit.results import GradedRun, LastLabels
+from footfit.results import GradedRun, LastLabels, Target
 from footfit.results.last_making.graded_run import GradedLast, GradedMeasure
 from tests.conftest import Footfit
 from tests.tape_peer import least_girths
@@ -198,6 +198,8 @@ def test_a_run_reaches_its_plan_and_is_stored_with_its_parentage(
     ]
     for last in document["lasts"]:
         for measure in last["measures"]:
+            assert all(value == round(value, 3) for value in numbers_of(measure)), measure
+            assert 0.0 < measure["sd"] < 2.0  # of a second scan, in mm
             if measure["planned"] is not None:
                 assert abs(measure["difference"]) < REACHED_MM, (last["last"], measure)
     even = ("--rule", "eu", "--tolerance", "girth=0.1,length=0.1,width=0.1,height=0.2")
@@ -355,3 +357,16 @@ def test_the_table_shows_every_measure_of_every_last(tmp_path: Path) -> None:
     assert "graded by the rule eu" in terminal_text(graded_run_table(half), 120)
     assert StanceLabels() == standing({}, None)
     assert NameTaken.exit == BadOption.exit
+
+
+def numbers_of(row: dict[str, object]) -> list[float]:
+    """The numbers of a row of a document or of a table."""
+    return [value for value in row.values() if isinstance(value, float)]
+
+
+def test_the_table_of_a_run_has_units_and_spreads() -> None:
+    row = GradedMeasure(HEEL, "mm", 20.123456, 20.0, 20.000049, "held", 0.25)
+    assert row.to_dict()["base"] == 20.123
+    target = Target(HEEL, "mm", 20.123456, 20.00004, 20.000049).to_dict()
+    assert numbers_of(target) == [20.123, 20.0, 20.0]
+    assert {"unit", "sd"} <= {*GradedRun.columns}

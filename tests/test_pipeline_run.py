@@ -24,6 +24,7 @@ from footfit.report.terminal.last_making_tables import check_run_table
 from footfit.report.terminal.scan_tables import terminal_text
 from footfit.report.wording.run_words import break_words
 from footfit.results import Measure, Measured, RunLast
+from footfit.results.last_making.run_check import RunStep
 from tests import records
 from tests.conftest import Footfit
 from tools.lasts import LastSpec, last_mesh
@@ -376,3 +377,20 @@ def test_a_file_that_is_not_there_is_said_before_its_size(footfit, tmp_path):
     missing = footfit("check-run", tmp_path / "nosuch", tmp_path / "other")
     assert missing.code == 3
     assert "there is no such file, folder or family" in missing.err
+
+
+def test_a_step_that_is_near_to_its_tolerance_is_not_sure() -> None:
+    step = RunStep("ball_girth_least", "size", "", "41", "42", "a", "b", 6.8, 5.0, 2.0, 0.4)
+    assert (step.broken, step.sure) == (False, False)
+    assert replace(step, sd_mm=0.1).sure
+    assert step.to_dict()["sd_mm"] == 0.4
+    values = {41.0: 200.0, 42.0: 205.0, 43.0: 211.8, 44.0: 216.8}
+    lasts = [
+        RunLast(f"{n:g}", f"{n:g}", n, None, "right", "catalogue", {GIRTH: mm}, None, {GIRTH: 0.3})
+        for n, mm in values.items()
+    ]
+    checked = run_check(lasts, TOLERANCE_MM)
+    assert len(checked.unsure) == 1
+    table = terminal_text(check_run_table(checked), 200)
+    assert "+6.8?" in table
+    assert "1 is so near to the tolerance that it is not sure (?)" in table

@@ -23,10 +23,12 @@ from footfit.report.page.scene import (
 )
 from footfit.report.pictures.heat import (
     COLOURS,
+    NEUTRAL,
     NOT_COMPARED,
     breaks_mm,
     heat_colours,
     rgb,
+    scale_colours,
     step_words,
 )
 from tests import browsing, shapes
@@ -51,6 +53,16 @@ def data_of(page: str) -> dict:
 
 def array(text: str, kind: str) -> np.ndarray:
     return np.frombuffer(base64.b64decode(text), dtype=kind)
+
+
+def test_no_difference_of_two_lasts_has_a_colour_of_its_own():
+    """Kept parts of a custom last do not look moved: 0.00 mm was pale blue or pink."""
+    still = heat_colours(np.array([-0.1, 0.0, 0.1]), 0.25, neutral=True)
+    assert np.array_equal(still, [rgb(NEUTRAL)] * 3)
+    moved = heat_colours(np.array([-0.2, 0.2]), 0.25, neutral=True)
+    assert np.array_equal(moved, [rgb(COLOURS[4]), rgb(COLOURS[5])])
+    assert step_words(5, 0.25, neutral=True) == "-.125 to +.125"
+    assert len(scale_colours(neutral=True)) == len(breaks_mm(0.25, neutral=True)) + 1
 
 
 def test_a_packed_mesh_reads_back_within_its_step():

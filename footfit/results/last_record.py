@@ -15,6 +15,7 @@ from footfit.results.values import (
     Notice,
     Part,
     fields,
+    in_mm,
     measures_part,
     part,
 )
@@ -170,6 +171,9 @@ class Target(Part):
     base: float | None
     target: float
     reached: float | None
+
+    def _keys(self) -> Json:
+        return in_mm(fields(self))
 
 
 @dataclass(frozen=True, slots=True)

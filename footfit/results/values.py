@@ -116,6 +116,11 @@ class Part:
         return part(self._keys())
 
 
+def in_mm(keys: Json) -> Json:
+    """Keys whose numbers have the digits of millimetres: the unit is in a key of its own."""
+    return {key: json_number(v) if isinstance(v, float) else v for key, v in keys.items()}
+
+
 class Document(Part):
     """A result that is a document of its own: its keys under a ``schema`` and this version."""
 

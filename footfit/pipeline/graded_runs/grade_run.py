@@ -29,6 +29,7 @@ from footfit.pipeline.last_making.tolerances import TOLERANCE_MM
 from footfit.pipeline.scan.preparation import right_copy
 from footfit.pipeline.scan.reading import prepared_source
 from footfit.pipeline.scan.standing import heights_by_shape
+from footfit.pipeline.scan.trueness import measured
 from footfit.results import LastLabels, Notice
 from footfit.results.last_making.graded_run import GradedLast, GradedMeasure, GradedRun
 
@@ -204,7 +205,7 @@ class Grader:
             family=self.family,
         )
         shape = file_shape(data, self.base, stands)
-        reached = measures_of(shape)
+        reached, sd = measures_of(shape), spreads_of(shape)
         measures = tuple(
             GradedMeasure(
                 name=name,
@@ -213,6 +214,7 @@ class Grader:
                 planned=planned[name].target if name in planned else None,
                 reached=reached.get(name),
                 by=planned[name].by if name in planned else "follows",
+                sd=sd.get(name),
             )
             for name, value in self.base_mm.items()
         )
@@ -298,8 +300,17 @@ def read_otherwise(lasts: Iterable[GradedLast]) -> tuple[Notice, ...]:
 
 def measures_of(shape: Shape) -> dict[str, float]:
     """The checked measures of a last, in mm by name."""
-    values = {name: measure_named(name).value_of(shape).value for name in CHECKED}
+    values = {name: measure_named(name).taken_of(shape).value for name in CHECKED}
     return {name: value for name, value in values.items() if value is not None}
+
+
+def spreads_of(shape: Shape) -> dict[str, float | None]:
+    """The spread of a second scan of each checked measure of a last, in mm by name."""
+    return {
+        name: measured(entry, entry.taken_of(shape), "last", None).sd
+        for name in CHECKED
+        for entry in (measure_named(name),)
+    }
 
 
 def reading_of(base: BaseLast, stands: StanceLabels) -> ReadingOptions:

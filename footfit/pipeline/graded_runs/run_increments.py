@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections import defaultdict
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
@@ -255,7 +256,13 @@ def _steps(
                 increment_mm=float(steps.increment_mm[at]),
                 expected_mm=float(expected[at]),
                 tolerance_mm=tolerance_mm[kind_of(measure)],
+                sd_mm=math.hypot(*(_sd_mm(last, measure) for last in (first, second))),
             )
+
+
+def _sd_mm(last: RunLast, measure: str) -> float:
+    """The spread of a second scan of a measure; a height by shape has that of the height."""
+    return last.sd_mm.get(measure.removesuffix(BY_SHAPE), 0.0)
 
 
 def _lacking(lasts: Sequence[RunLast]) -> tuple[Notice, ...]:

@@ -169,9 +169,11 @@ def _label(source: Source, rows: Mapping[str, ManifestRow]) -> tuple[SizeLabel, 
 def _last(
     name: str, label: SizeLabel, number: float, side: str | None, measures: Iterable[Measure]
 ) -> RunLast:
-    values = {row.name: row.measured.value for row in measures}
-    known = {name: value for name in CHECKED if (value := values.get(name)) is not None}
-    return RunLast(name, label.size, number, label.width, side, label.size_from, known)
+    rows = {row.name: row.measured for row in measures}
+    known = {name: mm for name in CHECKED if name in rows and (mm := rows[name].value) is not None}
+    sd_mm = {name: rows[name].sd or 0.0 for name in known}
+    last = RunLast(name, label.size, number, label.width, side, label.size_from, known)
+    return replace(last, sd_mm=sd_mm)
 
 
 def _stands(last: RunLast, stands_by: str | None, stance: Stance | None) -> RunLast:

@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
+from functools import partial
 from typing import TYPE_CHECKING
 
 from footfit.report.pictures import shading
 from footfit.report.pictures.figures import INK, draw_scale_bar, new_figure, show_image, write_title
-from footfit.report.pictures.heat import COLOURS, break_words, breaks_mm
-from footfit.report.pictures.heat_figure import COLUMNS, PANELS, heat_image
+from footfit.report.pictures.heat import heat_colours
+from footfit.report.pictures.heat_figure import COLUMNS, PANELS, draw_scale, heat_image
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -20,7 +21,7 @@ STEPS_MM = (0.25, 0.5, 1.0, 2.0)
 
 
 def custom_figure(custom: CustomLast, *, titled: bool = True) -> Figure:
-    """Four views; red moved inward, blue outward, and pale moved little."""
+    """Four views; red moved inward, blue outward, and cream hardly moved."""
     sides = ("from_right", "from_left")
     medial, lateral = sides if custom.side == "left" else sides[::-1]
     named = {"medial": medial, "lateral": lateral}
@@ -43,18 +44,15 @@ def _draw_panel(axes: Axes, custom: CustomLast, view_name: str, step_mm: float) 
     view = shading.VIEWS[view_name]
     projected = custom.vertices_mm @ view.T
     frame = shading.frame_around(projected[:, :2])
-    image = heat_image(projected, custom.faces, custom.moved_mm, frame, COLUMNS, step_mm)
+    colours = partial(heat_colours, step_mm=step_mm, neutral=True)
+    image = heat_image(projected, custom.faces, custom.moved_mm, frame, COLUMNS, colours)
     show_image(axes, image, frame)
     draw_scale_bar(axes, place=(0.02, 0.0))
 
 
 def _draw_legend(axes: Axes, step_mm: float) -> None:
     """The colours as boxes, with the mm at their edges."""
-    for step, colour in enumerate(COLOURS):
-        axes.bar(0.5, 1.0, width=1.0, bottom=step, color=colour, edgecolor="white", linewidth=0.6)
-    for edge, value in enumerate(breaks_mm(step_mm), start=1):
-        axes.text(1.15, edge, break_words(value), va="center", fontsize=8)
-    top = len(COLOURS)
+    top = draw_scale(axes, step_mm, neutral=True)
     axes.text(0.0, top + 0.25, "moved, mm", fontsize=8.5, fontweight="bold", color=INK)
     axes.text(1.15, top - 0.5, "outward", va="center", fontsize=8)
     axes.text(1.15, 0.5, "inward", va="center", fontsize=8)

@@ -4,7 +4,12 @@ from __future__ import annotations
 
 from footfit.report.page.custom_figure import custom_figure
 from footfit.report.page.rendering import html_page, picture_data
-from footfit.report.wording.custom_words import custom_verdict_words, room_words
+from footfit.report.wording.custom_words import (
+    CUSTOM_SPREADS,
+    custom_verdict_words,
+    room_words,
+    with_spread,
+)
 from footfit.report.wording.text import file_name
 from footfit.results import CustomLast
 
@@ -17,5 +22,7 @@ def custom_page(custom: CustomLast) -> str:
         foot=file_name(custom.foot),
         verdict=custom_verdict_words(custom),
         rooms=room_words(custom),
+        with_spread=with_spread,
+        spreads=CUSTOM_SPREADS,
         moved=picture_data(custom_figure(custom, titled=False)),
     )

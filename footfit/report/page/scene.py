@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 
 from footfit.geometry.numeric.arrays import Floats, Ints
 from footfit.report.pictures.drawn_outlines import Mesh, is_left, own_side
-from footfit.report.pictures.heat import COLOURS, NOT_COMPARED, SHADE, breaks_mm, step_words
+from footfit.report.pictures.heat import NOT_COMPARED, SHADE, breaks_mm, scale_colours, step_words
 from footfit.report.pictures.shading import light_direction
 from footfit.results import Comparison
 
@@ -66,7 +66,11 @@ def scene_of(comparison: Comparison) -> Scene | None:
         return None
     views = tuple((name, f"{a:g},{e:g}") for name, (a, e) in _views(comparison).items())
     step_mm, (first, second) = comparison.step_mm, comparison.nouns
-    steps = tuple((colour, step_words(step, step_mm)) for step, colour in enumerate(COLOURS))
+    neutral = comparison.is_difference
+    steps = tuple(
+        (colour, step_words(step, step_mm, neutral=neutral))
+        for step, colour in enumerate(scale_colours(neutral=neutral))
+    )
     ends = f"tight, mm: the {first} is larger", "loose, mm: space to spare"
     if comparison.is_difference:
         ends = f"mm: the {second} is smaller", f"mm: the {second} is larger"
@@ -97,8 +101,8 @@ def _scene_data(comparison: Comparison, foot: Mesh, last: Mesh) -> str:
     scene = {
         "foot": packed_mesh(*foot) | {"clearance": packed_clearance(comparison.clearance_mm)},
         "last": packed_mesh(*last),
-        "breaks": breaks_mm(comparison.step_mm),
-        "colours": COLOURS,
+        "breaks": breaks_mm(comparison.step_mm, neutral=comparison.is_difference),
+        "colours": scale_colours(neutral=comparison.is_difference),
         "grey": NOT_COMPARED,
         "light": [round(float(value), 3) for value in light_direction()],
         "shade": SHADE,

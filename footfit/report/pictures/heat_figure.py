@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from functools import partial
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -26,17 +27,18 @@ from footfit.report.pictures.figures import (
     write_title,
 )
 from footfit.report.pictures.heat import (
-    COLOURS,
     NOT_COMPARED,
     SHADE,
-    STEP_MM,
     break_words,
     breaks_mm,
     heat_colours,
+    scale_colours,
 )
 from footfit.report.wording.comparison_words import comparison_names
 
 if TYPE_CHECKING:
+    from collections.abc import Callable
+
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
@@ -83,7 +85,8 @@ def heat_bytes(comparison: Comparison, kind: str) -> bytes:
         return picture_bytes(heat_figure(comparison), kind)
     (vertices, faces), _ = own_side(comparison)
     clearance = comparison.clearance_mm
-    colours = np.rint(255.0 * heat_colours(clearance, comparison.step_mm)).astype(np.uint8)
+    shown = heat_colours(clearance, comparison.step_mm, neutral=comparison.is_difference)
+    colours = np.rint(255.0 * shown).astype(np.uint8)
     return encoded_mesh(vertices, faces, "ply", {"room_mm": clearance, COLOUR: colours})
 
 
@@ -102,8 +105,8 @@ def _draw_panel(
     outline = _outline(last, view)
     low = vertices[vertices[:, 2] <= last[0][:, 2].max()]  # the leg needs no space in the picture
     frame = shading.frame_around(np.concatenate([outline, (low @ view.T)[:, :2]]))
-    values = comparison.clearance_mm, comparison.step_mm
-    image = heat_image(vertices @ view.T, faces, values[0], frame, COLUMNS, values[1])
+    colours = partial(heat_colours, step_mm=comparison.step_mm, neutral=comparison.is_difference)
+    image = heat_image(vertices @ view.T, faces, comparison.clearance_mm, frame, COLUMNS, colours)
     show_image(axes, image, frame)
     axes.plot(*ring(outline).T, color=INK, linewidth=1.0, linestyle=(0, (5, 2)))
     draw_scale_bar(axes, place=(0.02, 0.0))
@@ -115,7 +118,7 @@ def heat_image(
     clearance_mm: Floats,
     frame: shading.Frame,
     columns: int,
-    step_mm: float = STEP_MM,
+    colours: Callable[[Floats], Floats] = heat_colours,
 ) -> Floats:
     """An RGBA picture (rows, columns, 4), first row on top; each pixel has one of the colours.
 
@@ -127,15 +130,15 @@ def heat_image(
     clearance_mm : (n,)
     frame : Frame
     columns : int
-    step_mm : float
-        The step of the colours.
+    colours : callable
+        The colours (p, 3) of clearances (p,).
     """
     shape = (shading.rows_for(frame, columns), columns)
     seen = shading.seen_surface(projected, faces, frame, shape, culled=True)
     clearance = np.einsum("pj,pj->p", seen.weights, clearance_mm[seen.corners])
     light = 1.0 - SHADE * (1.0 - np.clip(seen.normals @ shading.light_direction(), 0.0, 1.0))
     picture = np.zeros((*shape, 4))
-    picture[seen.covered, :3] = heat_colours(clearance, step_mm) * light[:, None]
+    picture[seen.covered, :3] = colours(clearance) * light[:, None]
     picture[seen.covered, 3] = 1.0
     return picture[::-1]
 
@@ -148,20 +151,27 @@ def _outline(last: Mesh, view: Floats) -> Floats:
     return np.asarray(points * signs, dtype=np.float64)
 
 
-def _draw_legend(axes: Axes, comparison: Comparison) -> None:
-    """The colours as boxes, with the mm at their edges."""
-    for step, colour in enumerate(COLOURS):
+def draw_scale(axes: Axes, step_mm: float, *, neutral: bool) -> int:
+    """Draw the colours as boxes, with the mm at their edges; returns how many there are."""
+    colours = scale_colours(neutral=neutral)
+    for step, colour in enumerate(colours):
         axes.bar(0.5, 1.0, width=1.0, bottom=step, color=colour, edgecolor="white", linewidth=0.6)
-    axes.bar(0.5, 0.8, width=1.0, bottom=-1.4, color=NOT_COMPARED, edgecolor="white")
-    for edge, value in enumerate(breaks_mm(comparison.step_mm), start=1):
+    for edge, value in enumerate(breaks_mm(step_mm, neutral=neutral), start=1):
         axes.text(1.15, edge, break_words(value), va="center", fontsize=8)
+    return len(colours)
+
+
+def _draw_legend(axes: Axes, comparison: Comparison) -> None:
+    """The colours, what they mean, and that of what is not compared."""
+    top = draw_scale(axes, comparison.step_mm, neutral=comparison.is_difference)
+    axes.bar(0.5, 0.8, width=1.0, bottom=-1.4, color=NOT_COMPARED, edgecolor="white")
     head, most, least = ("clearance, mm", "loose", "tight")
     if comparison.is_difference:
         head, most, least = ("difference, mm", "second larger", "second smaller")
     axes.text(1.15, -1.0, "not\ncompared", va="center", fontsize=7.5)
-    axes.text(0.0, len(COLOURS) + 0.25, head, fontsize=8.5, fontweight="bold")
-    axes.text(1.15, len(COLOURS) - 0.5, most, va="center", fontsize=8)
+    axes.text(0.0, top + 0.25, head, fontsize=8.5, fontweight="bold")
+    axes.text(1.15, top - 0.5, most, va="center", fontsize=8)
     axes.text(1.15, 0.5, least, va="center", fontsize=8)
     axes.set_xlim(0.0, 3.6)
-    axes.set_ylim(-1.6, len(COLOURS) + 1.0)
+    axes.set_ylim(-1.6, top + 1.0)
     axes.set_axis_off()

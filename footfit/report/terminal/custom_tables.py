@@ -7,7 +7,12 @@ from rich.text import Text
 
 from footfit.number_words import plain, signed
 from footfit.report.terminal.scan_tables import lined_table
-from footfit.report.wording.custom_words import custom_verdict_words, room_words
+from footfit.report.wording.custom_words import (
+    CUSTOM_SPREADS,
+    custom_verdict_words,
+    room_words,
+    with_spread,
+)
 from footfit.report.wording.text import file_name, visible
 from footfit.results import CustomLast, CustomZone, JudgedZone
 
@@ -20,6 +25,7 @@ def custom_table(custom: CustomLast) -> RenderableType:
         Text(_made_words(custom)),
         Text(),
         _zones_table(custom),
+        Text(CUSTOM_SPREADS, "dim"),
         Text(
             "follows: the parts that are kept nearly set this girth, so it has no own target.",
             "dim",
@@ -53,7 +59,8 @@ def _zones_table(custom: CustomLast) -> RenderableType:
     columns = ("base mm", "target mm", "reached mm", "change")
     table = lined_table("measure", *columns, "", right=frozenset(columns))
     for zone in custom.zones:
-        values = (plain(zone.base), plain(zone.target), plain(zone.reached))
+        target = with_spread(plain(zone.target), zone.foot_sd)
+        values = (plain(zone.base), target, with_spread(plain(zone.reached), zone.reached_sd))
         table.add_row(_words(zone), *values, signed(zone.reached - zone.base), _note(zone))
     return table
 
@@ -73,15 +80,16 @@ def _judged_table(custom: CustomLast) -> RenderableType:
     columns = ("target", "base", "custom")
     table = lined_table("zone", *columns, "base is", "custom is", right=frozenset(columns))
     for zone in custom.judged:
-        values = (_value(zone, zone.base), _value(zone, zone.custom))
+        pairs = ((zone.base, zone.base_sd), (zone.custom, zone.custom_sd))
+        values = ("-" if value is None else with_spread(signed(value), sd) for value, sd in pairs)
         verdicts = (zone.base_verdict or "-", zone.custom_verdict or "-")
-        table.add_row(zone.label, _value(zone, zone.target), *values, *verdicts)
+        table.add_row(zone.label, _target(zone), *values, *verdicts)
     return table
 
 
-def _value(zone: JudgedZone, value: float | None) -> str:
+def _target(zone: JudgedZone) -> str:
     unit = {"percent": " %", "ratio": ""}.get(zone.unit, f" {zone.unit}")
-    return "-" if value is None else f"{signed(value)}{unit}"
+    return f"{signed(zone.target)}{unit}"
 
 
 def _kept_words(custom: CustomLast) -> str:

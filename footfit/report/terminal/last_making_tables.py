@@ -11,8 +11,8 @@ from footfit.report.terminal.scan_tables import cell, lined_table
 from footfit.report.wording.run_words import break_words
 from footfit.report.wording.text import visible
 
-OFF = "!"
-"""Stands beside an increment that is out of tolerance."""
+OFF, UNSURE = "!", "?"
+"""Stand beside an increment that is out of tolerance, and beside one that may be."""
 
 
 def graded_run_table(run: results.GradedRun) -> RenderableType:
@@ -31,6 +31,7 @@ def graded_run_table(run: results.GradedRun) -> RenderableType:
     if worst is not None and worst.difference is not None:
         words = f"farthest from its plan: {worst.name.replace('_', ' ')}"
         parts.append(Text(f"{words}, {signed(worst.difference, 3)} mm", "dim"))
+    parts.append(Text("± is the spread of a second scan of the last", "dim"))
     if run.mesh.error_mm >= 0.005:  # what the line can show
         error = plain(run.mesh.error_mm, 2)
         words = f"made from the {run.mesh.kind} of the base, at most {error} mm from its scan"
@@ -40,7 +41,7 @@ def graded_run_table(run: results.GradedRun) -> RenderableType:
 
 def _graded_table(last: results.GradedLast) -> RenderableType:
     """One last: a row for each measure."""
-    numbers = ("base", "planned", "reached", "off")
+    numbers = ("base", "planned", "reached", "off", "±")
     table = lined_table("mm", *numbers, "by", right=frozenset(numbers))
     for each in last.measures:
         table.add_row(
@@ -48,6 +49,7 @@ def _graded_table(last: results.GradedLast) -> RenderableType:
             plain(each.base, 2),
             *("-" if value is None else plain(value, 2) for value in (each.planned, each.reached)),
             "-" if each.difference is None else signed(each.difference, 2),
+            "-" if each.sd is None else plain(each.sd, 2),
             each.by,
         )
     width = "" if last.width is None else f" {visible(last.width)}"
@@ -66,7 +68,12 @@ def check_run_table(checked: results.RunCheck) -> RenderableType:
     parts += [Text(f"{OFF} {visible(words)}", "bold red") for words in break_words(checked)]
     limits = ", ".join(f"{kind} {plain(mm)} mm" for kind, mm in checked.tolerance_mm.items())
     state = f"{len(checked.broken)} of {len(checked.steps)} increments are out of tolerance"
-    return Group(*parts, Text(f"{state} ({limits})", "dim"))
+    spreads = "± is the spread of an increment if both lasts are scanned again"
+    unsure = len(checked.unsure)
+    if unsure:
+        verb = "is" if unsure == 1 else "are"
+        spreads += f"; {unsure} {verb} so near to the tolerance that it is not sure ({UNSURE})"
+    return Group(*parts, Text(f"{state} ({limits})", "dim"), Text(spreads, "dim"))
 
 
 def _lasts_words(checked: results.RunCheck) -> Text:
@@ -85,7 +92,7 @@ def _steps_table(checked: results.RunCheck, kind: str, at: str) -> RenderableTyp
     pairs = list(dict.fromkeys((step.start, step.end) for step in steps))
     heads = [f"{visible(start)}\nto {visible(end)}" for start, end in pairs]
     per = "per\nstep"
-    table = lined_table("mm", per, *heads, right=frozenset((per, *heads)))
+    table = lined_table("mm", per, "±", *heads, right=frozenset((per, "±", *heads)))
     for law in (law for law in checked.laws if law.kind == kind):
         own = {(s.start, s.end): s for s in steps if s.measure == law.measure}
         if not own:
@@ -94,6 +101,7 @@ def _steps_table(checked: results.RunCheck, kind: str, at: str) -> RenderableTyp
         table.add_row(
             cell(law.measure.replace("_", " ")),
             f"{signed(law.per_step)}{unit}",
+            plain(max(step.sd_mm for step in own.values())),
             *(_increment(own.get(pair)) for pair in pairs),
         )
     title = {"size": "from size to size", "width": "from width to width"}[kind]
@@ -103,5 +111,6 @@ def _steps_table(checked: results.RunCheck, kind: str, at: str) -> RenderableTyp
 def _increment(step: results.RunStep | None) -> Text:
     if step is None:
         return Text("-", "dim")
+    doubt = "" if step.sure else UNSURE
     words = signed(step.increment_mm)
-    return Text(f"{words}{OFF}", "bold red") if step.broken else Text(words)
+    return Text(f"{words}{OFF}{doubt}", "bold red") if step.broken else Text(f"{words}{doubt}")

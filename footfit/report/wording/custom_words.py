@@ -18,6 +18,23 @@ def custom_verdict_words(custom: CustomLast) -> str:
     return visible(f"{words}, because of {', '.join(worst)}")
 
 
+def with_spread(words: str, sd: float | None) -> str:
+    """A number in words with its spread, if that is known.
+
+    Examples
+    --------
+    >>> with_spread("252.2", 0.6), with_spread("+1.0", None)
+    ('252.2 ± 0.6', '+1.0')
+    """
+    return words if sd is None else f"{words} ± {plain(sd)}"
+
+
+CUSTOM_SPREADS = (
+    "± is the spread of a second scan: of the foot for a target, of the last for what is reached,"
+    " of both for a zone."
+)
+
+
 def room_words(custom: CustomLast) -> list[str]:
     """A line for each place that was given room: how far it swells."""
     return [

@@ -13,7 +13,7 @@ from footfit.results.values import (
     SideName,
     Verdict,
     fields,
-    json_number,
+    in_mm,
 )
 
 if TYPE_CHECKING:
@@ -21,11 +21,6 @@ if TYPE_CHECKING:
     from footfit.results.heel import HeelChange
     from footfit.results.last_record import LastRecord, Parentage
     from footfit.results.meshes import ShapeSections
-
-
-def in_mm(keys: Json) -> Json:
-    """Keys whose numbers have the digits of millimetres: the unit is in a key of its own."""
-    return {key: json_number(v) if isinstance(v, float) else v for key, v in keys.items()}
 
 
 MeshOfBase = Literal["file", "full copy", "original file", "light copy"]
@@ -59,8 +54,9 @@ class CustomZone(Part):
     ``name`` is that of the measure, and ``zone`` that of the fit profile's zone whose allowance
     counts. ``foot`` is the foot's measure as it would be in the base's heel, and ``allowance`` what
     the target is more than that. ``room`` is what ``--room`` adds to the target. A girth has its
-    ``plane``. One that ``follows`` has no target of its own: the parts that are kept nearly set it,
-    and its target is what the others bring it to.
+    ``plane``. Each ``sd`` is the spread of a second scan: of the foot, the base and the written
+    last. One that ``follows`` has no target of its own: the parts that are kept nearly set it, and
+    its target is what the others bring it to.
     """
 
     name: str
@@ -74,6 +70,9 @@ class CustomZone(Part):
     room: float = 0.0
     follows: bool = False
     plane: GirthPlane | None = None
+    foot_sd: float | None = None
+    base_sd: float | None = None
+    reached_sd: float | None = None
 
     def _keys(self) -> Json:
         return in_mm(fields(self))
@@ -83,7 +82,8 @@ class CustomZone(Part):
 class JudgedZone(Part):
     """A zone of the fit profile in the base and in the custom last, as ``match`` judges it.
 
-    ``why`` says what a custom last keeps of its base, if the zone is not good in it.
+    ``why`` says what a custom last keeps of its base, if the zone is not good in it. Each ``sd`` is
+    the spread of second scans of foot and last.
     """
 
     name: str
@@ -95,6 +95,8 @@ class JudgedZone(Part):
     custom: float | None
     custom_verdict: Verdict | None
     why: str | None = None
+    base_sd: float | None = None
+    custom_sd: float | None = None
 
     def _keys(self) -> Json:
         return in_mm(fields(self))

@@ -7,7 +7,17 @@ from typing import TYPE_CHECKING, Literal
 
 from footfit.results.last_making.custom_last import BaseMesh
 from footfit.results.last_making.grading_rule import GradingRule
-from footfit.results.values import Document, Json, Notice, Part, SideName, fields, rows
+from footfit.results.values import (
+    Document,
+    Json,
+    Notice,
+    Part,
+    SideName,
+    fields,
+    in_mm,
+    json_number,
+    rows,
+)
 
 if TYPE_CHECKING:
     from footfit.results.last_record import LastLabels
@@ -20,7 +30,7 @@ By = Literal["rule", "held", "scaled", "follows"]
 class GradedMeasure(Part):
     """One measure of a graded last: of the base, as planned, and as the written file has it.
 
-    ``planned`` is None if the measure follows.
+    ``planned`` is None if the measure follows. ``sd`` is the spread of a second scan of the last.
     """
 
     name: str
@@ -29,6 +39,7 @@ class GradedMeasure(Part):
     planned: float | None
     reached: float | None
     by: By
+    sd: float | None = None
 
     @property
     def difference(self) -> float | None:
@@ -38,7 +49,7 @@ class GradedMeasure(Part):
         return self.reached - self.planned
 
     def _keys(self) -> Json:
-        return fields(self) | {"difference": self.difference}
+        return in_mm(fields(self) | {"difference": self.difference})
 
 
 @dataclass(frozen=True, slots=True)
@@ -103,16 +114,17 @@ class GradedRun(Document):
 
     schema = "grade/1"
     columns = (
-        *("last", "size", "width", "output", "measure", "by"),
-        *("base", "planned", "reached", "difference"),
+        *("last", "size", "width", "output", "measure", "by", "unit"),
+        *("base", "planned", "reached", "difference", "sd"),
     )
 
     def rows(self) -> list[Json]:
         """A table: a row for each measure of each last."""
         values = [
             (
-                *(last.last, last.size, last.width, last.output, each.name, each.by),
-                *(each.base, each.planned, each.reached, each.difference),
+                *(last.last, last.size, last.width, last.output, each.name, each.by, each.unit),
+                *map(json_number, (each.base, each.planned, each.reached)),
+                *map(json_number, (each.difference, each.sd)),
             )
             for last in self.lasts
             for each in last.measures

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from itertools import pairwise
 from typing import Literal
 
@@ -21,7 +21,7 @@ class RunLast(Part):
     ``size_number`` is the size on the adults' scale. ``size_from`` says where the size comes from:
     "catalogue", "manifest" or "file name". ``stands_by`` is "label" or "shape", None if it is not
     known how the last stands. Of one that stands by its label, ``measures_mm`` also has the heights
-    as its shape alone stands.
+    as its shape alone stands. ``sd_mm`` are the spreads of a second scan, by name.
     """
 
     last: str
@@ -32,10 +32,12 @@ class RunLast(Part):
     size_from: str
     measures_mm: Mapping[str, float]
     stands_by: str | None = None
+    sd_mm: Mapping[str, float] = field(default_factory=dict)
 
     def _keys(self) -> Json:
         measures = {name: json_number(value) for name, value in self.measures_mm.items()}
-        return fields(self) | {"measures_mm": measures}
+        spreads = {name: json_number(value) for name, value in self.sd_mm.items()}
+        return fields(self) | {"measures_mm": measures, "sd_mm": spreads}
 
 
 @dataclass(frozen=True, slots=True)
@@ -43,7 +45,8 @@ class RunStep(Part):
     """What one measure grows by from a last to the next size, or to the next width.
 
     ``expected_mm`` is by the run itself, or by the rule; ``off_mm`` is the increment minus that. It
-    is ``broken`` if that is more than ``tolerance_mm``.
+    is ``broken`` if that is more than ``tolerance_mm``. ``sd_mm`` is the spread of the increment if
+    both lasts are scanned again.
     """
 
     measure: str
@@ -56,6 +59,7 @@ class RunStep(Part):
     increment_mm: float
     expected_mm: float
     tolerance_mm: float
+    sd_mm: float = 0.0
 
     @property
     def off_mm(self) -> float:
@@ -66,6 +70,11 @@ class RunStep(Part):
     def broken(self) -> bool:
         """Is the increment farther off than is allowed?"""
         return abs(self.off_mm) > self.tolerance_mm
+
+    @property
+    def sure(self) -> bool:
+        """Is it farther from its tolerance than the increment's standard deviation?"""
+        return abs(abs(self.off_mm) - self.tolerance_mm) > self.sd_mm
 
     @property
     def words(self) -> str:
@@ -86,7 +95,8 @@ class RunStep(Part):
     def _keys(self) -> Json:
         renamed = {"from": self.start, "to": self.end, "last": self.first, "next_last": self.second}
         kept = fields(self, "start", "end", "first", "second")
-        return kept | renamed | {"off_mm": self.off_mm, "broken": self.broken}
+        judged = {"off_mm": self.off_mm, "broken": self.broken, "sure": self.sure}
+        return kept | renamed | judged
 
 
 @dataclass(frozen=True, slots=True)
@@ -149,7 +159,7 @@ class RunCheck(Document):
     schema = "check-run/1"
     columns = (
         *("measure", "kind", "at", "from", "to", "last", "next_last"),
-        *("increment_mm", "expected_mm", "off_mm", "tolerance_mm", "broken"),
+        *("increment_mm", "expected_mm", "off_mm", "tolerance_mm", "broken", "sd_mm", "sure"),
     )
 
     @property
@@ -157,6 +167,11 @@ class RunCheck(Document):
         """The steps that break the run's increments, the worst first."""
         bad = (step for step in self.steps if step.broken)
         return tuple(sorted(bad, key=lambda step: -abs(step.off_mm)))
+
+    @property
+    def unsure(self) -> tuple[RunStep, ...]:
+        """The steps whose verdict is not sure."""
+        return tuple(step for step in self.steps if not step.sure)
 
     @property
     def off_lasts(self) -> tuple[OffLast, ...]:

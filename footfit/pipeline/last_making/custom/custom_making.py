@@ -146,7 +146,7 @@ def _answer(
     sections = kept_sections(made.shape)
     kept_base = replace(base, sections=sections)
     after = fit_in(foot, made.record, kept_base, question)
-    judged, zones = _judged(before, after), _zones(base, attempt)
+    judged, zones = _judged(before, after), _zones(foot, base, attempt)
     side = made.record.side.side or "right"
     mirror = np.array([1.0, -1.0 if side == "left" else 1.0, 1.0])
     base_vertices_mm = base.shape.vertices_mm * mirror
@@ -185,9 +185,13 @@ def _answer(
     )
 
 
-def _zones(base: BaseLast, attempt: Attempt) -> tuple[results.CustomZone, ...]:
+def _zones(foot: Profiled, base: BaseLast, attempt: Attempt) -> tuple[results.CustomZone, ...]:
     """Each aim with what was reached, without the girths that are only pulled along."""
     aims, made = attempt.aims, attempt.made
+    foot_sd, base_sd, reached_sd = (
+        {row.name: row.measured.sd for row in measures}
+        for measures in (foot.measures, base.record.measures, made.record.measures)
+    )
     zones = []
     for aim, room in zip(aims, attempt.room_mm.tolist(), strict=True):
         if not aim.firm and aim.measure not in FOLLOWING:
@@ -208,6 +212,9 @@ def _zones(base: BaseLast, attempt: Attempt) -> tuple[results.CustomZone, ...]:
                 room=room if aim.firm else 0.0,
                 follows=not aim.firm,
                 plane=_plane(made, aim.measure),
+                foot_sd=None if aim.foot is None else foot_sd.get(aim.measure),
+                base_sd=base_sd.get(aim.measure),
+                reached_sd=reached_sd.get(aim.measure),
             )
         )
     return tuple(zones)
@@ -237,6 +244,8 @@ def _judged(before: results.FootFit, after: results.FootFit) -> tuple[results.Ju
             base_verdict=old.verdict,
             custom=new.clearance.value,
             custom_verdict=new.verdict,
+            base_sd=old.clearance.sd,
+            custom_sd=new.clearance.sd,
         )
         for old, new in zip(before.zones, after.zones, strict=True)
     )
