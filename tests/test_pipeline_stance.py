@@ -110,6 +110,14 @@ def test_the_advice_is_for_the_label_that_was_given():
     assert "stand its toe" in contradiction(StanceLabels(None, toe_spring_mm=40.0))
 
 
+def test_what_is_said_is_the_difference_of_the_two_heels():
+    alone_mm = stands().stance.heel_height_mm
+    labelled = stands(StanceLabels(alone_mm + 30.0)).stance.heel_height_mm
+    assert f"its heel {labelled - alone_mm:.0f} mm lower" in contradiction(
+        StanceLabels(alone_mm + 30.0)
+    )
+
+
 def test_a_label_that_no_ground_gives_widens_the_uncertainty():
     stance = stands(StanceLabels(200.0)).stance
     assert stance.heel_height_mm < 195.0
@@ -135,3 +143,9 @@ def test_a_foot_stands_as_it_lies_whatever_is_said():
 def test_a_label_that_no_last_has_is_refused(labels):
     with pytest.raises(BadOption, match="is from 0 to"):
         check_stance_labels(labels)
+
+
+def test_a_platform_higher_than_the_heel_is_refused():
+    with pytest.raises(BadOption, match=r"platform \(70.0 mm\) is higher than the heel \(60.0 mm\)"):
+        check_stance_labels(StanceLabels(60.0, platform_mm=70.0))
+    check_stance_labels(StanceLabels(60.0, platform_mm=60.0))

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import shlex
 import sqlite3
 from collections.abc import Callable
 from contextlib import closing
@@ -109,7 +110,9 @@ def require_known_revision(
         )
     if not older and revision != schema.head:
         raise CatalogueUnusable(
-            f"has the older schema {revision!r}; type: footfit upgrade-catalogue", str(place)
+            f"has the older schema {revision!r}; type: footfit upgrade-catalogue --catalogue"
+            f" {shlex.quote(str(place))}",
+            str(place),
         )
     return revision
 

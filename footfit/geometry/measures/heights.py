@@ -21,6 +21,7 @@ class HeightSettings:
 
 HEIGHTS = HeightSettings()
 NO_SOLE = "the sole is open at the {place}"
+NO_TREAD = "the sole is open or shows no tread"
 FLAT = "measured on lasts: a foot stands flat"
 
 
@@ -56,7 +57,9 @@ def toe_spring(shape: Shape) -> MeasureValue:
     A foot's ground is the contact plane; a last's is the ground that it stands on.
     """
     section = shape.across(HEIGHTS.toe_spring)
-    if shape.stance is None or shape.opened(section):
+    if shape.stance is None:
+        return MeasureValue(None, NO_TREAD)
+    if shape.opened(section):
         return MeasureValue(None, NO_SOLE.format(place="toes or the ball"))
     middle_mm = float(section.points[:, 1].min() + 0.5 * np.ptp(section.points[:, 1]))
     if shape.unscanned(section, below_mm=middle_mm):
@@ -73,8 +76,10 @@ def heel_height(shape: Shape) -> MeasureValue:
     """
     if shape.kind == "foot":
         return MeasureValue(None, FLAT)
-    heel_mm = None if shape.stance is None else shape.stance.heel_mm()
-    if shape.stance is None or heel_mm is None:
+    if shape.stance is None:
+        return MeasureValue(None, NO_TREAD)
+    heel_mm = shape.stance.heel_mm()
+    if heel_mm is None:
         return MeasureValue(None, NO_SOLE.format(place="heel or the ball"))
     return MeasureValue(heel_mm, convention_sd=shape.stance.level_sd_mm(0.0))
 
@@ -84,8 +89,10 @@ def toe_spring_tip(shape: Shape) -> MeasureValue:
 
     It is the toe spring of the trade; ``toe_spring`` is read further back.
     """
-    tip_mm = None if shape.stance is None else shape.stance.tip_mm()
-    if shape.stance is None or tip_mm is None:
+    if shape.stance is None:
+        return MeasureValue(None, NO_TREAD)
+    tip_mm = shape.stance.tip_mm()
+    if tip_mm is None:
         return MeasureValue(None, NO_SOLE.format(place="toes or the ball"))
     sd_mm = shape.stance.level_sd_mm(shape.stance.length_mm)
     return MeasureValue(tip_mm, convention_sd=sd_mm)
@@ -93,8 +100,10 @@ def toe_spring_tip(shape: Shape) -> MeasureValue:
 
 def seat_angle_deg(shape: Shape) -> MeasureValue:
     """How steeply the line of a last's seat falls towards the toe, in degrees from the ground."""
-    seat = None if shape.stance is None else shape.stance.seat_line()
-    if shape.stance is None or seat is None:
+    if shape.stance is None:
+        return MeasureValue(None, NO_TREAD)
+    seat = shape.stance.seat_line()
+    if seat is None:
         return MeasureValue(None, NO_SOLE.format(place="heel or the ball"))
     sd_deg = float(np.degrees(shape.stance.level_sd))
     return MeasureValue(-float(np.degrees(np.arctan(seat[0]))), convention_sd=sd_deg)

@@ -22,7 +22,7 @@ from footfit.geometry.stance.stance import Stance
 FOREPART = 0.7
 TURNS = 2  # of the direction towards the farthest toe; the second changes it by under .01 mm
 AHEAD = np.array([1.0, 0.0])
-OPEN_BOTTOM = "the sole is open at the heel or the ball"
+OPEN_BOTTOM = "the sole is open at the heel or the ball, or shows no tread"
 
 
 @dataclass(frozen=True, slots=True)

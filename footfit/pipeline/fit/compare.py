@@ -27,7 +27,7 @@ from footfit.pipeline.fit.worn_shifts import with_unknown_load
 from footfit.pipeline.scan.measure import last_record
 from footfit.pipeline.scan.preparation import stored_shape
 from footfit.pipeline.scan.reading import profiled_source
-from footfit.pipeline.scan.standing import LABELLED_MM
+from footfit.pipeline.scan.standing import LABELLED_MM, stance_notices
 from footfit.results.compare import comparison_nouns
 
 SD_FROM = {
@@ -147,7 +147,11 @@ def compared(
         clearance_mm=inside.clearance_mm,
         zones=inside.zones,
         sections=tuple(_section(pair, heels) for pair in pairs),
-        warnings=(*_unused_heel(foot, heel), *_warnings(foot, last.record, room)),
+        warnings=(
+            *_unused_heel(foot, heel),
+            *_warnings(foot, last.record, room),
+            *stance_notices(last.shape),
+        ),
         toe_room=room,
         measured_clearance=tuple(
             (name, with_unknown_load(clearance, name, measures))

@@ -12,7 +12,8 @@ from footfit.geometry.measures.heights import HEIGHTS
 from footfit.geometry.measures.landmarks import Shape
 from footfit.geometry.measures.measure_table import measure_named
 from footfit.geometry.stance.cues import Cue, StanceLabels
-from footfit.geometry.stance.stance import Stance
+from footfit.geometry.stance.stance import Stance, stance_of
+from footfit.number_words import plain
 from footfit.pipeline.scan.trueness import measured
 from footfit.results import GroundCue, LastLabels, LastStance, MeshInfo, Notice
 
@@ -20,7 +21,10 @@ LABELLED_MM = {"heel_height_mm": (0, 200), "toe_spring_mm": (0, 80), "platform_m
 """What labels may say."""
 LONE_PLATFORM = "a platform counts together with a heel height only: give --heel-height too"
 OF_A_FOOT = "heel height and toe spring are labels of lasts; this is a foot, which stands flat"
-OPEN_BOTTOM = "the bottom is open, so the labels of heel height and toe spring are of no use"
+OPEN_BOTTOM = (
+    "the bottom is open or shows no tread,"
+    " so the labels of heel height and toe spring are of no use"
+)
 CONTRADICTED_SDS = 2.0
 """A label that is further from the shape than this many of their standard deviations is told."""
 
@@ -37,7 +41,7 @@ def check_stance_labels(labels: StanceLabels) -> None:
     Raises
     ------
     BadOption
-        A height outside its range.
+        A height outside its range, or a platform that is higher than the heel.
 
     Examples
     --------
@@ -48,6 +52,12 @@ def check_stance_labels(labels: StanceLabels) -> None:
         if value is not None and not low <= value <= high:  # a NaN too
             words = name.removesuffix("_mm").replace("_", " ")
             raise BadOption(f"a {words} is from {low} to {high} mm, not {value}")
+    heel_mm, platform_mm = labels.heel_height_mm, labels.platform_mm
+    if heel_mm is not None and platform_mm > heel_mm:
+        raise BadOption(
+            f"the platform ({plain(platform_mm)} mm) is higher than the heel ({plain(heel_mm)} mm):"
+            " check both"
+        )
 
 
 def last_stance(shape: Shape, info: MeshInfo | None = None) -> LastStance | None:
@@ -107,7 +117,7 @@ def stance_notices(shape: Shape) -> tuple[Notice, ...]:
     grounds = {cue.name: cue for cue in stance.cues}
     if "label" not in grounds:
         return ()
-    words = _two_labels(stance, grounds) or _contradiction(stance, labels, grounds)
+    words = _two_labels(stance, grounds) or _contradiction(shape, stance, grounds)
     return (Notice("stance_label_contradicted", words),) if words else ()
 
 
@@ -138,20 +148,23 @@ def _two_labels(stance: Stance, grounds: Mapping[str, Cue]) -> str:
     )
 
 
-def _contradiction(stance: Stance, labels: StanceLabels, grounds: Mapping[str, Cue]) -> str:
+def _contradiction(shape: Shape, stance: Stance, grounds: Mapping[str, Cue]) -> str:
     """What is said if the shape stands otherwise than a label says."""
     label, own = grounds["label"], grounds["shape"]
-    apart = _apart(label, own)
-    if not apart:
+    alone = stance_of(shape.vertices_mm, shape.faces, "last") if _apart(label, own) else None
+    if alone is None:
         return ""
-    of_toe = labels.heel_height_mm is None
+    of_toe = shape.labels.heel_height_mm is None
+    said_mm, own_mm = (each.tip_mm() if of_toe else each.heel_mm() for each in (stance, alone))
+    if said_mm is None or own_mm is None:
+        return ""
     arm_mm = stance.length_mm - stance.touching_x_mm if of_toe else stance.touching_x_mm
-    higher = (apart < 0.0) == of_toe
     sd_mm = arm_mm * float(np.hypot(label.sd, own.sd))
+    higher = own_mm > said_mm
     words = (
-        f"the shape alone would stand its {'toe' if of_toe else 'heel'} {arm_mm * abs(apart):.0f}"
-        f" mm {'higher' if higher else 'lower'} than the label says (± {sd_mm:.0f} mm): check the"
-        " label"
+        f"the shape alone would stand its {'toe' if of_toe else 'heel'}"
+        f" {abs(own_mm - said_mm):.0f} mm {'higher' if higher else 'lower'} than the label says"
+        f" (± {sd_mm:.0f} mm): check the label"
     )
-    platform = not (of_toe or higher or labels.platform_mm)
+    platform = not (of_toe or higher or shape.labels.platform_mm)
     return f"{words}, or give the forepart's height with --platform" if platform else words
