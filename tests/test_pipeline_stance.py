@@ -146,6 +146,8 @@ def test_a_label_that_no_last_has_is_refused(labels):
 
 
 def test_a_platform_higher_than_the_heel_is_refused():
-    with pytest.raises(BadOption, match=r"platform \(70.0 mm\) is higher than the heel \(60.0 mm\)"):
+    with pytest.raises(
+        BadOption, match=r"platform \(70.0 mm\) is higher than the heel \(60.0 mm\)"
+    ):
         check_stance_labels(StanceLabels(60.0, platform_mm=70.0))
     check_stance_labels(StanceLabels(60.0, platform_mm=60.0))
