@@ -65,7 +65,7 @@ class ChartSettings:
     wall: float = 0.13
     faces_down: float = 0.5
     low: float = 0.35
-    low_widths: float = 0.6
+    low_widths: float = 1.0
     gentle: bool = True
     thin: float = 0.02
     deep: float = 1.0

@@ -51,7 +51,7 @@ from footfit.results import LastLabels, PreparedScan, SideName
 SETTLED_MM = (0.15, 0.3, 0.3, 0.3, 0.3, 0.3)
 HELPS = 0.75
 """The finished last is made again if it reads so far from a target: by the tries before. A try that
-leaves more than ``HELPS`` of the miss before is the last one."""
+leaves more than ``HELPS`` of the miss before is the last one, if there are other manners."""
 OUT_MM = 0.1
 """Another try is made if a measure reads so far out of its range, which is .95 of the good one."""
 BENT_DEG = 2.0, 4.0
@@ -191,7 +191,8 @@ def attempt_at(given: Given, aims: Sequence[CustomAim], first: Attempt | None = 
         if not any(best.worth[:3]):
             break
         with suppress(OutOfReach):
-            best = min(best, _best(given, aims, best, manner), key=_worth)
+            first = best if manner.zones else None
+            best = min(best, _best(given, aims, first, manner), key=_worth)
     refuse_missed(best.aims, best.off_mm, best.shape, given.turn_deg)
     return best
 
@@ -230,7 +231,8 @@ def _best(
         tries.append(tried)
         _, _, _, out_mm, off_mm = tried.worth
         met = off_mm <= settled_mm and (not out_mm or len(tries) > 1)
-        if met or (len(tries) > 1 and off_mm > HELPS * tries[-2].worth[-1]):
+        stuck = len(tries) > 1 and off_mm > HELPS * tries[-2].worth[-1]
+        if met or (stuck and manner.zones):
             break  # a limit of stretch that is passed with all targets met stays passed
     return min(tries, key=_worth)
 
