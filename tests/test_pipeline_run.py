@@ -26,7 +26,7 @@ from footfit.report.wording.run_words import break_words
 from footfit.results import Measure, Measured, RunLast
 from footfit.results.last_making.run_check import RunStep
 from tests import records
-from tests.conftest import Footfit
+from tests.conftest import SAMPLES, Footfit
 from tools.lasts import LastSpec, last_mesh
 
 GIRTH = "ball_girth_least"
@@ -371,6 +371,24 @@ def test_a_last_without_a_measure_is_left_out_of_its_check(tmp_path: Path) -> No
     assert [notice.code for notice in checked.warnings] == ["measure_missing"]
     with pytest.raises(FootfitError):
         footfit.check_run("derby")
+
+
+def test_a_bad_file_does_not_stop_a_run(footfit: Footfit, tmp_path: Path) -> None:
+    vertices, faces = last_mesh(LastSpec(flare_deg=6.0, rings=60, segments=48))
+    for size, scale in enumerate((0.976, 1.0, 1.024), start=40):
+        (tmp_path / f"derby-{size}.stl").write_bytes(encoded_mesh(vertices * scale, faces, "stl"))
+    (tmp_path / "derby-43.stl").write_bytes(b"")
+    foot = min((SAMPLES / "feet").iterdir())
+    (tmp_path / "derby-44.stl").write_bytes(foot.read_bytes())
+    (tmp_path / "run.csv").write_text("path,style\nderby-40.stl,derby\nderby-39.stl,derby\n")
+    checked = footfit("check-run", tmp_path, "--json")
+    assert checked.code == 3  # the codes differ
+    assert [each["code"] for each in checked.document["failed"]] == ["empty_mesh", "other_kind"]
+    assert [last["size"] for last in checked.document["lasts"]] == ["40", "41", "42"]
+    assert "the manifest names derby-39.stl, and there is no such file" in checked.err
+    assert "the manifest says no size" in checked.err
+    few = footfit("check-run", tmp_path / "derby-41.stl", tmp_path / "derby-43.stl")
+    assert (few.code, "the file is empty" in few.err) == (3, True), few.err
 
 
 def test_a_file_that_is_not_there_is_said_before_its_size(footfit, tmp_path):

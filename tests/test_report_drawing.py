@@ -92,6 +92,19 @@ def test_a_last_of_the_second_family_measures_what_it_should(heel_mm: float) -> 
     assert paper.outline_mm(sheets)[1] == pytest.approx(bottom_length_mm(drawing), abs=ON_PAPER_MM)
 
 
+def test_what_a_lid_closes_is_not_drawn() -> None:
+    """A foot whose top was not scanned, and which a program closed with flat faces."""
+    case = ROOT.parent / "shared" / "cases" / "nodorsum.stl"
+    if not case.is_file():
+        pytest.skip("../shared/cases/nodorsum.stl is not here")
+    drawing = footfit.drawing(case, foot=True)
+    assert set(drawing.missing) == {"arch", "instep", "waist", "ball", "toes"}
+    assert drawing.has_rim
+    text = " ".join(sheet.text for sheet in paper.pages(footfit.drawing_file(drawing), "plan"))
+    assert "nothing was scanned there" in " ".join(text.split())
+    assert not footfit.drawing(FOOT, foot=True).has_rim
+
+
 def test_a_printed_foot_is_as_long_as_its_mesh() -> None:
     drawing = footfit.drawing(FOOT, foot=True)
     sheets = paper.pages(footfit.drawing_file(drawing), "plan")

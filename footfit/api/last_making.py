@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Unpack
 
@@ -17,7 +18,7 @@ from footfit.api.inputs import (
     stance_keywords,
 )
 from footfit.api.scans import profiled_shape
-from footfit.errors import BadOption, SideUndecided, UnreadableFile
+from footfit.errors import BadOption, FootfitError, SideUndecided, UnreadableFile
 from footfit.geometry.fit.sizes import system_named
 from footfit.locations import LocationName, location_of
 from footfit.pipeline.batch.runs import HERE
@@ -153,7 +154,8 @@ def check_run(
     BadOption
         A size is not known, or the lasts are no run.
     NotInCatalogue, InputError, GeometryRefused
-        There is no such last; a file cannot be read or measured.
+        There is no such last; so many files cannot be read or measured that no run is left. Else
+        ``failed`` has their errors.
     """
     from footfit.pipeline.graded_runs import run_lasts
     from footfit.pipeline.graded_runs.grading_rules import grading_rule
@@ -172,14 +174,24 @@ def check_run(
         raise BadOption("is no file: name the catalogue that has it", stored[0])
     lasts: tuple[results.RunLast, ...] = ()
     family = None
+    errors: tuple[FootfitError, ...] = ()
+    notices: tuple[results.Notice, ...] = ()
     if catalogue is not None and len(names) == len(stored) == 1:
         lasts = run_lasts.family_lasts(location_of(catalogue), names[0])
         family = names[0] if lasts else None
     if not lasts:
         files = mesh_sources([name for name in names if name not in stored])
         by_name = () if catalogue is None else run_lasts.named_lasts(location_of(catalogue), stored)
-        lasts = (*by_name, *run_lasts.file_lasts(files, rows, jobs))
-    return run_check(lasts, tolerance_mm, stated, family)
+        in_files, errors, notices = run_lasts.file_lasts(files, rows, jobs)
+        lasts = (*by_name, *in_files)
+    try:
+        checked = run_check(lasts, tolerance_mm, stated, family)
+    except BadOption as error:
+        if not errors:
+            raise
+        errors[0].others = (*errors[1:], error)
+        raise errors[0] from error
+    return replace(checked, failed=errors, warnings=(*notices, *checked.warnings))
 
 
 @known_keywords(ReadingKeywords)

@@ -77,6 +77,20 @@ def require_storable(name: str) -> None:
         raise BadOption(words) from error
 
 
+def require_plain(name: str) -> None:
+    """Refuse a name for a new last that no command could take again, or that breaks a table.
+
+    Raises
+    ------
+    BadOption
+        It has a slash, a line break or another sign that is not printed; it cannot be stored.
+    """
+    require_storable(name)
+    if "/" in name or "\\" in name or not name.isprintable():
+        words = "a name has no slash and no line break, so that commands take it: give another one"
+        raise BadOption(f"{name!r}: {words}")
+
+
 def require_free_name(connection: Driver, name: str, key: int) -> None:
     """Refuse a name for the last of that ``key`` that another last has, in any case.
 

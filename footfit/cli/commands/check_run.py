@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from pathlib import Path
 
+import typer
+
 from footfit.cli import options
 
 
@@ -43,9 +45,11 @@ def check_run(
     """
     from footfit.api.last_making import check_run as check
     from footfit.cli.answers import answer_result
+    from footfit.cli.console import error_line, say
     from footfit.cli.outputs import Outputs
     from footfit.cli.progress import progress
     from footfit.errors import CheckFailed
+    from footfit.pipeline.batch.runs import common_code
     from footfit.results import RunCheck
 
     outputs = Outputs(table=RunCheck, csv=csv, force=force)
@@ -61,7 +65,12 @@ def check_run(
             jobs=jobs,
         )
     answer_result(checked, mode, outputs)
+    errors = list(checked.failed)
     if checked.broken:
         count = len(checked.broken)
         steps = "1 increment is" if count == 1 else f"{count} increments are"
-        raise CheckFailed(f"{steps} out of tolerance; the worst: {checked.worst_words}")
+        words = f"{steps} out of tolerance; the worst: {checked.worst_words}"
+        errors.append(CheckFailed(words))
+    for error in errors:
+        say(error_line(error, as_json=mode.json, verbose=mode.verbose))
+    raise typer.Exit(common_code(int(error.exit) for error in errors))

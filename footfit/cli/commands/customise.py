@@ -105,9 +105,9 @@ def customise(
     read = [source.path or "-" for source in sources]
     refuse(written, (*read, base), force=force)
     location = lasts.path()
-    if store is not None and not force:
-        sides = ("left", "right")
-        require_free_names(location, [f"{store}-{side}" for side in sides] if pair else [store])
+    if store is not None:
+        names = [f"{store}-{side}" for side in ("left", "right")] if pair else [store]
+        require_free_names(location, names, replaces=force)
     with progress(mode) as bar:
         bar.show()
         there = not isinstance(location, Path) or location.exists()

@@ -113,7 +113,8 @@ class _Cut:
 def views(shape: Shape) -> tuple[tuple[View, ...], tuple[str, ...]]:
     """The views of a canonical right shape, and the names of those that cannot be drawn.
 
-    A section that is open is left out, and so is a bottom that is open.
+    A section that is open, or that runs over a hole which a program closed, is left out, and so is
+    a bottom that is open. The other outlines are of what was scanned.
     """
     cuts = tuple(_cuts(shape))
     bottom = _sole(shape, cuts) if shape.kind == "foot" else _bottom(shape, cuts)
@@ -129,7 +130,7 @@ def _cuts(shape: Shape) -> Iterator[_Cut]:
     for station in STATIONS:
         origin, axes = station_plane(shape, station)
         section: Outline = shape.cut(origin, axes, TAPE_OUTLINES)
-        if not shape.opened(section):
+        if not (shape.opened(section) or shape.unscanned(section)):
             at_mm = float(origin[0]) - shape.x_mm(0.0)
             flat = section.points
             yield _Cut(station, section.loops, flat, origin + flat @ axes, at_mm)
@@ -198,9 +199,14 @@ def _standing(shape: Shape, points: Floats) -> Floats:
     return points if stands is None else points @ stands[:3, :3].T + stands[:3, 3]
 
 
+def _scanned(shape: Shape) -> Ints:
+    """The faces (k, 3) without those that a program closed a hole with."""
+    return np.asarray(shape.faces[~shape.filled])
+
+
 def _sole(shape: Shape, cuts: tuple[_Cut, ...]) -> View | None:
     """The sole of a foot: the shadow of what lies low; None if little of it was scanned."""
-    vertices, faces = below(shape.vertices_mm, shape.faces, SOLE_HEIGHT_MM)
+    vertices, faces = below(shape.vertices_mm, _scanned(shape), SOLE_HEIGHT_MM)
     x = vertices[faces, 0]
     if not len(faces) or np.ptp(x) < SOLE_LEAST * shape.length_mm:
         return None
@@ -210,9 +216,9 @@ def _sole(shape: Shape, cuts: tuple[_Cut, ...]) -> View | None:
 def _plan(shape: Shape, cuts: tuple[_Cut, ...]) -> View:
     """A standing last from above, or what is no ankle of a foot."""
     if shape.kind == "foot":
-        low = below(shape.vertices_mm, shape.faces, LANDMARKS.width_height * shape.length_mm)
+        low = below(shape.vertices_mm, _scanned(shape), LANDMARKS.width_height * shape.length_mm)
         return _from_above("plan", *low, cuts)
-    return _from_above("plan", _standing(shape, shape.vertices_mm), shape.faces, cuts, shape)
+    return _from_above("plan", _standing(shape, shape.vertices_mm), _scanned(shape), cuts, shape)
 
 
 def _shadow(points: Floats, faces: Ints) -> tuple[Floats, ...]:
@@ -238,7 +244,7 @@ def _from_above(
 
 def _side(shape: Shape, cuts: tuple[_Cut, ...]) -> View:
     """The shadow from the side as the shape stands, the toe to the right, on the ground z = 0."""
-    vertices, faces = _standing(shape, shape.vertices_mm), shape.faces
+    vertices, faces = _standing(shape, shape.vertices_mm), _scanned(shape)
     if shape.kind == "foot":
         vertices, faces = below(vertices, faces, LEG_HEIGHT * shape.length_mm)
     outlines = tuple(map(thinned_loop, _shadow(vertices[:, [0, 2]], faces)))

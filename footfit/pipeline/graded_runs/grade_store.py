@@ -9,6 +9,7 @@ from typing import Any, ClassVar
 
 from footfit.catalogue.group_commit import NewLast
 from footfit.catalogue.rows.last_names import caseless
+from footfit.catalogue.rows.requirements import require_plain
 from footfit.catalogue.store import open_catalogue
 from footfit.errors import BadOption, NameTaken, NotInCatalogue
 from footfit.locations import Location
@@ -30,10 +31,12 @@ def require_storable_run(path: Location, grader: Grader, *, replace_stored: bool
     Raises
     ------
     BadOption
-        The base is not in the catalogue.
+        The base is not in the catalogue, or no last can have such a name.
     NameTaken
         A last of the catalogue has the name of one of the run.
     """
+    for name in grader.names():
+        require_plain(name)
     try:
         with open_catalogue(path) as catalogue:
             names = {caseless(name): name for name in catalogue.names()}

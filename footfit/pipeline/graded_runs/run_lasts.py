@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import replace
 from functools import partial
@@ -10,10 +10,11 @@ from pathlib import Path
 
 from footfit.catalogue.rows.last_names import meant_name, nearest_name
 from footfit.catalogue.store import Catalogue, open_catalogue
-from footfit.errors import BadOption, UnknownLast, UnreadableFile
+from footfit.errors import BadOption, FootfitError, OtherKind, UnknownLast, UnreadableFile
 from footfit.geometry.measures.landmarks import Shape
 from footfit.geometry.stance.stance import Stance
 from footfit.locations import Location
+from footfit.number_words import first_names
 from footfit.pipeline.batch.runs import HERE, outcomes
 from footfit.pipeline.batch.sources import ReadingOptions, Source
 from footfit.pipeline.graded_runs.run_increments import BY_SHAPE, CHECKED
@@ -23,9 +24,11 @@ from footfit.pipeline.scan.measure import measured_scan
 from footfit.pipeline.scan.preparation import stored_shape
 from footfit.pipeline.scan.reading import AS_FOUND, aligned_source
 from footfit.pipeline.scan.standing import heights_by_shape, stance_labels
-from footfit.results import LastRecord, Measure, MeasuredScan
+from footfit.results import LastRecord, Measure, MeasuredScan, Notice
 from footfit.results.last_making.run_check import RunLast
 
+MOST_NAMED = 5
+"""So many files that are not there are named."""
 RUN_MANIFEST = "run.csv"
 """The manifest beside a run's files: `grade-last` writes it, `check-run` reads it."""
 
@@ -93,8 +96,9 @@ def named_lasts(catalogue: Location, names: Sequence[str]) -> tuple[RunLast, ...
 
 def file_lasts(
     sources: Sequence[Source], manifest: Sequence[ManifestRow] | None = None, jobs: int = HERE
-) -> tuple[RunLast, ...]:
-    """Files as a run has them: measured, with the sizes of a manifest, or else of their names.
+) -> tuple[tuple[RunLast, ...], tuple[FootfitError, ...], tuple[Notice, ...]]:
+    """Files as a run has them: measured, with the sizes of a manifest, or else of their names; the
+    errors of those that cannot be read or measured; and what is odd in the manifest.
 
     Without a manifest, those that lie beside the files are read.
 
@@ -104,17 +108,18 @@ def file_lasts(
         A file's size is not known.
     BadManifest
         A manifest beside the files is not understood.
-    InputError, GeometryRefused
-        A file is not there, or cannot be read or measured.
+    UnreadableFile
+        A file is not there.
     """
     known = _beside(sources) if manifest is None else manifest
     rows = {str(Path(row.path).resolve()): row for row in known}
     labels = {source.path: _label(source, rows) for source in sources}
     readings = {source.path: _reading(source, rows) for source in sources}
-    lasts = []
+    lasts, errors = [], []
     for outcome in outcomes(partial(_measured, readings=readings), sources, jobs):
         if outcome.error is not None:
-            raise outcome.error
+            errors.append(outcome.error)
+            continue
         assert outcome.value is not None
         scan, stance = outcome.value
         label, system = labels[outcome.item.path]
@@ -122,7 +127,18 @@ def file_lasts(
         number = size_number(label.size, system, name)
         last = _last(name, label, number, scan.alignment.side.side, scan.measures)
         lasts.append(_stands(last, None if stance is None else stance.decided_by, stance))
-    return tuple(lasts)
+    return tuple(lasts), tuple(errors), tuple(_odd(known))
+
+
+def _odd(rows: Sequence[ManifestRow]) -> Iterator[Notice]:
+    """A warning for files of a manifest that are not there, and for one that says no size."""
+    missing = [Path(row.path).name for row in rows if not Path(row.path).exists()]
+    if missing:
+        words = f"the manifest names {first_names(missing, MOST_NAMED)}, and there is no such file"
+        yield Notice("manifest_file_missing", f"{words}: does the run lack a last?")
+    if rows and not any(row.labels.size for row in rows):
+        words = "the manifest says no size: the sizes are those in the names of the files"
+        yield Notice("manifest_without_sizes", words)
 
 
 def _beside(sources: Iterable[Source]) -> list[ManifestRow]:
@@ -135,8 +151,10 @@ def _beside(sources: Iterable[Source]) -> list[ManifestRow]:
 def _measured(
     source: Source, readings: Mapping[str | None, ReadingOptions]
 ) -> tuple[MeasuredScan, Stance | None]:
-    """A last, and how it stands."""
+    """A last, and how it stands; raises OtherKind for a foot."""
     aligned = aligned_source(source, readings[source.path])
+    if aligned.alignment.pose.kind == "foot":
+        raise OtherKind("its shape is a foot's, not a last's: take it out of the run", source.path)
     return measured_scan(aligned), aligned.prepared.shape.stance
 
 

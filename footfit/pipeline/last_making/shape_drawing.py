@@ -34,4 +34,5 @@ def drawing_of(shape: AlignedScan | Profiled, *, foot: bool = False) -> Drawing:
     measures = shape.measures if isinstance(shape, Profiled) else scan_measures(prepared)
     labels = (shape.labels if isinstance(shape, Profiled) else None) or {}
     tolerance_mm = {} if foot else TOLERANCE_MM
-    return Drawing(alignment, measures, seen, missing, labels, tolerance_mm)
+    has_rim = bool(prepared.shape.filled.any())
+    return Drawing(alignment, measures, seen, missing, labels, tolerance_mm, has_rim)

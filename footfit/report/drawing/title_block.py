@@ -10,7 +10,7 @@ import numpy as np
 from footfit.number_words import plain
 from footfit.report.drawing.papers import PRINT_WORDS, Paper, Tile
 from footfit.report.drawing.parts import Anchor, Block, Line, Words, joined, paragraph, straight
-from footfit.report.wording.text import SPREADS, file_name, visible
+from footfit.report.wording.text import OF_RIM, SPREADS, file_name, visible
 from footfit.results import Drawing, Measure
 from footfit.version import __version__
 
@@ -68,6 +68,8 @@ def _notes(drawing: Drawing) -> Iterable[str]:
         yield f"Tolerance of a last as delivered, mm: {kinds}."
     if drawing.missing:
         yield f"Not drawn, because the scan is open there: {', '.join(drawing.missing)}."
+    if drawing.has_rim:
+        yield f"{OF_RIM[:1].upper()}{OF_RIM[1:]}."
     yield f"{SPREADS} footfit {__version__}"
 
 

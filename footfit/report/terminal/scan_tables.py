@@ -19,6 +19,7 @@ from rich.text import Text
 from footfit import results
 from footfit.number_words import RATIO_KEPT, plain, signed
 from footfit.report.wording.text import (
+    OF_RIM,
     SPREADS,
     class_words,
     length_text,
@@ -214,6 +215,8 @@ def draw_last_table(drawing: results.Drawing) -> RenderableType:
         rows.append((view.name, f"{width} x {height} mm"))
     if drawing.missing:
         rows.append(("not drawn", f"{', '.join(drawing.missing)}: the scan is open there"))
+    if drawing.has_rim:
+        rows.append(("hole", OF_RIM))
     return facts(*rows, title=alignment.info.path or "standard input")
 
 

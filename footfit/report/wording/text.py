@@ -60,6 +60,10 @@ def file_name(path: str | None) -> str:
     return visible(re.split(r"[/\\]", path.rstrip("/\\"))[-1])
 
 
+OF_RIM = (
+    "a program closed a hole of the scan; nothing was scanned there, so bottom, plan and side"
+    " end at its rim"
+)
 SPREADS = (
     "± is the spread of a second scan of the same shape; total ± also holds what is known of the"
     " trueness."

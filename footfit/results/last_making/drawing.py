@@ -20,7 +20,8 @@ class Drawing(Document):
 
     ``missing`` names the views that cannot be drawn, because the scan is open there. ``labels`` are
     those of a last of the catalogue, by name. ``tolerance_mm`` is by how much a last as delivered
-    may differ, by kind of measure; empty for a foot.
+    may differ, by kind of measure; empty for a foot. ``has_rim`` says that outlines may run along
+    the rim of a hole that a program closed: nothing was scanned there.
     """
 
     alignment: Alignment
@@ -29,6 +30,7 @@ class Drawing(Document):
     missing: tuple[str, ...]
     labels: Mapping[str, Any]
     tolerance_mm: Mapping[str, float]
+    has_rim: bool = False
 
     schema = "draw-last/1"
 
@@ -43,6 +45,7 @@ class Drawing(Document):
             "tolerance_mm": dict(self.tolerance_mm),
             "views": [part(view) for view in shown],
             "missing": list(self.missing),
+            "has_rim": self.has_rim,
             "measures": measures_part(self.measures),
         }
 

@@ -7,6 +7,7 @@ from dataclasses import dataclass, field
 from itertools import pairwise
 from typing import Literal
 
+from footfit.errors import FootfitError
 from footfit.number_words import plain
 from footfit.results.last_making.grading_rule import LawName
 from footfit.results.values import Document, Json, Notice, Part, fields, json_number, part, rows
@@ -144,6 +145,7 @@ class RunCheck(Document):
 
     ``family`` is the label of the lasts, None for files. ``size_step`` is how far apart two sizes
     are: in a rule, or the least in the run. ``tolerance_mm`` is by kind of measure.
+    ``failed`` are the errors of files that could not be read or measured.
     """
 
     family: str | None
@@ -155,6 +157,7 @@ class RunCheck(Document):
     laws: tuple[RunLaw, ...]
     steps: tuple[RunStep, ...]
     warnings: tuple[Notice, ...] = ()
+    failed: tuple[FootfitError, ...] = ()
 
     schema = "check-run/1"
     columns = (
@@ -209,10 +212,11 @@ class RunCheck(Document):
 
     def _keys(self) -> Json:
         return {
-            **fields(self, "warnings"),
+            **fields(self, "warnings", "failed"),
             "tolerance_mm": part(self.tolerance_mm),
             "broken": self.broken,
             "off_lasts": self.off_lasts,
+            "failed": [error.to_dict() for error in self.failed],
             "warnings": self.warnings,
         }
 

@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from contextlib import suppress
 from dataclasses import replace
 from pathlib import Path
 
 from footfit.catalogue.group_commit import NewLast
 from footfit.catalogue.rows.last_names import caseless
+from footfit.catalogue.rows.requirements import require_plain
 from footfit.catalogue.store import Catalogue, open_catalogue
 from footfit.errors import FootfitError, NameTaken, NoCandidate, NoCatalogue, OutOfReach
 from footfit.locations import Location
@@ -133,14 +134,18 @@ def _heel_mm(base: BaseLast) -> float:
     return base.record.heel_height_mm or 0.0
 
 
-def require_free_names(path: Location, names: Iterable[str]) -> None:
+def require_free_names(path: Location, names: Sequence[str], *, replaces: bool = False) -> None:
     """Refuse names that lasts of the catalogue have, before any work.
 
     Raises
     ------
-    NameTaken
-        There is a last of that name.
+    NameTaken, BadOption
+        There is a last of that name; no last can have it.
     """
+    for name in names:
+        require_plain(name)
+    if replaces:
+        return
     try:
         with open_catalogue(path) as catalogue:
             known = {caseless(name): name for name in catalogue.names()}
@@ -164,8 +169,8 @@ def store_custom_lasts(
     """
     from footfit.meshes.copies.compact_copy import compact_copy
 
-    if not replaces:
-        require_free_names(path, [custom.record.labels.name for custom in customs])
+    names_of = [custom.record.labels.name for custom in customs]
+    require_free_names(path, names_of, replaces=replaces)
     with open_catalogue(path, write=True) as catalogue:
         names, lasts = catalogue.names(), []
         for custom in customs:
