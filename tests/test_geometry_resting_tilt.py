@@ -67,11 +67,15 @@ def test_a_foot_rests_as_it_stands(low: Shape) -> None:
     assert at_rest(Shape(low.vertices_mm, low.faces, "foot")) is None
 
 
-def test_the_level_of_a_tread_behind_a_crisp_break_is_surer() -> None:
-    level = []
-    for length in (0.05, 0.10, 0.20):
+def test_what_the_cues_leave_open_is_in_the_level_of_the_tread() -> None:
+    """Behind a crease the slope near the tread and the model of the bottom differ by a degree."""
+    level, apart = [], []
+    for length in (0.05, 0.15):
         spec = replace(LOW, heel_height_mm=60.0, break_length=length)
         stance = Shape(*last_mesh(spec), "last").stance
         assert stance is not None
+        grounds = {cue.name: cue.ground for cue in stance.cues}
         level.append(stance.level_sd)
-    assert level[0] < level[1] < level[2]
+        apart.append(abs(grounds["tread"] - grounds["bottom"]))
+    assert apart[0] > 2.0 * apart[1]  # .90 and .09 degrees
+    assert level[0] > 1.2 * level[1]  # .62 and .45 degrees

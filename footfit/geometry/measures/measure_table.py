@@ -199,7 +199,7 @@ MEASURES: tuple[MeasureDefinition, ...] = (
         0.35,
         last_sd=0.8,
         foot=off(-0.37, 0.40),
-        last=off(-0.62, 0.97, 0.44, 0.00, 1.49),
+        last=off(-0.61, 0.20, 0.48, 0.00, 1.26),
         usual_share=(1.12, 1.47),
     ),
     MeasureDefinition(
@@ -270,9 +270,9 @@ MEASURES: tuple[MeasureDefinition, ...] = (
         0.2,
         last_sd=0.25,
         foot=off(-0.18, 0.55),
-        last=off(-0.16, 0.20, 0.00, 0.02, 0.31),
+        last=off(-0.02, 0.00, 0.00, 0.00, 0.14),
     ),
-    MeasureDefinition(heights.heel_height, 3, 0.5, last=off(-0.29, 0.84, 0.21, 0.00, 0.00)),
+    MeasureDefinition(heights.heel_height, 3, 0.5, last=off(-0.65, 0.00, 0.89, 0.85, 0.32)),
     MeasureDefinition(
         widths.bottom_width_ball, 2, 0.3, LAST, last=off(0.21, 0.29, 0.40, 0.27, 0.28)
     ),
@@ -280,14 +280,16 @@ MEASURES: tuple[MeasureDefinition, ...] = (
         widths.bottom_width_heel, 2, 0.2, LAST, last=off(-0.02, 0.00, 0.00, 0.00, 0.06)
     ),
     MeasureDefinition(lengths.tape_length, 3, 0.3, LAST, last=off(-0.25, 0.09, 0.39, 0.47, 0.48)),
-    MeasureDefinition(lengths.stick_length, 2, 0.3, LAST, last=off(-0.19, 0.19, 0.28, 0.36, 0.53)),
+    MeasureDefinition(lengths.stick_length, 2, 0.3, LAST, last=off(-0.08, 0.00, 0.00, 0.00, 0.68)),
     MeasureDefinition(lengths.bottom_length, 2, 0.35, LAST, last=off(0.17, 0.39, 0.51, 0.32, 0.66)),
     MeasureDefinition(
-        heights.toe_spring_tip, 1, 0.45, LAST, last=off(-0.03, 0.61, 0.35, 0.10, 0.00)
+        heights.toe_spring_tip, 1, 0.45, LAST, last=off(0.13, 0.00, 0.36, 0.29, 0.45)
     ),
-    MeasureDefinition(lengths.tread_from, 1, 2.0, LAST, last=off(0.93, 1.42, 0.00, 0.89, 0.15)),
-    MeasureDefinition(lengths.tread_to, 1, 2.0, LAST, last=off(-0.40, 5.13, 3.14, 2.38, 0.00)),
-    MeasureDefinition(heights.seat_angle_deg, 1, 0.4, LAST, last=off(0.04, 0.36, 0.10, 0.00, 0.00)),
+    MeasureDefinition(lengths.tread_from, 1, 2.0, LAST, last=off(0.39, 0.38, 0.00, 0.00, 0.00)),
+    MeasureDefinition(lengths.tread_to, 1, 2.0, LAST, last=off(-1.56, 0.25, 3.83, 1.45, 0.00)),
+    MeasureDefinition(
+        heights.seat_angle_deg, 1, 0.4, LAST, last=off(-0.09, 0.00, 0.00, 0.16, 0.00)
+    ),
 )
 
 
