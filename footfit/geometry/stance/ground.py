@@ -14,7 +14,7 @@ import numpy as np
 
 from footfit.geometry.numeric.arrays import Floats, Ints
 from footfit.geometry.stance.cues import Cue
-from footfit.geometry.stance.middle_line import MiddleLine, middle_line
+from footfit.geometry.stance.middle_line import MiddleLine, middle_line, seat_line
 from footfit.geometry.stance.tread_fit import (
     TREAD_FIT,
     SlopedLine,
@@ -37,8 +37,6 @@ class GroundSettings:
         A wrong fit has the toe rise far from the ground, because its ground is too low.
     starts_deg : tuple of float
         Else the grounds that more fits begin from. The least cost wins.
-    seat : tuple of float
-        Where the seat lies along the ground, over the length.
     seat_back_deg : float
         No seat falls backwards by more than this.
     range_deg : tuple of float
@@ -71,7 +69,6 @@ class GroundSettings:
     low_cost: float = 25.0
     low_spring: float = 0.04
     starts_deg: tuple[float, ...] = (1.0, 17.0, 25.0, 33.0, 41.0, 49.0)
-    seat: tuple[float, float] = (0.06, 0.14)
     seat_back_deg: float = 4.0
     range_deg: tuple[float, float] = (-1.5, 60.0)
     rounds: int = 10
@@ -95,7 +92,6 @@ class GroundSettings:
 
 
 GROUND = GroundSettings()
-_TIP = 0.94  # the toe spring is read at this place
 
 
 @dataclass(frozen=True, slots=True)
@@ -129,8 +125,7 @@ def bottom_cues(
     fit = _fit(lambda _: bottom, rough.ground, rough.parameters, settings)
     if fit is None:
         return None
-    place = float(np.interp(fit.parameters[3], bottom.arc, bottom.places(fit.ground)))
-    near = _near_slope(line, fit.ground, place, settings)
+    near = _near_slope(line, fit.ground, bottom.place_of(fit), settings)
     if near is None:
         return None
     tread, level_sd = near
@@ -178,14 +173,14 @@ def _rough_fit(trials: _Trials, settings: GroundSettings) -> TreadFit | None:
     fits = [fit, *(_fit(trials.near, start, start, settings) for start in starts)]
     least, most = np.radians(settings.range_deg)
     possible = [each for each in fits if each is not None and least < each.ground < most]
-    standing = [each for each in possible if each.ground > trials.least_ground()]
+    lowest = trials.least_ground()
+    standing = [each for each in possible if each.ground > lowest]
     return min(standing or possible, key=lambda each: each.cost, default=None)
 
 
 def _is_low(fit: TreadFit, trials: _Trials, settings: GroundSettings) -> bool:
     """Whether a fit is that of a low heel, with a toe that springs as toes do."""
-    lowest = np.radians(settings.range_deg[0])
-    lowest = max(lowest, trials.least_ground())
+    lowest = max(np.radians(settings.range_deg[0]), trials.least_ground())
     low = lowest < fit.ground < np.radians(settings.low_deg) and fit.cost < settings.low_cost
     return low and _spring(fit, trials) < settings.low_spring
 
@@ -196,7 +191,7 @@ def _spring(fit: TreadFit, trials: _Trials) -> float:
     if bottom is None:
         return np.inf
     place = bottom.places(fit.ground)
-    toe = (place > TREAD_FIT.tread[0]) & (place < _TIP)
+    toe = (place > TREAD_FIT.tread[0]) & (place < TREAD_FIT.tip)
     step = float(bottom.arc[1] - bottom.arc[0])
     return float(np.sin(bottom.slope - fit.ground)[toe].sum()) * step
 
@@ -227,13 +222,10 @@ def _least_ground(line: MiddleLine, settings: GroundSettings) -> float:
 
     A line that is cut for a ground far too low has a steeper seat, and so a lower bound.
     """
-    x, z = line.points_mm.T
-    place = (x - line.ends_mm[0]) / line.length_mm
-    seat = (place > settings.seat[0]) & (place < settings.seat[1])
-    if seat.sum() < 3:
+    seat = seat_line(line.from_rear(), line.length_mm)
+    if seat is None:
         return -np.inf
-    rise = np.arctan(np.polyfit(x[seat], z[seat], 1)[0]) + line.ground
-    return float(rise - np.radians(settings.seat_back_deg))
+    return float(np.arctan(seat[0]) + line.ground - np.radians(settings.seat_back_deg))
 
 
 def _near_slope(

@@ -45,6 +45,8 @@ class MiddleLineSettings:
 
 
 MIDDLE_LINE = MiddleLineSettings()
+SEAT = 0.06, 0.14
+"""Where the seat lies along the ground, over the standing length."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -78,6 +80,10 @@ class MiddleLine:
         arc: Floats = (start + np.concatenate([[0.0], np.cumsum(steps)])) / self.length_mm
         return arc
 
+    def from_rear(self) -> Floats:
+        """The points (k, 2) with the rearmost place along the ground at 0."""
+        return self.points_mm - [self.ends_mm[0], 0.0]
+
     def on(self, ground: float, vertices_mm: Floats) -> MiddleLine:
         """The same line over a ground that is within some degrees of the one it was cut for.
 
@@ -87,6 +93,26 @@ class MiddleLine:
         cosine, sine = np.cos(ground - self.ground), np.sin(ground - self.ground)
         turn = np.array([[cosine, -sine], [sine, cosine]])
         return MiddleLine(ground, self.points_mm @ turn, _ends(points[low_points(points)]))
+
+
+def stretch(points_mm: Floats, length_mm: float, window: tuple[float, float]) -> Floats:
+    """The points (k, 2) of a line from the rearmost place between two shares of the length."""
+    place = points_mm[:, 0] / length_mm
+    return np.asarray(points_mm[(place >= window[0]) & (place <= window[1])])
+
+
+def seat_line(
+    points_mm: Floats, length_mm: float, window: tuple[float, float] = SEAT
+) -> tuple[float, float] | None:
+    """The slope of the seat's line, and its height (mm) at the rearmost place.
+
+    None if the bottom is open along the seat.
+    """
+    x, z = stretch(points_mm, length_mm, window).T
+    if len(x) < 3:
+        return None
+    slope, height_mm = np.polyfit(x, z, 1)
+    return float(slope), float(height_mm)
 
 
 def turned(vertices_mm: Floats, ground: float) -> Floats:

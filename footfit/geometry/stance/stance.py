@@ -15,7 +15,15 @@ from footfit.geometry.numeric.arrays import Floats, Ints
 from footfit.geometry.numeric.smoothing import local_quadratic
 from footfit.geometry.stance.cues import NO_LABELS, Cue, StanceLabels, agreed, combined, doubted
 from footfit.geometry.stance.ground import BottomCues, bottom_cues
-from footfit.geometry.stance.middle_line import MiddleLine, low_points, middle_line, turned
+from footfit.geometry.stance.middle_line import (
+    SEAT,
+    MiddleLine,
+    low_points,
+    middle_line,
+    seat_line,
+    stretch,
+    turned,
+)
 
 
 @dataclass(frozen=True, slots=True)
@@ -48,7 +56,7 @@ class StanceSettings:
 
     touch: tuple[float, float] = (0.50, 0.90)
     bandwidth: float = 0.012
-    seat: tuple[float, float] = (0.06, 0.14)
+    seat: tuple[float, float] = SEAT
     toe: tuple[float, float] = (0.82, 0.94)
     pitch: float = 0.78
     pitch_spread: float = 0.48
@@ -169,8 +177,7 @@ class Stance:
 
     def stretch_mm(self, window: tuple[float, float]) -> Floats:
         """The points (k, 2) of the middle line between two shares of the standing length."""
-        place = self.middle_mm[:, 0] / self.length_mm
-        return np.asarray(self.middle_mm[(place >= window[0]) & (place <= window[1])])
+        return stretch(self.middle_mm, self.length_mm, window)
 
     def heel_mm(self, settings: StanceSettings = STANCE) -> float | None:
         """How high the seat's line stands over the ground at the rearmost point.
@@ -185,11 +192,7 @@ class Stance:
 
         None if the bottom is open along the seat.
         """
-        x, z = self.stretch_mm(settings.seat).T
-        if len(x) < 3:
-            return None
-        slope, height_mm = np.polyfit(x, z, 1)
-        return float(slope), float(height_mm)
+        return seat_line(self.middle_mm, self.length_mm, settings.seat)
 
     def tip_mm(self, settings: StanceSettings = STANCE) -> float | None:
         """How high the bottom's middle, drawn on to the foremost point, lies over the ground.
@@ -232,7 +235,7 @@ def stance_of(
     cues = _shape_cues(last, bottom)
     said = _label_cues(last, labels, cues[-1].ground)
     if not said:
-        level_sd = _level_sd(bottom.level_sd, cues[-1].sd, last.settings)
+        level_sd = _doubted_level(bottom.level_sd, cues[-1].sd, last.settings)
         return replace(last.on(cues[-1], "shape", cues), level_sd=level_sd)
     label = agreed("label", said)
     cues = (*cues, *(said if len(said) > 1 else ()), label)
@@ -283,7 +286,7 @@ def _shape_cues(last: _StandingLast, bottom: BottomCues) -> tuple[Cue, ...]:
     return (*cues, doubted("shape", cues))
 
 
-def _level_sd(of_tread: float, of_shape: float, settings: StanceSettings) -> float:
+def _doubted_level(of_tread: float, of_shape: float, settings: StanceSettings) -> float:
     """How sure the level of a tread is, with what the cues leave open beyond the usual, radians."""
     usual = np.radians(settings.usual_sd_deg)
     return float(np.hypot(of_tread, settings.doubt * np.sqrt(max(of_shape**2 - usual**2, 0.0))))

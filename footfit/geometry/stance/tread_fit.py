@@ -102,6 +102,10 @@ class SlopedLine:
         along = self.points_mm[:, 0] * cosine + self.points_mm[:, 1] * sine
         return np.asarray((along - rear) / (front - rear))
 
+    def place_of(self, fit: TreadFit) -> float:
+        """Where along the standing length a model that fits has its tread, on its own ground."""
+        return float(np.interp(fit.parameters[3], self.arc, self.places(fit.ground)))
+
 
 @dataclass(frozen=True, slots=True)
 class TreadFit:

@@ -306,11 +306,8 @@ def measures_of(shape: Shape) -> dict[str, float]:
 
 def spreads_of(shape: Shape) -> dict[str, float | None]:
     """The spread of a second scan of each checked measure of a last, in mm by name."""
-    return {
-        name: measured(entry, entry.taken_of(shape), "last", None).sd
-        for name in CHECKED
-        for entry in (measure_named(name),)
-    }
+    entries = map(measure_named, CHECKED)
+    return {each.name: measured(each, each.taken_of(shape), "last", None).sd for each in entries}
 
 
 def reading_of(base: BaseLast, stands: StanceLabels) -> ReadingOptions:

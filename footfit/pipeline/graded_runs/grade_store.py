@@ -11,12 +11,13 @@ from footfit.catalogue.group_commit import NewLast
 from footfit.catalogue.rows.last_names import caseless
 from footfit.catalogue.rows.requirements import require_plain
 from footfit.catalogue.store import open_catalogue
-from footfit.errors import BadOption, NameTaken, NotInCatalogue
+from footfit.errors import BadOption, NameTaken
 from footfit.locations import Location
 from footfit.meshes.copies.compact_copy import COPY_FACES, compact_copy
 from footfit.pipeline.batch.sources import Source
 from footfit.pipeline.graded_runs.grade_run import Grader, reading_of
 from footfit.pipeline.library.manifest import COLUMNS
+from footfit.pipeline.library.named_lasts import stored_names
 from footfit.pipeline.scan.kept_sections import kept_sections
 from footfit.pipeline.scan.measure import last_record
 from footfit.pipeline.scan.reading import profiled_source
@@ -37,11 +38,7 @@ def require_storable_run(path: Location, grader: Grader, *, replace_stored: bool
     """
     for name in grader.names():
         require_plain(name)
-    try:
-        with open_catalogue(path) as catalogue:
-            names = {caseless(name): name for name in catalogue.names()}
-    except NotInCatalogue:
-        names = {}
+    names = stored_names(path)
     if caseless(grader.base.name) not in names:
         words = "--store needs a base of the catalogue: footfit ingest-last FILE --keep-mesh full"
         raise BadOption(words, grader.base.name)

@@ -11,7 +11,14 @@ import numpy as np
 
 from footfit.catalogue.rows.last_names import caseless, meant_name, nearest_name
 from footfit.catalogue.store import open_catalogue
-from footfit.errors import CatalogueUnusable, FootfitError, NoCatalogue, UnknownLast, UnreadableFile
+from footfit.errors import (
+    CatalogueUnusable,
+    FootfitError,
+    NoCatalogue,
+    NotInCatalogue,
+    UnknownLast,
+    UnreadableFile,
+)
 from footfit.geometry.measures.landmarks import Shape
 from footfit.locations import Location
 from footfit.meshes.copies.compact_copy import expanded_mesh
@@ -130,6 +137,13 @@ def stored_name(catalogue: Location, name: str) -> str | None:
     with suppress(FootfitError), open_catalogue(catalogue) as opened:
         return opened.name(name)
     return None
+
+
+def stored_names(catalogue: Location) -> dict[str, str]:
+    """The names of a catalogue by their caseless forms; none if there is no catalogue."""
+    with suppress(NotInCatalogue), open_catalogue(catalogue) as opened:
+        return {caseless(name): name for name in opened.names()}
+    return {}
 
 
 def profiled_last(catalogue: Location, name: str) -> Profiled:

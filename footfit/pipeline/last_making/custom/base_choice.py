@@ -11,11 +11,12 @@ from footfit.catalogue.group_commit import NewLast
 from footfit.catalogue.rows.last_names import caseless
 from footfit.catalogue.rows.requirements import require_plain
 from footfit.catalogue.store import Catalogue, open_catalogue
-from footfit.errors import FootfitError, NameTaken, NoCandidate, NoCatalogue, OutOfReach
+from footfit.errors import FootfitError, NameTaken, NoCandidate, OutOfReach
 from footfit.locations import Location
 from footfit.pipeline.fit.match import Question, matched
 from footfit.pipeline.last_making.base_last import BaseLast, stored_base
 from footfit.pipeline.last_making.custom.custom_making import Making, customised
+from footfit.pipeline.library.named_lasts import stored_names
 from footfit.pipeline.shelf.candidates import choice
 from footfit.results import Profiled, SideName
 from footfit.results.last_making.custom_last import CustomLast
@@ -144,13 +145,7 @@ def require_free_names(path: Location, names: Sequence[str], *, replaces: bool =
     """
     for name in names:
         require_plain(name)
-    if replaces:
-        return
-    try:
-        with open_catalogue(path) as catalogue:
-            known = {caseless(name): name for name in catalogue.names()}
-    except NoCatalogue:
-        return
+    known = {} if replaces else stored_names(path)
     for name in names:
         if caseless(name) in known:
             words = "is in the catalogue: add --force, or give --store another name"

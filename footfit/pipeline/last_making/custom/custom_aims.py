@@ -177,7 +177,6 @@ def _ball_line(
     foot_mm = scanned + share * full_change(model, foot, BALL_LENGTH)[0]
     percent_mm = 0.01 * foot.aligned.alignment.extent_mm
     rule = rules["ball_line"]
-
     off = (own - foot_mm) / percent_mm
     ends = (off - inner_good(rule, off), *(RANGE * end for end in rule.good))
     target, low, high = (

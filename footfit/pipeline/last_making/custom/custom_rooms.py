@@ -148,17 +148,12 @@ def reached_rooms(
 
     ``ends_mm`` are the right vertices (n, 3) of the last without the room and with it.
     """
-    standing, shift = chart.standing(base.vertices_mm), ends_mm[1] - ends_mm[0]
-    swelling_mm = np.linalg.norm(shift, axis=1)
+    standing = chart.standing(base.vertices_mm)
+    swelling_mm = np.linalg.norm(ends_mm[1] - ends_mm[0], axis=1)
     return tuple(
-        RoomPlace(name, size_mm, float(swelling_mm[_within(bump, standing)].max(initial=0.0)))
+        RoomPlace(name, size_mm, float(swelling_mm[bump.shift(standing).any(axis=1)].max()))
         for (name, size_mm), bump in zip(rooms_mm.items(), bumps, strict=True)
     )
-
-
-def _within(bump: Bump, standing: Floats) -> Bools:
-    """Which points (n, 3) of the standing frame a swelling moves, (n,)."""
-    return np.asarray(np.linalg.norm(standing - bump.centre_mm, axis=1) < bump.radius_mm)
 
 
 def joint_notices(before: Shape, after: Shape) -> tuple[Notice, ...]:

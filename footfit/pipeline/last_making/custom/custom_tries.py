@@ -10,6 +10,7 @@ from collections.abc import Sequence
 from contextlib import suppress
 from dataclasses import dataclass, replace
 from functools import cached_property
+from operator import attrgetter
 
 import numpy as np
 
@@ -192,7 +193,7 @@ def attempt_at(given: Given, aims: Sequence[CustomAim], first: Attempt | None = 
             break
         with suppress(OutOfReach):
             first = best if manner.zones else None
-            best = min(best, _best(given, aims, first, manner), key=_worth)
+            best = min(best, _best(given, aims, first, manner), key=attrgetter("worth"))
     refuse_missed(best.aims, best.off_mm, best.shape, given.turn_deg)
     return best
 
@@ -234,11 +235,7 @@ def _best(
         stuck = len(tries) > 1 and off_mm > HELPS * tries[-2].worth[-1]
         if met or (stuck and manner.zones):
             break  # a limit of stretch that is passed with all targets met stays passed
-    return min(tries, key=_worth)
-
-
-def _worth(attempt: Attempt) -> tuple[bool, float, bool, float, float]:
-    return attempt.worth
+    return min(tries, key=attrgetter("worth"))
 
 
 def _tried(

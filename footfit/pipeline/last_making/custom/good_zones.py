@@ -56,19 +56,16 @@ def nearer_length(
     longer good though the base's toe room is good.
     """
     length = next(zone for zone in judged if zone.name == LENGTH)
-    kept = length.base_verdict == "good"
-    for zone in judged:
-        base, custom = zone.base_verdict, zone.custom_verdict
-        if zone.name not in TOE_BOX or base is None or custom is None:
-            continue
-        if VERDICTS.index(custom) > max(VERDICTS.index(base), 0 if kept else 1):
-            break
-    else:
+    least = 0 if length.base_verdict == "good" else 1
+    worse = any(
+        VERDICTS.index(zone.custom_verdict) > max(VERDICTS.index(zone.base_verdict), least)
+        for zone in judged
+        if zone.name in TOE_BOX and zone.base_verdict and zone.custom_verdict
+    )
+    if not worse or length.base is None:
         return None
     (rule,) = (rule for rule in question.profile.zones if rule.zone == LENGTH)
     low, high = good_range(rule.target, rule, GOOD_ROOM)
-    if length.base is None:
-        return None
     room_mm = min(max(length.base, low), high) - length.base
     return tuple(replace(a, target=a.base + room_mm) if a.measure == LENGTH else a for a in aims)
 
