@@ -10,7 +10,8 @@ from scipy.special import ellipe
 
 from footfit.geometry.measures.girths import instep_girth, instep_girth_least, short_heel_girth
 from footfit.geometry.measures.landmarks import Shape
-from footfit.geometry.measures.tape import convex_hull, hull_girth
+from footfit.geometry.measures.tape import hull_girth
+from footfit.geometry.numeric.hulls import convex_hull
 from tests import shapes
 from tests.bounds import EXACT
 from tests.measure_peer import Drafted, true_heel_girths

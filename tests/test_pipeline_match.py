@@ -21,8 +21,8 @@ from footfit.pipeline.fit.compare import best_comparison
 from footfit.pipeline.fit.fit_profile import fit_profile
 from footfit.pipeline.fit.judging.clearances import BALL_SHARE, ball_line_mm
 from footfit.pipeline.fit.match import Question, matched, meets
-from footfit.pipeline.fit.refused_feet import SURE_LAST
 from footfit.pipeline.fit.scoring import rescan_spread
+from footfit.pipeline.scan.one_shape import SURE_KIND
 from footfit.pipeline.scan.reading import profiled_source
 from footfit.pipeline.shelf.candidates import choice
 from footfit.report.page.match_page import match_page
@@ -551,7 +551,7 @@ def test_what_is_surely_a_last_is_matched_as_a_foot_only_if_that_is_forced() -> 
     shape = foot()
     pose = replace(shape.aligned.alignment.pose, kind="last")
     alignment = replace(shape.aligned.alignment, pose=pose)
-    prepared = replace(shape.aligned.prepared, kind_margin=1.1 * SURE_LAST)
+    prepared = replace(shape.aligned.prepared, kind_margin=1.1 * SURE_KIND)
     scanned = replace(shape, aligned=replace(shape.aligned, alignment=alignment, prepared=prepared))
     for by in ("fit", "flare"):
         with pytest.raises(OtherKind, match="surely a last"):

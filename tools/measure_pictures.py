@@ -12,11 +12,12 @@ from footfit.geometry.measures.heights import HEIGHTS
 from footfit.geometry.measures.landmarks import AXES, LANDMARKS, Shape
 from footfit.geometry.measures.lengths import FOREPART
 from footfit.geometry.measures.measure_table import measure_named
-from footfit.geometry.measures.tape import convex_hull, hull_girth
+from footfit.geometry.measures.tape import hull_girth
 from footfit.geometry.measures.underside import BOTTOM, underside
 from footfit.geometry.measures.widths import WIDTHS
 from footfit.geometry.mesh.outlines import TAPE_OUTLINES
 from footfit.geometry.numeric.arrays import Floats
+from footfit.geometry.numeric.hulls import convex_hull
 from footfit.report.pictures.drawn_outlines import SHADOW, ring, side_outline, sole_outline
 from footfit.report.pictures.figures import (
     DASHES,

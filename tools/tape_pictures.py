@@ -6,8 +6,9 @@ from typing import TYPE_CHECKING
 
 from footfit.geometry.measures.landmarks import Shape
 from footfit.geometry.measures.least_tape import Tape, heel_tape, tape_about, tape_over
-from footfit.geometry.measures.tape import convex_hull, hull_girth
+from footfit.geometry.measures.tape import hull_girth
 from footfit.geometry.numeric.arrays import Floats
+from footfit.geometry.numeric.hulls import convex_hull
 from footfit.report.pictures.drawn_outlines import SHADOW, ring, side_outline, sole_outline
 from footfit.report.pictures.figures import (
     FILL,

@@ -63,7 +63,7 @@ def drawing_file(drawing: Drawing, kind: str = "pdf", paper: PaperChoice | None 
 @known_keywords(ReadingKeywords)
 def draw_last(
     shape: Shape,
-    kind: str = "pdf",
+    file_kind: str = "pdf",
     *,
     foot: bool = False,
     paper: PaperChoice | None = None,
@@ -75,7 +75,7 @@ def draw_last(
     ----------
     shape : path, bytes, (vertices, faces), Scan, AlignedScan or Profiled
         `Catalogue.shape` gives a last of the catalogue.
-    kind : {"pdf", "svg", "dxf"}
+    file_kind : {"pdf", "svg", "dxf"}
     foot : bool
         Draw a foot.
     paper : {"a4", "a3", "letter", "roll"}, optional
@@ -90,4 +90,4 @@ def draw_last(
     InputError, GeometryRefused
         As `measure`.
     """
-    return drawing_file(drawing(shape, foot=foot, **reading), kind, paper)
+    return drawing_file(drawing(shape, foot=foot, **reading), file_kind, paper)

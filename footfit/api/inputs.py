@@ -62,14 +62,16 @@ class ScaleKeywords(TypedDict, total=False):
 class ReadingKeywords(ScaleKeywords, total=False):
     """How a foot or a last is to be understood; the shape decides "auto".
 
-    ``force_side`` takes a ``side`` that the shape surely contradicts. ``heel_height_mm`` and
-    ``toe_spring_mm`` are what is known of how a last stands: they decide its stance.
-    ``platform_mm`` is the height of its forepart over the ground that the heel is given over.
-    ``scanner`` is the kind of scanner; the total standard deviations then hold its own.
+    ``force_side`` takes a ``side`` that the shape surely contradicts. ``kind`` says whether it is a
+    foot or a last. ``heel_height_mm`` and ``toe_spring_mm`` are what is known of how a last stands:
+    they decide its stance. ``platform_mm`` is the height of its forepart over the ground that the
+    heel is given over. ``scanner`` is the kind of scanner; the total standard deviations then hold
+    its own.
     """
 
     side: Literal["auto", "left", "right"]
     force_side: bool
+    kind: Literal["auto", "foot", "last"]
     heel_height_mm: float | None
     toe_spring_mm: float | None
     platform_mm: float | None

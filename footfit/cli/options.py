@@ -21,6 +21,7 @@ if TYPE_CHECKING:
 
 UnitName = Literal["auto", "mm", "cm", "m", "in"]
 SideChoice = Literal["auto", "left", "right"]
+KindChoice = Literal["auto", "foot", "last"]
 ScannerName = Literal["laser", "handheld", "phone", "photos"]
 LoadName = Literal["air", "sitting", "half", "full"]
 SexName = Literal["female", "male"]
@@ -191,17 +192,17 @@ class Reading(Scale):
     """How a foot or a last is to be understood."""
 
     side: SideChoice = member(
-        "--side",
-        "Set the side; auto detects it, and says how sure it is.",
-        default="auto",
+        "--side", "Set the side; auto detects it, and says how sure it is.", default="auto",
         panel=READING,
-    )
+    )  # fmt: skip
+    kind: KindChoice = member(
+        "--kind", "Set the kind, foot or last; auto detects it, and says if that is not sure.",
+        default="auto", panel=READING,
+    )  # fmt: skip
     force_side: bool = member(
-        "--force-side",
-        "Take the given side even if the shape is surely of the other side.",
-        **SWITCH,
-        panel=READING,
-    )
+        "--force-side", "Take the given side even if the shape is surely of the other side.",
+        **SWITCH, panel=READING,
+    )  # fmt: skip
     scanner: ScannerName | None = member(
         "--scanner",
         "Say what kind of scanner was used: each total ± in mm then holds its uncertainty.",
@@ -210,8 +211,8 @@ class Reading(Scale):
 
     def keywords(self) -> dict[str, Any]:
         """The options as the functions of `footfit.api` take them."""
-        side = {"side": self.side, "force_side": self.force_side}
-        return {**Scale.keywords(self), **side, "scanner": self.scanner}
+        shape = {"side": self.side, "force_side": self.force_side, "kind": self.kind}
+        return {**Scale.keywords(self), **shape, "scanner": self.scanner}
 
 
 @dataclass(frozen=True, slots=True)
@@ -391,10 +392,8 @@ class OutputMode:
         "--quiet", "Print the answer only, and no messages.", **SWITCH, panel=ANSWER
     )
     verbose: bool = member(
-        "--verbose",
-        "Show the numbers behind a refusal, and the traceback of a bug.",
-        **SWITCH,
-        panel=ANSWER,
-    )
+        "--verbose", "Show the numbers behind a refusal, and the traceback of a bug.",
+        **SWITCH, panel=ANSWER,
+    )  # fmt: skip
     total: int = 1
     answers: bool = True

@@ -93,6 +93,8 @@ from footfit.results.profile import Profiled as Profiled
 from footfit.results.profile import SurfaceCurvature as SurfaceCurvature
 from footfit.results.profile import WideMeasures as WideMeasures
 from footfit.results.values import Confidence as Confidence
+from footfit.results.values import KindName as KindName
+from footfit.results.values import KindWord as KindWord
 from footfit.results.values import Measure as Measure
 from footfit.results.values import Measured as Measured
 from footfit.results.values import Method as Method

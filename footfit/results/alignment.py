@@ -14,7 +14,14 @@ if TYPE_CHECKING:
     from footfit.geometry.numeric.arrays import Floats, Ints
     from footfit.results.last_stance import LastStance
     from footfit.results.meshes import MeshInfo
-    from footfit.results.values import Confidence, Measured, Method, Notice, SideName
+    from footfit.results.values import (
+        Confidence,
+        KindWord,
+        Measured,
+        Method,
+        Notice,
+        SideName,
+    )
 
 
 @dataclass(frozen=True, slots=True)
@@ -47,7 +54,8 @@ class PoseQuality(Part):
 
     ``cost`` of the fit to the reference shapes, ``margin`` to the best other pose, ``support``
     the share of the sole under the plane, ``sole`` whether there is one, ``kind`` "foot" or
-    "last": the reference shape that fits best.
+    "last". ``kind_confidence`` says how sure the kind is, or that it was given; None of a stored
+    last.
     """
 
     cost: float
@@ -55,8 +63,9 @@ class PoseQuality(Part):
     support: float
     sole: bool
     kind: str
+    kind_confidence: KindWord | None = None
 
-    not_written = ("kind",)
+    not_written = ("kind", "kind_confidence")
 
 
 @dataclass(frozen=True, slots=True)
@@ -199,14 +208,19 @@ class Alignment(SettledShape, Document):
 
     def scan_keys(self) -> Json:
         """What the document of every scan says: its mesh, its kind, its side, its warnings."""
-        about = {"mesh": self.info, "kind": self.pose.kind, "warnings": self.warnings}
+        about = {"mesh": self.info, **self.kind_keys(), "warnings": self.warnings}
         return about | self.side.to_dict()
+
+    def kind_keys(self) -> Json:
+        """Foot or last, and how sure that is."""
+        return {"kind": self.pose.kind, "kind_confidence": self.pose.kind_confidence}
 
     schema = "align/2"
 
     def _keys(self) -> Json:
         return {
             "mesh": self.info,
+            **self.kind_keys(),
             **self.side.to_dict(),
             "method": self.method,
             "transform": self.transform,

@@ -17,6 +17,8 @@ from footfit.version import __version__
 Json = dict[str, Any]
 SideName = Literal["left", "right"]
 Confidence = Literal["sure", "low", "undecided"]
+KindName = Literal["foot", "last"]
+KindWord = Literal["sure", "low", "given"]
 Method = Literal["footfit", "paper", "paper-literal"]
 SearchBy = Literal["fit", "flare", "shape"]
 Verdict = Literal["good", "acceptable", "poor", "reject"]

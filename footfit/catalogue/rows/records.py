@@ -48,7 +48,7 @@ _labels = LAST.reader("labels", LastLabels, parent=itemgetter("parent"))
 _NOT_KEPT = {"step": lambda _: 0.0, "scanner": lambda _: None}  # no column keeps them
 _info = LAST.reader("info", MeshInfo, **_NOT_KEPT)
 _side = LAST.reader("side", SideVerdict)
-_pose = FRAME.reader("pose", PoseQuality)
+_pose = FRAME.reader("pose", PoseQuality, kind_confidence=lambda _row: None)
 _eigenframe = FRAME.reader("eigenframe", Eigenframe)
 printed_frame_of = FRAME.reader("printed_frame", Eigenframe)
 _of_frame = FRAME.fields_reader("")

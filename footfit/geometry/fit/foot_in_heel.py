@@ -13,8 +13,8 @@ import numpy as np
 
 from footfit.geometry.fit.stations import STATIONS
 from footfit.geometry.measures.landmarks import Shape
-from footfit.geometry.measures.tape import convex_hull
 from footfit.geometry.numeric.arrays import Floats
+from footfit.geometry.numeric.hulls import convex_hull
 
 
 @dataclass(frozen=True, slots=True)

@@ -15,12 +15,13 @@ from footfit.geometry.flare.flattened import Flattened, flattened
 from footfit.geometry.flare.leaning_shank import heel_end
 from footfit.geometry.flare.levelled_bottom import low_length
 from footfit.geometry.measures.bottom_arc import BottomArc, bottom_arc
-from footfit.geometry.measures.tape import Crown, convex_hull, depth_under_hull
+from footfit.geometry.measures.tape import Crown
 from footfit.geometry.measures.top_cut import TOP_CUT, runs_over_cut, top_cut_faces
 from footfit.geometry.mesh.filled_holes import filled_faces
 from footfit.geometry.mesh.outermost_point import LAST_TIPS, TIPS, Tip, TipSettings, tip
 from footfit.geometry.mesh.outlines import OUTLINES, Outline, OutlineSettings, outline
 from footfit.geometry.numeric.arrays import Bools, Floats, Ints
+from footfit.geometry.numeric.hulls import convex_hull, depth_under_hull
 from footfit.geometry.stance.cues import NO_LABELS, StanceLabels
 from footfit.geometry.stance.stance import Stance, stance_of
 

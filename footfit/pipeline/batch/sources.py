@@ -52,7 +52,7 @@ NONE_NAMED: Mapping[str, Source] = MappingProxyType({})
 class ReadingOptions:
     """How to read a scan; "auto" is decided by its shape and reported.
 
-    ``force_side`` takes a ``side`` that the shape surely contradicts.
+    ``force_side`` takes a ``side`` that the shape surely contradicts. ``kind`` is "foot" or "last".
     ``heel_height_mm``, ``toe_spring_mm`` and ``platform_mm`` are what people say of how a last
     stands. ``scanner`` is the kind of scanner that made it.
     """
@@ -61,6 +61,7 @@ class ReadingOptions:
     known_length_mm: float | None = None
     side: str = "auto"
     force_side: bool = False
+    kind: str = "auto"
     heel_height_mm: float | None = None
     toe_spring_mm: float | None = None
     platform_mm: float | None = None

@@ -5,10 +5,8 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from footfit.errors import BadOption, HalfScan, OtherKind
+from footfit.pipeline.scan.one_shape import SURE_KIND
 from footfit.results import Profiled
-
-SURE_LAST = 0.08
-"""A shape that fits a last so much better than a foot is surely a last (docs/decisions/0224)."""
 
 
 def refuse_lasts(feet: Sequence[Profiled], *, forced: bool = False, hint: str = "") -> None:
@@ -29,7 +27,7 @@ def refuse_lasts(feet: Sequence[Profiled], *, forced: bool = False, hint: str = 
                 " lasts like this one, and footfit compare puts it into another"
             )
             raise BadOption(words, info.path)
-        if pose.kind == "last" and foot.aligned.prepared.kind_margin > SURE_LAST and not forced:
+        if pose.kind == "last" and foot.aligned.prepared.kind_margin > SURE_KIND and not forced:
             words = (
                 "is surely a last, not a foot: give a scan of a foot; footfit match --by shape"
                 " finds lasts like this one"

@@ -190,7 +190,10 @@ def last_record(shape: Profiled, labels: LastLabels) -> LastRecord:
     alignment = shape.aligned.alignment
     kind = alignment.pose.kind
     flare = shape.flare
-    notices = (*alignment.warnings, *shape.unusual)
+    kept = (
+        each for each in alignment.warnings if each.code != "kind_doubtful"
+    )  # it is stored as one
+    notices = (*kept, *shape.unusual)
     if kind == "foot":
         looks = Notice("looks_like_a_foot", "its shape is nearer to a foot's than to a last's")
         notices = (*notices, looks)
@@ -200,7 +203,7 @@ def last_record(shape: Profiled, labels: LastLabels) -> LastRecord:
         labels=labels,
         info=alignment.info,
         side=alignment.side,
-        pose=alignment.pose,
+        pose=replace(alignment.pose, kind_confidence=None),
         eigenframe=alignment.eigenframe,
         printed_frame=alignment.printed_frame,
         canonical_transform=alignment.canonical_transform,

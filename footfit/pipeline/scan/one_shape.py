@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 from itertools import combinations
+from typing import Literal
 
 import numpy as np
 
@@ -11,6 +12,7 @@ from footfit.errors import HalfScan, NotAFoot, SeveralFeet
 from footfit.geometry.mesh.caps import extent_of
 from footfit.geometry.mesh.topology import boundary_loops, is_closed
 from footfit.geometry.numeric.arrays import Floats, Ints
+from footfit.geometry.numeric.rotations import moved_points, transform
 from footfit.geometry.pose.facing import Facing, facing, lacks_its_sole
 from footfit.geometry.pose.floor_plate import is_flat, without_plate
 from footfit.geometry.pose.openings import Openings
@@ -23,11 +25,16 @@ from footfit.geometry.pose.pieces import (
     pieces,
     stand_apart,
 )
+from footfit.geometry.pose.toes import has_toes
 from footfit.geometry.search.pose_search import SOLELESS, RoughPose, Windows, rough_pose
 from footfit.pipeline.scan.cleaning import PLATE_REMOVED, turned_notices
 from footfit.pipeline.scan.shipped_templates import shipped_templates
-from footfit.results import Notice, Scan
+from footfit.results import KindName, KindWord, Notice, Scan
 
+SURE_KIND = 0.08
+"""A shape that fits one kind so much better than the other is surely of it (decision 0224)."""
+TOELESS_KIND = 0.15
+"""A shape that fits a last so much better than a foot is not looked at for toes."""
 _PIECES_REMOVED = Notice("pieces_removed", "pieces beside the foot were left out")
 
 
@@ -43,6 +50,20 @@ class PosedShape:
     pose: RoughPose
     sheet: bool
     notices: tuple[Notice, ...]
+
+    def with_kind(self, kind: KindName | Literal["auto"]) -> tuple[PosedShape, KindWord]:
+        """The shape with a kind that is given or settled, and how sure it is.
+
+        A shape that fits a last about as well as a foot is surely a foot if it has toes.
+        """
+        if kind != "auto":
+            return replace(self, pose=replace(self.pose, kind=kind)), "given"
+        pose = self.pose
+        if pose.kind_margin <= (SURE_KIND if pose.kind == "foot" else TOELESS_KIND):
+            about = moved_points(transform(pose.rotation, pose.shift), self.vertices) / pose.length
+            if has_toes(about, self.faces):
+                return replace(self, pose=replace(pose, kind="foot")), "sure"
+        return self, "sure" if pose.kind_margin > SURE_KIND else "low"
 
 
 def shape_in(scan: Scan, windows: Windows) -> PosedShape:

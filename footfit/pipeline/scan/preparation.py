@@ -79,6 +79,7 @@ def prepared_scan(
     labels: StanceLabels = NO_LABELS,
     *,
     force_side: bool = False,
+    kind: Literal["auto", "foot", "last"] = "auto",
 ) -> PreparedScan:
     """The one foot or last of a scan, as every method takes it.
 
@@ -95,6 +96,8 @@ def prepared_scan(
         What people say of how a last stands.
     force_side : bool
         A side given wins over a sure detection too.
+    kind : {"auto", "foot", "last"}
+        A kind given wins over the detection.
 
     Raises
     ------
@@ -108,7 +111,8 @@ def prepared_scan(
         If its file keeps coordinates in steps that are too coarse.
     """
     check_resolution(scan.info.resolution_mm)
-    posed = shape_in(scan, settled_unit.length_windows(scan.info, known_length_mm))
+    windows = settled_unit.length_windows(scan.info, known_length_mm)
+    posed, word = shape_in(scan, windows).with_kind(kind)
     frame = _Frame.of(posed)
     info = settled_unit.info_with_unit(scan.info, frame.extent, frame.length, known_length_mm)
     info = replace(info, vertices=len(posed.vertices), faces=len(posed.faces))
@@ -119,7 +123,7 @@ def prepared_scan(
     prepared = PreparedScan(
         info=info,
         side=verdict,
-        pose=frame.quality,
+        pose=replace(frame.quality, kind_confidence=word),
         canonical_transform=transform(frame.rotation, factor * frame.shift, info.unit_scale),
         length=_length(frame, factor, shape, info),
         extent_mm=factor * frame.extent,
@@ -311,6 +315,7 @@ def _notices(
         *resolution_notices(info.resolution_mm),
         *posed.notices,
         *_frame_notices(frame, factor, prepared.shape.kind),
+        *_kind_notices(prepared.pose),
         *_side_notices(prepared.side),
         *stance_notices(prepared.shape),
         *settled_unit.length_notices(factor * frame.length),
@@ -331,6 +336,14 @@ def _frame_notices(frame: _Frame, factor: float, kind: str) -> Iterator[Notice]:
         yield Notice("no_sole", "there is no sole: the frame rests on the lowest rim")
     if kind == "foot" and frame.top < FRAMING.low_leg * frame.extent:
         yield Notice("leg_cut_low", f"the leg is cut {factor * frame.top:.0f} mm above the floor")
+
+
+def _kind_notices(pose: PoseQuality) -> tuple[Notice, ...]:
+    """A last that may be a foot. What is read as a foot is expected, and hardly ever a last."""
+    if pose.kind == "foot" or pose.kind_confidence != "low":
+        return ()
+    words = "it is taken for a last, but that is not sure: if it is a foot, add --kind foot"
+    return (Notice("kind_doubtful", words),)
 
 
 def _side_notices(verdict: SideVerdict) -> tuple[Notice, ...]:

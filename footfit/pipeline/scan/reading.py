@@ -76,9 +76,16 @@ def prepared_source(source: Source, reading: ReadingOptions) -> results.Prepared
             raise
         side = cast(Literal["auto", "left", "right"], reading.side)
         scan = replace(scan, info=replace(scan.info, scanner=reading.scanner))
-        known_length_mm, labels = reading.known_length_mm, reading.stance_labels
+        kind = cast(Literal["auto", "foot", "last"], reading.kind)
         begin("pose")
-        prepared = prepared_scan(scan, side, known_length_mm, labels, force_side=reading.force_side)
+        prepared = prepared_scan(
+            scan,
+            side,
+            reading.known_length_mm,
+            reading.stance_labels,
+            force_side=reading.force_side,
+            kind=kind,
+        )
         begin("measures")
         return _with_name_checked(prepared)
 

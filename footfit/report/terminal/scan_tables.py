@@ -99,6 +99,20 @@ def side_words(side: results.SideVerdict) -> str:
     return f"{side.side} ({side.source}, {side.confidence}, score {signed(side.score)})"
 
 
+def kind_words(pose: results.PoseQuality) -> str:
+    """Foot or last, and what is known of how sure that is.
+
+    Examples
+    --------
+    >>> from footfit.results import PoseQuality
+    >>> kind_words(PoseQuality(0.4, 0.1, 0.2, True, "last", "low"))
+    'last (detected, not sure)'
+    """
+    known = {"sure": "detected, sure", "low": "detected, not sure", "given": "given", None: ""}
+    words = known[pose.kind_confidence]
+    return f"{pose.kind} ({words})" if words else pose.kind
+
+
 def align_table(alignment: results.Alignment) -> RenderableType:
     """One mesh, aligned."""
     frame, pose, info = alignment.eigenframe, alignment.pose, alignment.info
@@ -108,6 +122,7 @@ def align_table(alignment: results.Alignment) -> RenderableType:
     rows: list[tuple[str, str | Text]] = [
         ("mesh", f"{info.faces:,} faces, {'closed' if info.watertight else 'open'}"),
         ("units", f"{info.units} ({info.units_source})"),
+        ("kind", kind_words(pose)),
         ("side", side_words(alignment.side)),
         ("method", alignment.method),
         ("length", length_text(alignment.length)),
@@ -224,7 +239,7 @@ def measure_table(scan: results.MeasuredScan) -> RenderableType:
     """One mesh: every measure with its uncertainty, or the reason why there is none."""
     alignment = scan.alignment
     rows: list[tuple[str, str | Text]] = [
-        ("side", f"{side_words(alignment.side)}, measured as a {alignment.pose.kind}")
+        ("side", f"{side_words(alignment.side)}, measured as a {kind_words(alignment.pose)}")
     ]
     for measure in scan.measures:
         words = cell(measured_text(measure.measured, measure.unit))
