@@ -173,6 +173,7 @@ def align_facts(alignment: Alignment) -> Iterator[Fact]:
         "title": [info.path],
         "mesh": [f"{info.faces:,}", "closed" if info.watertight else "open"],
         "units": [info.units, info.units_source],
+        "kind": [pose.kind],
         "side": [alignment.side.side, *side_values(alignment)],
         "method": [alignment.method],
         "length": [plain(alignment.length_mm)],

@@ -30,7 +30,7 @@ def cube(edge_mm: float = 100.0, cells: int = 4) -> Mesh:
     """
     t = np.linspace(-0.5, 0.5, cells + 1)
     u, v = (g.ravel() for g in np.meshgrid(t, t, indexing="ij"))
-    quads = _grid_faces(cells + 1, cells + 1)
+    quads = grid_faces(cells + 1, cells + 1)
     points: list[Floats] = []
     faces: list[Ints] = []
     for axis in range(3):
@@ -111,7 +111,7 @@ def torus(ring_mm: float = 60.0, tube_mm: float = 20.0, around: int = 96, across
     u, v = np.meshgrid(_turn(around), _turn(across), indexing="ij")
     reach = ring_mm + tube_mm * np.cos(v)
     points = np.stack([reach * np.cos(u), reach * np.sin(u), tube_mm * np.sin(v)], axis=2)
-    return points.reshape(-1, 3), _grid_faces(around, across, wrap=(True, True))
+    return points.reshape(-1, 3), grid_faces(around, across, wrap=(True, True))
 
 
 def torus_curvatures(vertices: Floats, ring_mm: float, tube_mm: float) -> tuple[Floats, Floats]:
@@ -137,7 +137,7 @@ def cylinder(
         np.stack([np.full(around, low), after, rim], 1),
         np.stack([np.full(around, high), rim + along, after + along], 1),
     ]
-    return vertices, np.concatenate([_grid_faces(around, along + 1, wrap=(True, False)), *ends])
+    return vertices, np.concatenate([grid_faces(around, along + 1, wrap=(True, False)), *ends])
 
 
 def flat_sheet(length_mm: float = 260.0, width_mm: float = 100.0, cells: int = 40) -> Mesh:
@@ -148,7 +148,7 @@ def flat_sheet(length_mm: float = 260.0, width_mm: float = 100.0, cells: int = 4
         indexing="ij",
     )
     points = np.column_stack([x.ravel(), y.ravel(), np.zeros(x.size)])
-    return points, _grid_faces(cells + 1, cells + 1)
+    return points, grid_faces(cells + 1, cells + 1)
 
 
 def open_cap(
@@ -167,7 +167,7 @@ def open_cap(
     vertices = np.concatenate([unit.reshape(-1, 3), [[0.0, 0.0, 1.0]]]) * radius_mm
     first = np.arange(around) * rings
     fan = np.stack([np.full(around, len(vertices) - 1), first, np.roll(first, -1)], 1)
-    wall = _grid_faces(around, rings, wrap=(True, False))[:, ::-1]
+    wall = grid_faces(around, rings, wrap=(True, False))[:, ::-1]
     return vertices, np.concatenate([wall, fan])
 
 
@@ -227,7 +227,7 @@ def shin(
     points = np.stack(
         [reach * np.cos(angle), 0.85 * reach * np.sin(angle), height_mm * t[level]], axis=2
     )
-    return points.reshape(-1, 3), _grid_faces(around, rows, wrap=(True, False))
+    return points.reshape(-1, 3), grid_faces(around, rows, wrap=(True, False))
 
 
 def two_feet(vertices: Floats, faces: Ints, gap_mm: float = 40.0) -> Mesh:
@@ -248,7 +248,7 @@ def _turn(count: int) -> Floats:
     return np.linspace(0.0, 2.0 * np.pi, count, endpoint=False)
 
 
-def _grid_faces(rows: int, columns: int, wrap: tuple[bool, bool] = (False, False)) -> Ints:
+def grid_faces(rows: int, columns: int, wrap: tuple[bool, bool] = (False, False)) -> Ints:
     """Two triangles per cell of a (rows, columns) grid of vertices, facing row x column."""
     across = columns if wrap[1] else columns - 1
     i, j = np.divmod(np.arange((rows if wrap[0] else rows - 1) * across), across)

@@ -16,13 +16,16 @@ from footfit.geometry.fit.clearance import foot_clearance, zone_clearances
 from footfit.geometry.fit.paired_sections import section_pairs
 from footfit.geometry.measures.landmarks import Shape
 from footfit.geometry.measures.measure_value import MeasureValue
+from footfit.geometry.mesh.filled_holes import filled_faces
 from footfit.geometry.mesh.surface import area_vectors
 from footfit.geometry.mesh.topology import boundary_loops
 from footfit.geometry.mesh.welding import without_unused_vertices
 from footfit.pipeline.scan.measure import shape_measures
 from tests.conftest import SAMPLES, SCANS
-from tests.distortions import decimated, moved, plane_cut, random_pose, subdivided
+from tests.distortions import decimated, moved, plane_cut, random_pose, subdivided, white_noise
+from tests.shapes import grid_faces
 from tools import last_cuts
+from tools.last_specs import wide
 from tools.lasts import LastSpec, last_mesh
 
 CASES = Path(__file__).parents[2] / "shared" / "cases"
@@ -239,6 +242,42 @@ def test_a_last_with_its_cones_top_has_no_filling(heel_mm, factor):
     vertices, faces = last_mesh(LastSpec(heel_height_mm=heel_mm))
     mesh = decimated(vertices, faces, factor) if factor > 1.0 else (vertices, faces)
     assert not Shape(*mesh, "last").filled.any()
+
+
+@pytest.mark.parametrize("noise_mm", [0.0, 0.2])
+@pytest.mark.parametrize(
+    ("heel_mm", "rings", "segments"), [(15, 200, 24), (50, 240, 28), (20, 170, 24)]
+)
+def test_a_boot_of_slender_strips_has_no_filling(heel_mm, rings, segments, noise_mm):
+    """A strip's neighbour across its long edge is as long; a filling's neighbours are short."""
+    rng = np.random.default_rng(4)
+    spec = wide(rng, "boot", (heel_mm, heel_mm + 1.0), rings=rings, segments=segments)
+    vertices, faces = last_mesh(spec)
+    shape = Shape(white_noise(vertices, rng, noise_mm), faces, "last")
+    assert not shape.filled.any()
+
+
+@pytest.mark.parametrize(("power", "noise_mm"), [(8, 0.3), (14, 0.2), (14, 0.3)])
+def test_noise_on_flat_walls_of_long_facets_is_no_crease(power, noise_mm):
+    """A body with boxy sections, whose rings have short facets at the corners and long ones."""
+    along, around = np.linspace(0.0, 1.0, 170), (np.arange(96) + 0.5) * 2.0 * np.pi / 96
+    size = np.sqrt(np.clip(1.0 - (2.0 * along - 1.0) ** 4, 0.004, 1.0))[:, None]
+    y, z = (
+        np.sign(wave) * np.abs(wave) ** (2.0 / power) for wave in (np.cos(around), np.sin(around))
+    )
+    x = np.broadcast_to(260.0 * along[:, None], (170, 96))
+    points = np.stack([x, 45.0 * size * y, 35.0 * size * (1.0 + z)], axis=2).reshape(-1, 3)
+    faces = grid_faces(170, 96, (False, True))
+    noisy = white_noise(points, np.random.default_rng(2), noise_mm)
+    known = np.zeros(len(faces), dtype=bool)
+    assert not filled_faces(noisy, faces, 260.0, known, plane_is_shape=True).any()
+
+
+@pytest.mark.parametrize("filling", FILLINGS)
+def test_the_filling_of_a_noisy_scan_is_known(filling):
+    vertices, faces = with_filling("dorsum", filling)
+    noisy = white_noise(vertices, np.random.default_rng(7), 0.2)
+    assert reasons(noisy, faces)["instep_girth"] == NOT_SCANNED
 
 
 @pytest.mark.parametrize("cut", [last_cuts.thimble, last_cuts.v_cut, last_cuts.slit])

@@ -75,6 +75,18 @@ def test_a_sawn_top_is_a_cut(
     assert runs_over_cut(*sawn(radius_mm, depth_mm, rim_mm, noise_mm), LENGTH_MM)
 
 
+@pytest.mark.parametrize("radius_mm", [50.0, 65.0, 80.0])
+def test_a_coarse_ridge_of_which_a_face_is_no_part_of_the_top_is_no_cut(radius_mm: float) -> None:
+    """A decimated instep: the large face in its middle, and a small one, lean too far to be counted."""
+    across = np.array(
+        [-20.0, -16.0, -12.5, -9.5, -7.2, -4.3, 2.4, 4.6, 6.7, 7.8, 9.6, 11.6, 15.0, 19.0]
+    )
+    segments = segments_of(across, np.sqrt(radius_mm**2 - across**2))
+    on_top = (np.abs(across) < 11.7)[:-1] & (np.abs(across) < 11.7)[1:]
+    on_top[[5, 8]] = False  # from -4.3 to 2.4 mm, and from 6.7 to 7.8 mm
+    assert not runs_over_cut(segments, on_top, LENGTH_MM)
+
+
 @pytest.mark.parametrize("share", [0.2, 0.5, 0.8])
 def test_a_part_of_a_round_top_is_no_cut(share: float) -> None:
     segments, near = ridge(90.0)

@@ -134,8 +134,11 @@ def runs_over_cut(segments: Floats, on_top: Bools, length: float) -> bool:
         The shape's length.
     """
     run, rest = segments[on_top], segments[~on_top]
-    middles, others = run.mean(axis=1), rest.mean(axis=1)
     ends = run.reshape(-1, 2)[[run[:, :, 0].argmin(), run[:, :, 0].argmax()]]
+    # On a coarse mesh some faces of a ridge are no part of the top: they tell how it turns, too.
+    middles, others = segments.mean(axis=1), rest.mean(axis=1)
+    high = middles[:, 1] > run[:, :, 1].min() - TOP_CUT.thickness * length
+    middles = middles[high & (middles[:, 0] > ends[0, 0]) & (middles[:, 0] < ends[1, 0])]
     across = middles[:, 0]
     inner = np.abs(across - ends[:, 0].mean()) < 0.5 * TOP_CUT.middle * np.ptp(ends[:, 0])
     if np.count_nonzero(inner) < TOP_CUT.fewest:

@@ -23,9 +23,15 @@ class FillingSettings:
     larger : float
         They are a filling if their longest edges are so many times as long as the edges around
         them. No hole is filled evenly: its rim is as fine as the scan. Decimated meshes reach 3.4.
+    beyond : float
+        And so many times as long as the longest edges of the facets beyond their rim: a mesh of
+        slender strips has long facets next to each other. Fillings have 2.7 or more.
     crease_deg : float
         And if the surface bends where they begin: by so much, times how much larger they are. Where
-        it hardly bends, they hardly differ from it.
+        it hardly bends, they hardly differ from it. What it bends by elsewhere, as with noise, is
+        taken off.
+    level_deg : float
+        Faces that meet by less are level: they say nothing of how much the surface bends.
     wall : float
         Walls of a cut meet at an edge whose cosine is less.
     area, plane_area, plane_faces : float, float, int
@@ -45,7 +51,9 @@ class FillingSettings:
     long: float = 0.05
     longer: float = 3.0
     larger: float = 4.0
+    beyond: float = 2.0
     crease_deg: float = 60.0
+    level_deg: float = 0.1
     wall: float = 0.8
     area: float = 0.004
     plane_area: float = 0.008
@@ -145,21 +153,37 @@ def _large_facets(vertices: Floats, faces: Ints, length: float, *, apart: bool) 
     if apart:
         inside &= bend > FILLING.wall
     label = np.unique(lowest_connected(pair[inside], len(near)), return_inverse=True)[1].ravel()
-    patches = _Patches(near, label)
-    size = patches.sums(areas * sides.max(axis=1)) / patches.sums(areas)
-    around, crease = np.zeros((2, len(size)))
+    patches, longest = _Patches(near, label), sides.max(axis=1)
+    size = patches.sums(areas * longest) / patches.sums(areas)
     outer = (counts == 2) & (edge**2 <= least) & (label[pair[:, 0]] != label[pair[:, 1]])
-    total = np.zeros(len(size))
+    around, total, beyond, crease = np.zeros((4, len(size)))
     for side in (0, 1):
         of = label[pair[outer, side]]
         around += np.bincount(of, minlength=len(size))
         total += np.bincount(of, edge[outer], len(size))
+        beyond += np.bincount(of, longest[pair[outer, 1 - side]], len(size))
         crease += np.bincount(of, edge[outer] * np.arccos(bend[outer]), len(size))
     filling = patches.sums(areas) > FILLING.area * length**2
     filling &= (around > 0) & (size * around > FILLING.larger * total)
-    filling &= size * around * crease > np.radians(FILLING.crease_deg) * total**2
+    filling &= size * around > FILLING.beyond * beyond
     filling &= np.bincount(label) > 1
+    if not filling.any():
+        return _none()
+    usual_crease = total * usual_bend(vertices, faces)
+    excess = np.sqrt(np.maximum(0.0, crease**2 - usual_crease**2))
+    filling &= size * around * excess > np.radians(FILLING.crease_deg) * total**2
     return _chosen(patches, filling)
+
+
+def usual_bend(vertices: Floats, faces: Ints) -> float:
+    """By how much neighbours that are not level meet, the median, in radians."""
+    normals = unit(area_vectors(vertices, faces))
+    order, starts, counts = edge_groups(faces)
+    first = starts[counts == 2]
+    pair = np.stack([order[first], order[first + 1]], axis=1) // 3
+    bend = np.arccos(row_dots(normals[pair[:, 0]], normals[pair[:, 1]]).clip(-1.0, 1.0))
+    bend = bend[bend > np.radians(FILLING.level_deg)]
+    return float(np.median(bend)) if len(bend) else 0.0
 
 
 # ---------------------------------------------------------------- planes
