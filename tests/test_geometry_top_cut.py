@@ -77,7 +77,7 @@ def test_a_sawn_top_is_a_cut(
 
 @pytest.mark.parametrize("radius_mm", [50.0, 65.0, 80.0])
 def test_a_coarse_ridge_of_which_a_face_is_no_part_of_the_top_is_no_cut(radius_mm: float) -> None:
-    """A decimated instep: the large face in its middle, and a small one, lean too far to be counted."""
+    """A decimated instep: two of its faces lean too far to be counted."""
     across = np.array(
         [-20.0, -16.0, -12.5, -9.5, -7.2, -4.3, 2.4, 4.6, 6.7, 7.8, 9.6, 11.6, 15.0, 19.0]
     )
