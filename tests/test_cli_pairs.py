@@ -112,6 +112,9 @@ def test_the_columns_of_a_csv_give_the_sides(footfit: Footfit, shop: Path) -> No
         (("scans", "--customer", "Ann", "-o", "pages/"), "--customer names one customer"),
         (("--pairs", "auto"), "no mesh was given"),
         (("scans", "--force-side"), "--force-side goes with"),
+        (("scans", "--pair", "--side", "left"), "--side goes with one foot"),
+        (("scans", "--as-scanned", "--heel-lift", "5"), "--heel-lift does not go with"),
+        (("scans", "--by", "shape", "--profile", "dress"), "--profile goes with --by fit"),
         ((), "no mesh was given"),
     ],
 )

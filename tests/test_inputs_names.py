@@ -53,12 +53,15 @@ class Tags(HTMLParser):
 
 @pytest.fixture(scope="module")
 def hostile(stocked: Path, tmp_path_factory) -> Path:
-    """A catalogue whose lasts have the names above: those that it takes."""
+    """A catalogue whose lasts have the names above, as older versions of footfit stored them."""
+    from footfit.catalogue import store
+    from footfit.catalogue.rows.requirements import require_storable
     from footfit.catalogue.store import open_catalogue
     from footfit.errors import FootfitError
 
     path = Path(shutil.copy(stocked, tmp_path_factory.mktemp("hostile") / "lasts.footfit"))
-    with open_catalogue(path, write=True) as catalogue:
+    with pytest.MonkeyPatch.context() as patch, open_catalogue(path, write=True) as catalogue:
+        patch.setattr(store, "require_name", require_storable)
         old = [record.labels.name for record in catalogue.lasts().records]
         for before, after in zip(old, NAMES, strict=False):
             with suppress(FootfitError):  # refused is right too
@@ -74,6 +77,42 @@ def copied(foot: Path, folder: Path, name: str) -> Path:
 
 def no_control(text: str) -> bool:
     return all(sign.isprintable() or sign == "\n" for sign in text)
+
+
+@pytest.mark.parametrize("name", ["a/b", "a\\b", "new\nline", "tab\there", "back\u202ewards"])
+def test_a_new_name_that_no_command_could_take_is_refused(
+    footfit: Footfit, stocked: Path, tmp_path: Path, name: str
+) -> None:
+    catalogue = shutil.copy(stocked, tmp_path / "lasts.footfit")
+    with (tmp_path / "lasts.csv").open("w", encoding="utf-8", newline="") as table:
+        csv.writer(table).writerows([("path", "family"), ("last.stl", name)])
+    old = _lasts(footfit, catalogue)[0]["last"]
+    commands = [
+        ("rename-last", old, name),
+        ("ingest-last", tmp_path / "last.stl", "--name", name),
+        ("ingest-last", tmp_path / "last.stl", "--family", name),
+        ("edit-last", old, "--family", name),
+        ("grade-last", old, "--sizes", "40", "--family", name, "-o", tmp_path / "run"),
+    ]
+    if name.isspace() or name.split() == [name]:  # a manifest joins what spaces part
+        commands.append(("ingest-last", "--manifest", tmp_path / "lasts.csv"))
+    for command in commands:
+        run = footfit(*command, "--catalogue", catalogue)
+        noun = "family" if "--family" in command or "--manifest" in command else "last"
+        assert (run.code, run.err.count("\n")) == (2, 1), run.err
+        assert f"cannot be the name of a {noun}: give one without slashes" in run.err
+    assert _lasts(footfit, catalogue)[0]["last"] == old
+
+
+def test_a_file_whose_name_no_last_can_have_is_refused_by_itself(
+    footfit: Footfit, tmp_path: Path
+) -> None:
+    for sample, name in zip(("derby-38", "derby-39"), ("two\nlines", "plain"), strict=True):
+        shutil.copy(ROOT / "sample_data" / "lasts" / f"{sample}.stl", tmp_path / f"{name}.stl")
+    catalogue = tmp_path / "lasts.footfit"
+    run = footfit("ingest-last", tmp_path, "--catalogue", catalogue)
+    assert (run.code, "cannot be the name of a last" in run.err) == (2, True), run.err
+    assert [each["last"] for each in _lasts(footfit, catalogue)] == ["plain"]
 
 
 def test_tables_and_lines_show_names_literally(footfit: Footfit, hostile: Path, foot, tmp_path):

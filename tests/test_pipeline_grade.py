@@ -21,7 +21,7 @@ from footfit.geometry.measures.landmarks import Shape
 from footfit.geometry.measures.measure_table import measure_named
 from footfit.geometry.stance.cues import StanceLabels
 from footfit.meshes.write import encoded_mesh
-from footfit.number_words import plain, signed
+from footfit.number_words import plain
 from footfit.pipeline.graded_runs.grade_plan import (
     HEEL,
     SPRING,
@@ -244,7 +244,7 @@ def test_a_last_that_stands_by_its_label_alone_is_said() -> None:
     last = GradedLast("derby-43", "43", None, 1.0, 0.0, (row,), LastLabels("derby-43"), b"")
     (warning,) = read_otherwise([last, replace(last, heel_by_shape_mm=by_shape_mm)])
     assert warning.code == "heel_by_label"
-    assert f"'derby-43' reads {signed(by_shape_mm - heel_mm)} mm off (1 last" in warning.message
+    assert f"'derby-43' reads {plain(heel_mm - by_shape_mm)} mm too low: give" in warning.message
     assert read_otherwise([last, replace(last, heel_by_shape_mm=heel_mm - 1.4)]) == ()
 
 

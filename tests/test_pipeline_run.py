@@ -308,8 +308,10 @@ def test_a_last_without_a_label_stands_by_its_shape_beside_those_with_one() -> N
     heel.pop(HEIGHTS_BY_SHAPE[0])
     lasts[2] = replace(lasts[2], stands_by="shape", measures_mm=heel)
     checked = run_check(lasts, TOLERANCE_MM)
-    assert {off.measure for off in checked.off_lasts} == {"heel_height", HEIGHTS_BY_SHAPE[0]}
-    assert checked.warnings == ()
+    assert {off.measure for off in checked.off_lasts} == {HEIGHTS_BY_SHAPE[0]}
+    assert [notice.code for notice in checked.warnings] == ["stance_by_shape"]
+    alike = replace(lasts[2], measures_mm={**heel, "heel_height": 22.2})
+    assert run_check([*lasts[:2], alike, lasts[3]], TOLERANCE_MM).broken == ()
 
 
 def test_the_table_shows_every_increment_and_marks_what_breaks() -> None:

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
+from contextlib import contextmanager
 from typing import TYPE_CHECKING, Any, Unpack
 
 from footfit import results
@@ -20,7 +21,7 @@ from footfit.api.scans import profiled_shape
 from footfit.errors import BadOption, OutOfReach, UnreadableFile
 from footfit.locations import Location, LocationName, location_of
 from footfit.pipeline.batch.sources import ReadingOptions, is_no_path
-from footfit.results import SideName
+from footfit.results import Profiled, SideName
 
 if TYPE_CHECKING:
     from footfit.pipeline.last_making.base_last import BaseLast
@@ -91,22 +92,29 @@ def customise(
     if isinstance(base, str) and base == AUTO:
         if path is None:
             raise BadOption("the base is found in a catalogue: name a catalogue, or a base")
-        chosen, first = base_choice.customised_from_best(shapes, path, making)
+        with _naming(shapes[0]):
+            chosen, first = base_choice.customised_from_best(shapes, path, making)
         lasts, rest = [first], shapes[1:]
     else:
         chosen, rest = _base(base, path), shapes
     for foot in rest:
-        try:
+        with _naming(foot):
             lasts.append(base_choice.customised_from(foot, chosen, making, path))
-        except OutOfReach as error:
-            alignment = foot.aligned.alignment
-            which = f"for the {alignment.side.side} foot ({alignment.info.path or '-'})"
-            words = f"{which} {error.message}" if len(shapes) > 1 else error.message
-            raise OutOfReach(words, error.path) from error
     if both:
         other: SideName = "left" if lasts[0].side == "right" else "right"
         lasts.append(customised(shapes[0], chosen, making, other))
     return tuple(lasts)
+
+
+@contextmanager
+def _naming(foot: Profiled) -> Iterator[None]:
+    """Let a refusal say of which foot it is."""
+    try:
+        yield
+    except OutOfReach as error:
+        alignment = foot.aligned.alignment
+        which = f"for the {alignment.side.side} foot ({alignment.info.path or '-'})"
+        raise OutOfReach(f"{which} {error.message}", error.path) from error
 
 
 def store_custom(
@@ -140,7 +148,7 @@ def _making(asked: CustomKeywords) -> Making:
     Raises
     ------
     BadOption
-        The flare follows by less than 0 or more than 1; there is no such profile.
+        The flare follows by less than 0 or more than 1; there is no such profile; room is no dict.
     """
     from footfit.pipeline.fit.fit_profile import fit_profile
     from footfit.pipeline.fit.worn_shifts import worn_with
@@ -154,8 +162,10 @@ def _making(asked: CustomKeywords) -> Making:
     worn = worn_with(profile, worn_options(asked))
     kept = asked.get("keep_bottom", False)
     question = CustomQuestion(profile, heel_options(asked), worn, follow, kept)
-    rooms = dict(asked.get("room_mm", {}))
-    return Making(question, rooms, asked.get("name", "custom"))
+    rooms = asked.get("room_mm", {})
+    if not isinstance(rooms, Mapping):
+        raise BadOption(f"the room is a dict such as {{'ball-medial': 4.0}}, not {rooms!r}")
+    return Making(question, dict(rooms), asked.get("name", "custom"))
 
 
 def _base(base: Mesh, path: Location | None) -> BaseLast:

@@ -17,6 +17,7 @@ from typing import (
     runtime_checkable,
 )
 
+from footfit.errors import BadOption
 from footfit.pipeline.batch.runs import Jobs
 from footfit.pipeline.batch.sources import ReadingOptions, Source
 from footfit.results import (
@@ -252,10 +253,12 @@ def heel_options(options: Mapping[str, Any]) -> HeelQuestion:
     Raises
     ------
     BadOption
-        Both are given, or the drop is out of range.
+        Both are given, or a lift under a heel that does not count; the drop is out of range.
     """
     from footfit.pipeline.fit.heel_model import heel_question
 
+    if options.get("as_scanned") and options.get("heel_lift_mm"):
+        raise BadOption("--heel-lift does not go with --as-scanned; leave out one")
     names = ("as_scanned", "scanned_at_drop_mm")
     return heel_question(**{name: options[name] for name in names if name in options})
 

@@ -88,6 +88,7 @@ def grader_of(
     **options: Unpack[GradeKeywords],
 ) -> Grader:
     """What makes the lasts of a run one after the other; raises as `grade`."""
+    from footfit.catalogue.rows.requirements import require_name
     from footfit.pipeline.graded_runs.grade_plan import grade_plan
     from footfit.pipeline.graded_runs.grade_run import family_of, grader
     from footfit.pipeline.graded_runs.grading_rules import grading_rule, known_system
@@ -96,6 +97,12 @@ def grader_of(
 
     if not isinstance(sizes, str):
         raise BadOption(f"the sizes are a text such as '38:46' or '39,40.5', not {sizes!r}")
+    for option in ("base_size", "base_width", "widths", "size_system", "hold", "rule", "family"):
+        value = options.get(option)
+        if not isinstance(value, str | None):
+            raise BadOption(f"{option} is a text, not {value!r}")
+    if options.get("family"):
+        require_name(str(options["family"]), "family")
     name = os.fspath(last)
     stands = stance_keywords(options)
     if not is_no_path(name):
@@ -179,6 +186,8 @@ def check_run(
     if catalogue is not None and len(names) == len(stored) == 1:
         lasts = run_lasts.family_lasts(location_of(catalogue), names[0])
         family = names[0] if lasts else None
+    if rows is not None and len(stored) == len(names) and (lasts or len(names) > 1):
+        raise BadOption("lasts of the catalogue have their sizes there: leave out --manifest")
     if not lasts:
         files = mesh_sources([name for name in names if name not in stored])
         by_name = () if catalogue is None else run_lasts.named_lasts(location_of(catalogue), stored)

@@ -15,9 +15,10 @@ from footfit.catalogue.blocks.record_columns import LABELS, columns_of
 from footfit.catalogue.file.dialect import Driver, change_mark
 from footfit.catalogue.rows.last_names import caseless
 from footfit.catalogue.rows.reference_last import expressed, stored_reference
-from footfit.catalogue.rows.requirements import require_storable
+from footfit.catalogue.rows.requirements import require_name
 from footfit.catalogue.rows.verified_rows import shown_name
 from footfit.catalogue.sealed_rows import WRITTEN, Values, sealed_rows
+from footfit.errors import BadOption
 from footfit.results import LastRecord, MeshCopy, Parentage, ShapeSections
 from footfit.results.columns.last_columns import NOT_KEPT, LastColumns
 from footfit.results.columns.vocabulary import Vocabulary
@@ -88,7 +89,7 @@ class KnownLasts:
             and not names & self.names
             and not contents & self.contents
             and all(last.record.labels.parent is None for last in group)
-            and all(_is_plain(last.record) for last in group)
+            and all(_is_storable(last.record) for last in group)
         )
 
     def add(self, group: Sequence[NewLast]) -> None:
@@ -97,12 +98,13 @@ class KnownLasts:
         self.contents |= {last.record.info.sha256 for last in group}
 
 
-def _is_plain(record: LastRecord) -> bool:
-    """Whether the texts of a record are stored as they are."""
-    labels = (getattr(record.labels, name) or "" for name in ("name", *LABELS))
+def _is_storable(record: LastRecord) -> bool:
+    """Whether a new last can have its name, and its texts are stored as they are."""
+    labels = (getattr(record.labels, name) or "" for name in LABELS)
     try:
+        require_name(record.labels.name)
         "".join(labels).encode()
-    except UnicodeEncodeError:
+    except (BadOption, UnicodeEncodeError):
         return False
     return True
 
@@ -124,7 +126,7 @@ def write_group(connection: Driver, group: Sequence[NewLast]) -> LastColumns:
     keys = list(range(top + 1, top + 1 + len(group)))
     tables: dict[str, list[Values]] = {name: [] for name in WRITTEN}
     for key, last in zip(keys, group, strict=True):
-        require_storable(last.record.labels.name)
+        require_name(last.record.labels.name)
         transform = expressed(last.record, reference[1])
         for name, rows in sealed_rows(key, last.record, transform, last[1:]).items():
             tables[name] += rows

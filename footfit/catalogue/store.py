@@ -30,8 +30,8 @@ from footfit.catalogue.rows.requirements import (
     parent_key,
     place_of,
     require_free_name,
+    require_name,
     require_removable,
-    require_storable,
 )
 from footfit.catalogue.rows.verified_rows import (
     intact_last,
@@ -240,7 +240,7 @@ class Catalogue(CatalogueReader):
             There is no such last; another has the new name, in any case; it cannot be stored.
         """
         with self.file.atomic() as connection:
-            require_storable(new_name)
+            require_name(new_name)
             driver = driver_of(connection)
             stored = intact_last(driver, last_id(driver, name))
             require_free_name(driver, new_name, stored.id)

@@ -22,7 +22,7 @@ from footfit.cli.console import (
     show,
 )
 from footfit.cli.notices import Notices
-from footfit.cli.options import STDOUT
+from footfit.cli.options import STDOUT, Reading
 from footfit.cli.outputs import say_written
 from footfit.cli.progress import Progress, progress
 from footfit.errors import BadOption, FootfitError, SeveralFeet
@@ -172,22 +172,27 @@ def sources_of(
     lasts: Lasts | None = None,
     *,
     split: bool = False,
+    sides_given: bool = False,
     quiet: bool = False,
 ) -> list[Source]:
     """The meshes that a command is given; ``-`` stands for standard input.
 
-    What is no file is a last of ``lasts`` by its name, if the command takes lasts.
+    What is no file is a last of ``lasts`` by its name, if the command takes lasts. A manifest may
+    give the sides.
 
     Raises
     ------
     BadOption
-        ``-`` stands beside other meshes.
+        ``-`` stands beside other meshes; a side is to be taken in any case, and none is given.
     UnreadableFile
         A folder or glob holds no mesh, or standard input cannot be read.
     """
     from footfit.api import scans
     from footfit.pipeline.batch.sources import left_out, stdin_source
 
+    forced = isinstance(reading, Reading) and reading.force_side and reading.side == "auto"
+    if forced and not sides_given:
+        raise BadOption("--force-side goes with --side left or right")
     if "-" not in meshes:
         named = {} if lasts is None else _named(meshes, lasts, quiet=quiet)
         sources = scans.sources(list(meshes), split=split, named=named, **reading.keywords())

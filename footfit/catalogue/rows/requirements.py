@@ -45,6 +45,7 @@ def place_of(connection: Driver, record: LastRecord, *, replace: bool) -> Place:
     key = id_of_same_name(connection, name)
     parent_id = parent_key(connection, record.labels, key)
     if key is None:
+        require_name(name)
         return Place(None, parent_id)
     (stored,) = stored_lasts(connection, key)
     same_file = stored.last["content_sha256"] == sha256
@@ -77,8 +78,10 @@ def require_storable(name: str) -> None:
         raise BadOption(words) from error
 
 
-def require_plain(name: str) -> None:
-    """Refuse a name for a new last that no command could take again, or that breaks a table.
+def require_name(name: str, noun: str = "last") -> None:
+    """Refuse a new name of a last or a family that no command could take again.
+
+    Names that are stored already stay as they are.
 
     Raises
     ------
@@ -87,8 +90,8 @@ def require_plain(name: str) -> None:
     """
     require_storable(name)
     if "/" in name or "\\" in name or not name.isprintable():
-        words = "a name has no slash and no line break, so that commands take it: give another one"
-        raise BadOption(f"{name!r}: {words}")
+        words = "give one without slashes, line breaks and other signs that are not shown"
+        raise BadOption(f"{name!r} cannot be the name of a {noun}: {words}")
 
 
 def require_free_name(connection: Driver, name: str, key: int) -> None:

@@ -48,7 +48,10 @@ def customise(
         max=1.0,
     ),
     keep: Kept | None = options.option(
-        "--keep", "Keep the outline of the bottom too: then only the upper part changes.", "bottom"
+        "--keep",
+        "Keep the outline of the bottom too: then only the upper part changes. --flare-follow "
+        "still turns it.",
+        "bottom",
     ),
     room: list[str] | None = options.option(
         "--room",
@@ -94,6 +97,8 @@ def customise(
     sources = sources_of(feet, reading, quiet=mode.quiet)
     if len(sources) > 2 or (both and len(sources) == 2):
         raise BadOption("give one foot, with --both or without, or the two feet of one customer")
+    if len(sources) == 2 and reading.side != "auto":
+        raise BadOption("--side goes with one foot: of two feet the shapes show the sides")
     if len(sources) < len(feet):
         raise BadOption("is given twice: name the left and the right foot", feet[0])
     pair = len(sources) == 2 or both

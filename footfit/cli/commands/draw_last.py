@@ -44,6 +44,10 @@ def draw_last(
     def file(drawing: Any, kind: str) -> bytes:
         return drawings.drawing_file(drawing, kind, paper)
 
+    given = [name for name, value in standing.keywords().items() if value is not None]
+    if foot and given:
+        flag = "--" + given[0].removesuffix("_mm").replace("_", "-")
+        raise BadOption(f"{flag} says how a last stands: leave it out, or leave out --foot")
     suffix = output.suffix.lower()
     if paper not in (None, "roll") and suffix in (".svg", ".dxf"):
         raise BadOption(f"--paper goes with a .pdf; a {suffix} is one sheet", str(output))

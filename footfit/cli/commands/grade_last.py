@@ -21,10 +21,10 @@ def grade_last(
         "--size-system", "Count sizes in this system. Else in that of the base's label.", "eu"
     ),
     base_size: str | None = options.option(
-        "--base-size", "Set the base's size, if its label does not say it.", "42"
+        "--base-size", "Set the base's size. Without it, its label says the size.", "42"
     ),
     base_width: str | None = options.option(
-        "--base-width", "Set the base's width, if its label does not say it.", "F"
+        "--base-width", "Set the base's width. Without it, its label says the width.", "F"
     ),
     hold: str | None = options.option(
         "--hold",

@@ -91,7 +91,9 @@ def ingest_last(
     rows = manifests.read_manifest(manifest) if manifest else []
     if manifest and not rows:
         raise BadManifest("has no line with a last; add one for each file", str(manifest))
-    sources = sources_of(paths or [], reading, quiet=mode.quiet) if paths else []
+    sources = (
+        sources_of(paths, reading, sides_given=bool(manifest), quiet=mode.quiet) if paths else []
+    )
     batch = entries(
         sources, rows, labels, ReadingOptions(**reading.keywords(), **standing.keywords())
     )

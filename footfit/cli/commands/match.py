@@ -24,6 +24,7 @@ ByName = Literal["fit", "flare", "shape"]
 Least = Literal["good", "acceptable"]
 """The verdict that is asked for."""
 HTML = ("html", "htm")
+PROFILE = "walking"
 
 
 def match(
@@ -41,7 +42,7 @@ def match(
         "--profile",
         "Choose the fit profile: list-profiles shows their names. Or give your own file.",
         "NAME|FILE.toml",
-        default="walking",
+        default=PROFILE,
     ),
     pair: bool = options.switch("--pair", "Take the two scans as the feet of one customer."),
     pairs: str | None = options.option(
@@ -123,7 +124,7 @@ def match(
     if by == "shape" and fail_under is not None:
         raise BadOption("--fail-under goes with --by fit or flare: a search by shape judges no fit")
     catalogue = lasts.open()
-    unused = unused_by_shape(reading, worn, growing, clearance=clearance)
+    unused = unused_by_shape(profile, reading, worn, growing, clearance=clearance)
     if by == "shape" and unused:
         raise BadOption(f"{unused} goes with --by fit or flare: a search by shape judges no fit")
     if by != "fit" and sheet is not None:
@@ -177,6 +178,7 @@ def match(
 
 
 def unused_by_shape(
+    profile: str,
     reading: options.FootReading,
     worn: options.WornWith,
     growing: options.Growing,
@@ -184,7 +186,8 @@ def unused_by_shape(
     clearance: bool,
 ) -> str:
     """An option that is given, and that a search by shape does not use; "" if there is none."""
-    given = {**worn.keywords(), **growing.keywords()}
+    other = profile if profile != PROFILE else None
+    given = {"profile": other, **worn.keywords(), **growing.keywords()}
     if not clearance:  # the feet are then placed in the heels of the lasts
         given |= {"as_scanned": reading.as_scanned, "scanned_at_drop": reading.scanned_at_drop}
     names = (name for name, value in given.items() if value not in (None, False))
@@ -217,8 +220,8 @@ def customers_of(
         raise BadOption("no mesh was given; name files or a folder, or --pairs FILE.csv")
     if pairs is not None and pair:
         raise BadOption("--pair is for one customer and --pairs for many: give one of them")
-    if reading.force_side and reading.side == "auto" and (pairs is None or feet):
-        raise BadOption("--force-side goes with --side left or right, or with --pairs FILE.csv")
+    if pair and reading.side != "auto":
+        raise BadOption("--side goes with one foot: of two feet the shapes show the sides")
     if pairs is not None and reading.side != "auto":
         raise BadOption("--side goes with no --pairs: the names or the CSV say the sides")
     sources = sources_of(feet, reading, lasts, split=batch.split, quiet=mode.quiet) if feet else []

@@ -11,7 +11,7 @@ from footfit.geometry.measures.landmarks import Shape
 from footfit.geometry.measures.measure_table import measure_named
 from footfit.geometry.stance.cues import StanceLabels
 from footfit.meshes.write import encoded_mesh
-from footfit.number_words import signed
+from footfit.number_words import plain
 from footfit.pipeline.batch.sources import ReadingOptions, Source
 from footfit.pipeline.graded_runs.grade_plan import (
     HEEL,
@@ -87,7 +87,7 @@ class Grader:
             except OutOfReach as error:
                 raise OutOfReach(f"{self.name_of(fitting)}: {error.message}") from error
             except (ImplausibleSize, NotAFoot) as error:  # no last is so long, or has that form
-                words = "would be longer or shorter than any last: ask for fewer sizes"
+                words = "would be longer or shorter than any last: ask for sizes nearer to the base"
                 raise OutOfReach(f"{self.name_of(fitting)} {words}") from error
             yield last
 
@@ -289,10 +289,9 @@ def read_otherwise(lasts: Iterable[GradedLast]) -> tuple[Notice, ...]:
     if not off:
         return ()
     name, mm = max(off.items(), key=lambda each: abs(each[1]))
-    count = "1 last" if len(off) == 1 else f"{len(off)} lasts"
-    words = (
-        f"without its label, the heel of {name!r} reads {signed(mm)} mm off ({count} of the run)"
-    )
+    count = "" if len(off) == 1 else f", and {len(off) - 1} more lasts of the run are off"
+    how = "high" if mm > 0.0 else "low"
+    words = f"without its label, the heel of {name!r} reads {plain(abs(mm))} mm too {how}{count}"
     return (
         Notice("heel_by_label", f"{words}: give its heel height with each file, as run.csv does"),
     )

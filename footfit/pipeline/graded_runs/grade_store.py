@@ -9,7 +9,7 @@ from typing import Any, ClassVar
 
 from footfit.catalogue.group_commit import NewLast
 from footfit.catalogue.rows.last_names import caseless
-from footfit.catalogue.rows.requirements import require_plain
+from footfit.catalogue.rows.requirements import require_name
 from footfit.catalogue.store import open_catalogue
 from footfit.errors import BadOption, NameTaken
 from footfit.locations import Location
@@ -37,7 +37,7 @@ def require_storable_run(path: Location, grader: Grader, *, replace_stored: bool
         A last of the catalogue has the name of one of the run.
     """
     for name in grader.names():
-        require_plain(name)
+        require_name(name)
     names = stored_names(path)
     if caseless(grader.base.name) not in names:
         words = "--store needs a base of the catalogue: footfit ingest-last FILE --keep-mesh full"

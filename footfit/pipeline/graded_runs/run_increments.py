@@ -12,6 +12,7 @@ import numpy as np
 
 from footfit.errors import BadOption
 from footfit.geometry.grading.run_laws import Steps, likely_law, median_rate
+from footfit.number_words import first_names
 from footfit.pipeline.graded_runs.run_sizes import width_numbers
 from footfit.pipeline.last_making.tolerances import kind_of
 from footfit.results import Notice
@@ -31,6 +32,8 @@ HEIGHTS_BY_SHAPE = (f"heel_height{BY_SHAPE}", f"toe_spring_tip{BY_SHAPE}")
 NEAR_STEPS = 5
 """A height by shape is compared with so many steps about its own: with a held bottom the tread
 wanders, and the shape reads lower and lower (docs/decisions/0316)."""
+MOST_NAMED = 5
+"""So many lasts or files are named in a warning."""
 LEAST_LASTS = 3
 """Two lasts have one increment, which nothing can be compared with."""
 
@@ -87,7 +90,7 @@ def run_check(
         words = f"a run needs {LEAST_LASTS} sizes or more, and there {count}"
         raise BadOption(f"{words}: name more, or compare two with --rule")
     _refuse_twins(lasts)
-    lasts = _with_heights_by_shape(lasts)
+    lasts, by_shape = _with_heights_by_shape(lasts)
     step = _least_step(lasts) if rule is None else rule.size_step
     lines = [*_size_lines(lasts, step)]
     width_lines, warnings = _width_lines(lasts, rule)
@@ -112,21 +115,31 @@ def run_check(
         lasts=tuple(sorted(lasts, key=lambda last: (last.size_number, last.width or ""))),
         laws=laws,
         steps=tuple(_steps(known, by_kind, tolerance_mm)),
-        warnings=(*warnings, *_lacking(lasts), *_alone(lasts, lines)),
+        warnings=(*warnings, *by_shape, *_lacking(lasts), *_alone(lasts, lines)),
     )
 
 
-def _with_heights_by_shape(lasts: Sequence[RunLast]) -> list[RunLast]:
-    """The lasts of a run in which some stand by their labels: the others stand by their shapes."""
+def _with_heights_by_shape(
+    lasts: Sequence[RunLast],
+) -> tuple[list[RunLast], tuple[Notice, ...]]:
+    """The lasts of a run in which some stand by their labels; a warning if others do not.
+
+    Heel height and toe spring of those others are by shape, and are compared by shape alone.
+    """
     if not any(name in last.measures_mm for last in lasts for name in HEIGHTS_BY_SHAPE):
-        return list(lasts)
-    result = []
+        return list(lasts), ()
+    result, unlabelled = [], []
     for last in lasts:
-        own = {} if last.stands_by == "label" else last.measures_mm
-        heights = {f"{name}{BY_SHAPE}": mm for name, mm in own.items()}
-        known = {name: heights[name] for name in HEIGHTS_BY_SHAPE if name in heights}
-        result.append(replace(last, measures_mm={**last.measures_mm, **known}))
-    return result
+        measures = dict(last.measures_mm)
+        if last.stands_by != "label":
+            unlabelled.append(last.last)
+            for name in HEIGHTS_BY_SHAPE:
+                if (height_mm := measures.pop(name.removesuffix(BY_SHAPE), None)) is not None:
+                    measures[name] = height_mm
+        result.append(replace(last, measures_mm=measures))
+    words = "no label says how they stand: their heel and toe spring are compared by shape alone"
+    named = first_names(unlabelled, MOST_NAMED)
+    return result, (Notice("stance_by_shape", f"{named}: {words}"),) if unlabelled else ()
 
 
 def _least_step(lasts: Sequence[RunLast]) -> float:
@@ -267,8 +280,9 @@ def _sd_mm(last: RunLast, measure: str) -> float:
 
 def _lacking(lasts: Sequence[RunLast]) -> tuple[Notice, ...]:
     """A warning for each measure that some lasts lack, and some have."""
-    names = (*CHECKED, *HEIGHTS_BY_SHAPE)
-    counts = {name: sum(name in last.measures_mm for last in lasts) for name in names}
+    names = [*CHECKED, *HEIGHTS_BY_SHAPE]
+    known = [{*last.measures_mm, *_known_by_shape(last)} for last in lasts]
+    counts = {name: sum(name in measures for measures in known) for name in names}
     return tuple(
         Notice(
             "measure_missing",
@@ -278,6 +292,13 @@ def _lacking(lasts: Sequence[RunLast]) -> tuple[Notice, ...]:
         for name, count in counts.items()
         if 0 < count < len(lasts)
     )
+
+
+def _known_by_shape(last: RunLast) -> Iterator[str]:
+    """The heights of a last that are compared by shape alone."""
+    for name in HEIGHTS_BY_SHAPE:
+        if name in last.measures_mm:
+            yield name.removesuffix(BY_SHAPE)
 
 
 def _alone(lasts: Sequence[RunLast], lines: Sequence[Line]) -> tuple[Notice, ...]:

@@ -17,7 +17,7 @@ from footfit.locations import Location
 from footfit.number_words import first_names
 from footfit.pipeline.batch.runs import HERE, outcomes
 from footfit.pipeline.batch.sources import ReadingOptions, Source
-from footfit.pipeline.graded_runs.run_increments import BY_SHAPE, CHECKED
+from footfit.pipeline.graded_runs.run_increments import BY_SHAPE, CHECKED, MOST_NAMED
 from footfit.pipeline.graded_runs.run_sizes import SizeLabel, size_in_name, size_number
 from footfit.pipeline.library.manifest import LABEL_HEIGHTS, ManifestRow, read_manifest
 from footfit.pipeline.scan.measure import measured_scan
@@ -27,8 +27,6 @@ from footfit.pipeline.scan.standing import heights_by_shape, stance_labels
 from footfit.results import LastRecord, Measure, MeasuredScan, Notice
 from footfit.results.last_making.run_check import RunLast
 
-MOST_NAMED = 5
-"""So many files that are not there are named."""
 RUN_MANIFEST = "run.csv"
 """The manifest beside a run's files: `grade-last` writes it, `check-run` reads it."""
 

@@ -7,6 +7,7 @@ from collections.abc import Callable, Mapping
 from dataclasses import replace
 from functools import partial
 
+from footfit.catalogue.rows.requirements import require_name
 from footfit.catalogue.store import open_catalogue
 from footfit.errors import BadOption, UnknownLast
 from footfit.locations import Location
@@ -65,6 +66,8 @@ def _label(label: str, value: Label) -> Label:
         if isinstance(value, str):
             raise BadOption(f"{label} is a number of mm, not {value!r}")
         return label_mm(value, label)
+    if label == "family" and value is not None:
+        require_name(str(value), "family")
     return value if value is None else str(value)
 
 

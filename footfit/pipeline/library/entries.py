@@ -7,6 +7,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
+from footfit.catalogue.rows.requirements import require_name
 from footfit.errors import BadOption
 from footfit.number_words import first_names
 from footfit.pipeline.batch.sources import ReadingOptions, Source
@@ -47,8 +48,8 @@ def entries(
     Raises
     ------
     BadOption
-        There is nothing to ingest, ``--name`` is given for several files, or standard input has
-        no name.
+        There is nothing to ingest, ``--name`` is given for several files, standard input has no
+        name, or no last or family can have a name.
     """
     rows = {_resolved(row.path): row for row in manifest}
     if manifest and not sources:
@@ -82,9 +83,13 @@ def _entry(
     source: Source, row: ManifestRow | None, given: LastLabels, reading: ReadingOptions
 ) -> Entry:
     labels = row.labels if row else LastLabels(name=Path(source.path).stem if source.path else "")
-    name = given.name or labels.name
+    name, family = given.name or labels.name, labels.family or given.family
     if not name:
         raise BadOption("a last from standard input needs --name")
+    if given.name or row is not None:  # a name that comes from a file is refused with the file
+        require_name(name)
+    if family:
+        require_name(family, "family")
     own = {key: value for key, value in dataclasses.asdict(labels).items() if value is not None}
     labels = dataclasses.replace(given, **(own | {"name": name}))
     if row is not None:

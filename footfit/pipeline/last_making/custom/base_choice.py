@@ -9,7 +9,7 @@ from pathlib import Path
 
 from footfit.catalogue.group_commit import NewLast
 from footfit.catalogue.rows.last_names import caseless
-from footfit.catalogue.rows.requirements import require_plain
+from footfit.catalogue.rows.requirements import require_name
 from footfit.catalogue.store import Catalogue, open_catalogue
 from footfit.errors import FootfitError, NameTaken, NoCandidate, OutOfReach
 from footfit.locations import Location
@@ -144,7 +144,7 @@ def require_free_names(path: Location, names: Sequence[str], *, replaces: bool =
         There is a last of that name; no last can have it.
     """
     for name in names:
-        require_plain(name)
+        require_name(name)
     known = {} if replaces else stored_names(path)
     for name in names:
         if caseless(name) in known:
