@@ -27,19 +27,17 @@ SPACE = "{http://www.w3.org/2000/svg}"
 
 @dataclass(frozen=True)
 class Page:
-    """One page: its name, the grid's last name, its text, and how dark each pixel is (0 to 1)."""
+    """One page: its number and how many there are, its row and column and how many there are of
+    them, its text, and how dark each pixel is (0 to 1).
+    """
 
-    name: str
-    last: str
+    number: tuple[int, int]
+    place: tuple[int, int]
+    grid: tuple[int, int]
     text: str
     dark: np.ndarray
     size_mm: tuple[float, float]
     title_mm: tuple[float, float] | None
-
-    @property
-    def place(self) -> tuple[int, int]:
-        """Row and column in the grid of papers."""
-        return int(self.name[1:]) - 1, ord(self.name[0]) - ord("A")
 
 
 def pages(data: bytes, title: str = "") -> list[Page]:
@@ -50,7 +48,9 @@ def pages(data: bytes, title: str = "") -> list[Page]:
         width, height = (size * 25.4 / 72.0 for size in page.get_size())
         text = page.get_textpage()
         words = text.get_text_bounded()
-        name, last = re.search(r"\b([A-Z]\d+) of ([A-Z]\d+)\b", words).groups()
+        number = tuple(map(int, re.search(r"\bsheet (\d+) of (\d+)\b", words).groups()))
+        lies = re.search(r"\brow (\d+) of (\d+), column (\d+) of (\d+)\b", words)
+        row, rows, column, columns = map(int, lies.groups()) if lies else (1, 1, 1, 1)
         scale = (1.0 - 1e-6) * DOTS * 25.4 / 72.0  # so that 2970.00002 pixels are not made 2971
         image = page.render(scale=scale, grayscale=True).to_numpy()
         at = text.search(title).get_next() if title else None
@@ -59,7 +59,8 @@ def pages(data: bytes, title: str = "") -> list[Page]:
             left, bottom, _, top = text.get_charbox(at[0])
             place = left * 25.4 / 72.0, height - 0.5 * (bottom + top) * 25.4 / 72.0
         dark = 1.0 - image.reshape(image.shape[:2]).astype(np.float64) / 255.0
-        found.append(Page(name, last, words, dark, (width, height), place))
+        where = (row - 1, column - 1), (rows, columns)
+        found.append(Page(number, *where, words, dark, (width, height), place))
     return found
 
 

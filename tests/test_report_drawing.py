@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 
 import footfit
-from footfit.report.drawing.papers import PAPERS, Tile
+from footfit.report.drawing.papers import CROSS_MM, PAPERS
 from footfit.report.drawing.parts import Block
 from tests import paper
 from tests.conftest import ROOT, SAMPLES
@@ -66,8 +66,11 @@ def check_sheets(sheets: list[paper.Page]) -> None:
         assert sheet.size_mm == pytest.approx((210.0, 297.0), abs=0.001)  # of a float in points
     names = [sheet.place for sheet in sheets]
     assert names == sorted(set(names))
-    last = (max(row for row, _ in names), max(column for _, column in names))
-    assert {sheet.last for sheet in sheets} == {f"{chr(ord('A') + last[1])}{last[0] + 1}"}
+    grid = (1 + max(row for row, _ in names), 1 + max(column for _, column in names))
+    assert {sheet.grid for sheet in sheets} == {grid}
+    count = len(sheets)
+    assert [sheet.number for sheet in sheets] == [(at + 1, count) for at in range(count)]
+    assert not any(re.search(r"\bA[0-5]\b", sheet.text) for sheet in sheets)  # a paper's size
 
 
 def test_a_large_last_crosses_borders_between_papers() -> None:
@@ -230,8 +233,35 @@ def test_a_block_is_whole_on_the_papers_that_show_it() -> None:
         assert corners[:, 1].min() - height <= low[1]
 
 
-def test_tiles_are_named_by_column_and_row() -> None:
-    assert [tile.name for tile in (Tile(0, 0), Tile(1, 1), Tile(2, 2))] == ["A1", "B2", "C3"]
+def test_no_cross_lies_on_words() -> None:
+    from footfit.report.drawing.layout import layout
+
+    drawings = [drawn(name) for name in OWN] + [footfit.drawing(FOOT, foot=True)]
+    for paper_name in ("a4", "a3", "letter"):
+        for drawing in drawings:
+            laid = layout(drawing, PAPERS[paper_name])
+            for tile in laid.tiles:
+                body, furniture = laid.sheet(tile)
+                sizes = [np.ptp(line.points, axis=0).max() for line in furniture.lines]
+                ends = np.array([line.points for line in furniture.lines])
+                ends = ends[np.isclose(sizes, 2.0 * CROSS_MM)]
+                assert len(ends) == 8
+                low, high = ends.min(axis=1), ends.max(axis=1)
+                for words in (*body.words, *furniture.words):
+                    start, end = words.corners
+                    over = (low < end).all(axis=1) & (high > start).all(axis=1)
+                    assert not over.any(), (words.text, paper_name, tile)
+
+
+def test_a_sheet_says_its_number_and_where_it_lies() -> None:
+    """A name such as A3 would read like the size of a paper."""
+    sheets = paper.pages(footfit.drawing_file(drawn("men's 48")), "plan")
+    assert len(sheets) > 3
+    assert sheets[1].number == (2, len(sheets))
+    assert "lay the crosses of the sheets" in " ".join(sheet.text for sheet in sheets)
+    (roll,) = paper.pages(footfit.drawing_file(drawn("flat"), "pdf", "roll"), "plan")
+    assert roll.number == (1, 1)
+    assert "row 1" not in roll.text
 
 
 def test_what_cannot_be_drawn_is_refused(tmp_path: Path) -> None:

@@ -52,8 +52,10 @@ class Layout:
         left, top = tile.top_left_mm(self.paper)
         pairs = zip(self.blocks, self.shown, strict=True)
         body = joined(block for block, shown in pairs if tile in shown)
-        name = f"{tile.name} of {self.last_tile.name}"
-        furnished = furniture(width, height, name, self.title)
+        tiles = self.tiles
+        name = f"sheet {tiles.index(tile) + 1} of {len(tiles)}"
+        place = tile.place_words(self.last_tile) if len(tiles) > 1 else ""
+        furnished = furniture(width, height, name, place, self.title)
         return body.moved(MARGIN_MM - left, height - MARGIN_MM - top), furnished
 
 
@@ -83,7 +85,7 @@ def layout(drawing: Drawing, paper: Paper) -> Layout:
 
 
 def _packing(blocks: Mapping[str, Block], names: Sequence[str], paper: Paper) -> Packing:
-    return packing([_size(name, blocks[name]) for name in names], paper)
+    return packing([_size(blocks[name]) for name in names], paper)
 
 
 def _laid_out(
@@ -107,7 +109,14 @@ def _laid_out(
     return Layout(tuple(placed), tuple(shown), paper, size_mm, title)
 
 
-def _size(name: str, block: Block) -> Size:
+def _size(block: Block) -> Size:
+    """How large a block is with its padding, and where its words are in it."""
     low, high = block.bounds
     width, height = high - low + np.multiply(2.0, PADDING_MM)
-    return Size(float(width), float(height), name in (TEXT, MAP))
+    start = np.array([low[0] - PADDING_MM[0], high[1] + PADDING_MM[1]])
+    boxes = [
+        (*(corners - start)[:, 0], *(start - corners)[:, 1])
+        for words in block.words
+        for corners in [words.corners]
+    ]  # left, right, bottom, top
+    return Size(float(width), float(height), np.array(boxes).reshape(-1, 4)[:, [0, 3, 1, 2]])

@@ -16,18 +16,20 @@ PADDING_MM = (2.0, 0.25)
 BELOW_MM = 4.0
 """How far a block is kept from the one below it."""
 MOST_COLUMNS = 4
+NO_WORDS = np.empty((0, 4))
 
 
 @dataclass(frozen=True, slots=True)
 class Packing:
     """The upper left corner of each block, (n, 2), y negative below the top; its tiles.
 
-    ``height_mm`` is how long a roll must be.
+    ``height_mm`` is how long a roll must be; ``crossed`` counts the crosses that lie on words.
     """
 
     corners: Floats
     shown: tuple[frozenset[Tile], ...]
     height_mm: float
+    crossed: int = 0
 
     @property
     def tiles(self) -> frozenset[Tile]:
@@ -36,16 +38,20 @@ class Packing:
 
     @property
     def cost(self) -> tuple[float, ...]:
-        """Fewer papers are better, then fewer borders through blocks; on a roll, a shorter one."""
-        return len(self.tiles), sum(map(len, self.shown)), self.height_mm
+        """Fewer papers are better, then fewer crosses on words, then fewer borders through blocks;
+        on a roll, a shorter one.
+        """
+        return len(self.tiles), self.crossed, sum(map(len, self.shown)), self.height_mm
 
 
 class Size(NamedTuple):
-    """How large a block is, with its padding; ``is_text`` if no cross may cover it."""
+    """How large a block is, with its padding, and where its words are: boxes (n, 4) of left, top,
+    right and bottom from its upper left corner, y down. No cross should cover them.
+    """
 
     width: float
     height: float
-    is_text: bool = False
+    words: Floats = NO_WORDS
 
 
 def packing(sizes: Sequence[Size], paper: Paper) -> Packing:
@@ -65,19 +71,22 @@ def packing(sizes: Sequence[Size], paper: Paper) -> Packing:
 def _packing_within(sizes: Sequence[Size], paper: Paper, width_mm: float) -> Packing:
     boxes = np.empty((0, 4))  # left, top, right, bottom; y down
     shown: list[frozenset[Tile]] = []
+    crossed = 0
     for size in sizes:
         used = frozenset[Tile]().union(*shown)
         keyed = []
         for left, top in _free_places(boxes, size, width_mm, paper):
             box = left, top, left + size.width, top + size.height
             tiles = tiles_of(left, -top, box[2], -box[3], paper)
-            covered = crosses_in(box, tiles, paper) if size.is_text else 0
+            words = size.words + np.array([left, top, left, top])
+            covered = crosses_in(words, tiles, paper)
             keyed.append((len(tiles - used), len(tiles), covered, box[3], left, box, tiles))
-        *_, box, tiles = min(keyed, key=lambda key: key[:-2])
+        _, _, covered, *_, box, tiles = min(keyed, key=lambda key: key[:-2])
         boxes = np.vstack([boxes, box])
         shown.append(tiles)
+        crossed += covered
     height_mm = float(boxes[:, 3].max()) if paper.is_roll else 0.0
-    return Packing(boxes[:, :2] * (1.0, -1.0), tuple(shown), height_mm)
+    return Packing(boxes[:, :2] * (1.0, -1.0), tuple(shown), height_mm, crossed)
 
 
 def _free_places(
@@ -88,9 +97,10 @@ def _free_places(
     lefts = {0.0, *(boxes[:, 2]).tolist()}
     tops = {0.0, *(boxes[:, 3] + BELOW_MM).tolist()}
     if not paper.is_roll:
-        lefts |= {column * paper.pitch_mm[0] for column in range(MOST_COLUMNS)}
+        columns = [column * paper.pitch_mm[0] for column in range(MOST_COLUMNS)]
+        lefts |= {at + beside for at in columns for beside in (0.0, UNDER_CROSS_MM)}
         tops |= {row * paper.pitch_mm[1] for row in rows}
-        tops |= {row * paper.pitch_mm[1] + UNDER_CROSS_MM for row in rows if size.is_text}
+        tops |= {row * paper.pitch_mm[1] + UNDER_CROSS_MM for row in rows}
     free = []
     for left in sorted(lefts):
         if left + size.width > width_mm + 1e-9:

@@ -9,6 +9,7 @@ from typing import Literal
 
 import numpy as np
 
+from footfit.geometry.numeric.arrays import Floats
 from footfit.report.drawing.parts import EDGE_MM, Block, Line, Words, straight
 
 PaperName = Literal["a4", "a3", "letter", "roll"]
@@ -63,19 +64,16 @@ class Tile:
     row: int
     column: int
 
-    @property
-    def name(self) -> str:
-        """A letter for the column and a number for the row.
+    def place_words(self, last: Tile) -> str:
+        """Where it lies among tiles whose lower right corner is ``last``.
 
         Examples
         --------
-        >>> Tile(1, 2).name, Tile(0, 26).name
-        ('C2', 'AA1')
+        >>> Tile(1, 2).place_words(Tile(1, 3))
+        'row 2 of 2, column 3 of 4'
         """
-        letters, left = "", self.column
-        while left >= 0:
-            letters, left = chr(ord("A") + left % 26) + letters, left // 26 - 1
-        return f"{letters}{self.row + 1}"
+        row, column = f"row {self.row + 1} of {last.row + 1}", f"column {self.column + 1}"
+        return f"{row}, {column} of {last.column + 1}"
 
     def top_left_mm(self, paper: Paper) -> tuple[float, float]:
         """The upper left corner of the tile's window on the drawing."""
@@ -89,8 +87,8 @@ def tiles_of(left: float, top: float, right: float, bottom: float, paper: Paper)
 
     Examples
     --------
-    >>> sorted(tile.name for tile in tiles_of(0.0, 0.0, 195.0, -277.0, PAPERS["a4"]))
-    ['A1', 'B1']
+    >>> sorted(tiles_of(0.0, 0.0, 195.0, -277.0, PAPERS["a4"]))
+    [Tile(row=0, column=0), Tile(row=0, column=1)]
     """
     if paper.is_roll:
         return frozenset({Tile(0, 0)})
@@ -103,8 +101,9 @@ def tiles_of(left: float, top: float, right: float, bottom: float, paper: Paper)
     return frozenset(Tile(row, column) for column in spans[0] for row in spans[1])
 
 
-def furniture(width_mm: float, height_mm: float, name: str, title: str) -> Block:
-    """What stands on every paper: bars in both directions, the words, the tile's name, its crosses.
+def furniture(width_mm: float, height_mm: float, name: str, place: str, title: str) -> Block:
+    """What stands on every paper: bars in both directions, the words, its name, where it lies among
+    the others, its crosses.
 
     In the coordinates of the paper, from its lower left corner.
     """
@@ -122,7 +121,8 @@ def furniture(width_mm: float, height_mm: float, name: str, title: str) -> Block
             (MARGIN_MM, top + 1.9),
             2.2,
         ),
-        Words(name, (width_mm - MARGIN_MM, top - 0.4), 4.0, "end", bold=True),
+        Words(name, (width_mm - MARGIN_MM, top - 0.8), 3.2, "end", bold=True),
+        Words(place, (width_mm - MARGIN_MM, top + 2.4), 2.2, "end"),
     )
     return Block(bars + crosses(width_mm, height_mm), words)
 
@@ -148,23 +148,25 @@ def crosses(width_mm: float, height_mm: float) -> tuple[Line, ...]:
     )
 
 
-def crosses_in(box: tuple[float, float, float, float], tiles: Iterable[Tile], paper: Paper) -> int:
-    """How many crosses of some tiles a box (left, top, right, bottom; y down) touches.
+def crosses_in(boxes: Floats, tiles: Iterable[Tile], paper: Paper) -> int:
+    """How many crosses of some tiles boxes (n, 4) of left, top, right, bottom touch; y down.
 
     Examples
     --------
-    >>> crosses_in((0.0, 0.0, 90.0, 50.0), {Tile(0, 0)}, PAPERS["a4"])
+    >>> crosses_in(np.array([[0.0, 0.0, 90.0, 50.0]]), {Tile(0, 0)}, PAPERS["a4"])
     1
-    >>> crosses_in((0.0, UNDER_CROSS_MM, 90.0, 50.0), {Tile(0, 0)}, PAPERS["a4"])
+    >>> crosses_in(np.array([[0.0, UNDER_CROSS_MM, 90.0, 50.0]]), {Tile(0, 0)}, PAPERS["a4"])
     0
     """
-    width, height = paper.window_mm
+    if paper.is_roll:
+        return 0
     inset = 0.5 * OVERLAP_MM
-    count = 0
-    for tile in () if paper.is_roll else tiles:
-        left, up = tile.top_left_mm(paper)
-        for x in (left + inset, left + width - inset):
-            for y in (inset - up, height - inset - up):
-                across = box[0] < x + CROSS_MM and x - CROSS_MM < box[2]
-                count += across and box[1] < y + CROSS_MM and y - CROSS_MM < box[3]
-    return count
+    corners = [
+        (x + left, y - top)
+        for left, top in (tile.top_left_mm(paper) for tile in tiles)
+        for x in (inset, paper.window_mm[0] - inset)
+        for y in (inset, paper.window_mm[1] - inset)
+    ]
+    at = np.array(corners).reshape(-1, 1, 2)
+    covered = (boxes[:, :2] < at + CROSS_MM) & (at - CROSS_MM < boxes[:, 2:])
+    return int(covered.all(axis=2).any(axis=1).sum())

@@ -116,16 +116,16 @@ def _cell(text: str, column: float, y: float, *, bold: bool = False, start: bool
 
 
 def tile_map(tiles: Iterable[Tile], paper: Paper) -> Block:
-    """How the papers lie beside each other, with their names."""
+    """How the papers lie beside each other, with their numbers."""
     blocks = [
-        Block(words=paragraph(["lay the crosses of the papers over each other:"], (0.0, 0.0), 2.4))
+        Block(words=paragraph(["lay the crosses of the sheets over each other:"], (0.0, 0.0), 2.4))
     ]
     height = MAP_MM
     width = height * paper.window_mm[0] / paper.window_mm[1]
-    for tile in tiles:
+    for number, tile in enumerate(tiles, start=1):
         left, top = tile.column * width, -5.0 - tile.row * height
         corners = [(0.0, 0.0), (width, 0.0), (width, -height), (0.0, -height)]
         box = Line(np.add(corners, (left, top)), closed=True)
         middle = (left + 0.5 * width, top - 0.5 * height - 0.9)
-        blocks.append(Block((box,), (Words(tile.name, middle, 2.4, "middle"),)))
+        blocks.append(Block((box,), (Words(str(number), middle, 2.4, "middle"),)))
     return joined(blocks)
