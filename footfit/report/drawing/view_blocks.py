@@ -75,11 +75,7 @@ def _details(drawing: Drawing, view: View) -> list[str]:
         if kind == "foot":
             return [f"what lies lower than {SOLE_HEIGHT_MM:.0f} mm,", *seen]
         length = _measure_words(drawing.value_of("bottom_length"))
-        return [
-            "the feather edge,",
-            *seen,
-            *(part for text in length for part in text.split(" ", 1)),
-        ]
+        return ["the feather edge,", *seen, *(part for text in length for part in text.split(": "))]
     if view.name == "plan":
         return [f"the {stands} last," if kind == "last" else "below the ankle,", *seen]
     if view.name == "side":
@@ -94,7 +90,8 @@ def _measure_words(measure: Measure | None) -> list[str]:
     if measure is None or measure.measured.value is None:
         return []
     spread = "" if measure.measured.sd is None else f" ± {plain(measure.measured.sd)}"
-    return [f"{measure.name} {plain(measure.measured.value)}{spread} {measure.unit}"]
+    name = measure.name.replace("_", " ")
+    return [f"{name}: {plain(measure.measured.value)}{spread} {measure.unit}"]
 
 
 def _marks(drawing: Drawing, view: View) -> Block:
