@@ -168,5 +168,5 @@ def crosses_in(boxes: Floats, tiles: Iterable[Tile], paper: Paper) -> int:
         for y in (inset, paper.window_mm[1] - inset)
     ]
     at = np.array(corners).reshape(-1, 1, 2)
-    covered = (boxes[:, :2] < at + CROSS_MM) & (at - CROSS_MM < boxes[:, 2:])
-    return int(covered.all(axis=2).any(axis=1).sum())
+    inside = np.all((boxes[:, :2] < at + CROSS_MM) & (at - CROSS_MM < boxes[:, 2:]), axis=2)
+    return int(np.count_nonzero(np.any(inside, axis=1)))
