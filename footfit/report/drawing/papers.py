@@ -124,7 +124,8 @@ def furniture(width_mm: float, height_mm: float, name: str, place: str, title: s
         Words(name, (width_mm - MARGIN_MM, top - 0.8), 3.2, "end", bold=True),
         Words(place, (width_mm - MARGIN_MM, top + 2.4), 2.2, "end"),
     )
-    return Block(bars + crosses(width_mm, height_mm), words)
+    shown = tuple(each for each in words if each.text)
+    return Block(bars + crosses(width_mm, height_mm), shown)
 
 
 def _bar(name: str) -> Block:
