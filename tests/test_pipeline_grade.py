@@ -35,6 +35,7 @@ from footfit.pipeline.graded_runs.grade_run import read_otherwise
 from footfit.pipeline.graded_runs.grade_shape import GradeStep, graded
 from footfit.pipeline.graded_runs.grading_rules import grading_rule
 from footfit.pipeline.graded_runs.run_increments import CHECKED
+from footfit.pipeline.scan.flare import shape_flare
 from footfit.pipeline.scan.standing import heights_by_shape
 from footfit.report.terminal.last_making_tables import graded_run_table
 from footfit.report.terminal.scan_tables import terminal_text
@@ -47,6 +48,8 @@ from tools.lasts import LastSpec, last_mesh
 SMALL = {"rings": 76, "segments": 48}
 REACHED_MM = 0.02
 """Of the measures of a written file against the plan; measured: 0.004."""
+FLARE_DEG = 0.02
+"""Of the flare in a size; measured: 0.01."""
 BACK_MM = 0.03
 """Of vertices, there and back by a size and a width; measured: 0.012."""
 STILL_MM = 0.01
@@ -172,6 +175,18 @@ def test_a_held_bottom_goes_ahead_as_it_is_and_the_shank_takes_up_the_length() -
     assert tread[:, 0].mean() > 6.667  # the shank is steep: more along the ground than along it
 
 
+@pytest.mark.parametrize(("hold", "most_deg"), [(None, 0.02), ("bottom,toe", 0.12), ("top", 0.02)])
+def test_a_longer_last_keeps_its_flare(hold: str | None, most_deg: float) -> None:
+    """While the middle only went ahead, 0.2 degrees a size were lost. Measured: 0.01, and 0.06 with
+    a held bottom, whose ball is at another share of the length.
+    """
+    shape, base_mm = standing_base(15.0)
+    longer = stepped(shape, base_mm, (0.0, 0.0), (1.0, 0.0), hold)
+    before, after = shape_flare(shape).angle_deg, shape_flare(longer).angle_deg
+    assert abs(before) > 3.0
+    assert after == pytest.approx(before, abs=most_deg)
+
+
 def test_a_ball_grows_by_its_increment_for_another_tape_too() -> None:
     """The judge turns planes by brute force, and shares no code with grading."""
     shape, base_mm = standing_base(15.0)
@@ -202,6 +217,9 @@ def test_a_run_reaches_its_plan_and_is_stored_with_its_parentage(
             assert 0.0 < measure["sd"] < 2.0  # of a second scan, in mm
             if measure["planned"] is not None:
                 assert abs(measure["difference"]) < REACHED_MM, (last["last"], measure)
+        flare = last["flare"]
+        assert (flare["unit"], flare["by"], flare["planned"]) == ("deg", "kept", flare["base"])
+        assert abs(flare["difference"]) < FLARE_DEG
     even = ("--rule", "eu", "--tolerance", "girth=0.1,length=0.1,width=0.1,height=0.2")
     assert footfit("check-run", "derby", *even, "--catalogue", catalogue).code == 0
     manifest = footfit("check-run", folder, *even)
@@ -349,7 +367,14 @@ def test_the_table_shows_every_measure_of_every_last(tmp_path: Path) -> None:
     for measure in run.lasts[0].measures:
         assert measure.name.replace("_", " ") in text
         assert plain(measure.base, 2) in text
-    assert len(run.rows()) == len(run.lasts[0].measures)
+    assert "flare, deg" in text
+    assert [row["unit"] for row in run.rows()] == ["mm"] * len(run.lasts[0].measures) + ["deg"]
+    sizes = [replace(run.lasts[0], last=f"derby-{size}", size=str(size)) for size in range(38, 44)]
+    many = terminal_text(graded_run_table(replace(run, lasts=tuple(sizes))), 80)
+    for size in sizes:
+        (line,) = (line for line in many.splitlines() if line.startswith(f" {size.size} "))
+        assert plain(size.measures[0].reached) in line
+    assert "--csv FILE has every measure" in many
     assert isinstance(run, GradedRun)
     assert run.to_dict()["lasts"][0]["measures"][0]["difference"] == pytest.approx(0.0, abs=0.01)
     assert "data" not in run.to_dict()["lasts"][0]

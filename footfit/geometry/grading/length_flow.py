@@ -125,14 +125,18 @@ def raised_mm(x_mm: Floats, z_mm: Floats, ratio: float, held: tuple[bool, bool])
 
 
 def lengthened_mm(
-    chart: Chart, points_mm: Floats, ahead_mm: tuple[Floats, Floats], raised_mm: Floats
+    chart: Chart,
+    points_mm: Floats,
+    ahead_mm: tuple[Floats, Floats],
+    aside_mm: Floats,
+    raised_mm: Floats,
 ) -> Floats:
     """Points (n, 3) of the resting frame where the bottom's line goes ahead and is raised.
 
-    ``ahead_mm`` says how far the bottom, and what lies over it, go ahead; ``raised_mm`` is for
-    both: (k,) each, at the chart's stations. Each point moves by what the line does that has its
-    middle where the point has it, and is as free of a held top as there. So the way back is the
-    same one.
+    ``ahead_mm`` says how far the bottom, and what lies over it, go ahead; ``aside_mm`` how far both
+    move across, and ``raised_mm`` up: (k,) each, at the chart's stations. Each point moves by what
+    the line does that has its middle where the point has it, and is as free of a held top as there.
+    So the way back is the same one.
     """
     standing = chart.standing(points_mm)
     x, z = chart.arc.line.at(chart.stations * chart.arc.length_mm)
@@ -149,11 +153,23 @@ def lengthened_mm(
             np.interp(x_mm, places, curve)
             for places, curve in zip((bottom_mm, upper_mm), ahead_mm, strict=True)
         )
-        raised = np.interp(x_mm, bottom_mm, raised_mm)
-        ahead = bottom + risen * (upper - bottom)
-        shift = np.column_stack([ahead, np.zeros(len(x_mm)), raised])
+        aside, raised = (np.interp(x_mm, bottom_mm, curve) for curve in (aside_mm, raised_mm))
+        shift = np.column_stack([bottom + risen * (upper - bottom), aside, raised])
         shift *= free_of_top(chart, half_way)[:, None]
     return chart.resting(standing + shift)
+
+
+def sideways_mm(x_mm: Floats, middle_mm: Floats, ahead_mm: Floats) -> Floats:
+    """How far places (n,) of a plan's middle move across, so that it keeps its heading.
+
+    Examples
+    --------
+    >>> x, middle = np.array([0.0, 100.0, 200.0]), np.array([2.0, 2.0, 12.0])
+    >>> sideways_mm(x, middle, 0.1 * x).tolist()
+    [0.0, 0.0, 1.0]
+    """
+    steps_mm = np.diff(middle_mm) / np.diff(x_mm) * np.diff(ahead_mm)
+    return np.concatenate([[0.0], np.cumsum(steps_mm)])
 
 
 def ends_raised_mm(x_mm: Floats, z_mm: Floats, by_mm: tuple[float, float]) -> Floats:

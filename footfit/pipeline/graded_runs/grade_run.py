@@ -6,7 +6,7 @@ import math
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, field, replace
 
-from footfit.errors import ImplausibleSize, NotAFoot, OutOfReach
+from footfit.errors import GeometryRefused, ImplausibleSize, NotAFoot, OutOfReach
 from footfit.geometry.measures.landmarks import Shape
 from footfit.geometry.measures.measure_table import measure_named
 from footfit.geometry.stance.cues import StanceLabels
@@ -26,6 +26,7 @@ from footfit.pipeline.graded_runs.grade_shape import HELD, LENGTH, GradeStep, gr
 from footfit.pipeline.graded_runs.run_increments import CHECKED
 from footfit.pipeline.last_making.base_last import BaseLast
 from footfit.pipeline.last_making.tolerances import TOLERANCE_MM
+from footfit.pipeline.scan.flare import shape_flare
 from footfit.pipeline.scan.preparation import right_copy
 from footfit.pipeline.scan.reading import prepared_source
 from footfit.pipeline.scan.standing import heights_by_shape
@@ -59,7 +60,9 @@ class Node:
 
 @dataclass(frozen=True)
 class Grader:
-    """A base with its plan. ``base_mm`` are its measures, read from a file as its lasts are."""
+    """A base with its plan. ``base_mm`` are its measures, and ``base_flare_deg`` is its flare, read
+    from a file as those of its lasts are.
+    """
 
     base: BaseLast
     plan: GradePlan
@@ -67,6 +70,7 @@ class Grader:
     first: Node
     base_mm: Mapping[str, float]
     in_frame_mm: Mapping[str, float]
+    base_flare_deg: float | None
 
     def lasts(self) -> Iterator[GradedLast]:
         """Every last of the plan, from the base outwards in both directions.
@@ -228,7 +232,15 @@ class Grader:
             labels=labels,
             data=data,
             heel_by_shape_mm=heights_by_shape(shape.stance).get(HEEL),
+            flare=self._flare(shape),
         )
+
+    def _flare(self, shape: Shape) -> GradedMeasure | None:
+        """The flare of a last: that of the base is planned."""
+        base_deg, own = self.base_flare_deg, flare_of(shape)
+        if base_deg is None or own is None:
+            return None
+        return GradedMeasure("flare_angle", "deg", base_deg, base_deg, own[0], "kept", own[1])
 
 
 def family_of(labels: LastLabels, size: str) -> str:
@@ -253,14 +265,17 @@ def grader(base: BaseLast, plan: GradePlan, family: str) -> Grader:
     """
     stands = base.shape.labels
     base_mm: dict[str, float] = {}
+    read = base.shape
     for _ in range(2):  # the second time on the ground that its own heel and spring give
-        base_mm = measures_of(file_shape(file_of(base.shape, base), base, stands))
+        read = file_shape(file_of(base.shape, base), base, stands)
+        base_mm = measures_of(read)
         if LENGTH not in base_mm:
             raise OutOfReach("its length along the bottom cannot be measured: take a whole last")
         stands = standing(targets(plan, base_mm, 0.0, 0.0), base.record.labels.platform_mm)
     own = Shape(base.shape.vertices_mm, base.shape.faces, "last", stands)
     in_frame = {name: graded_mm(own, name) for name in base_mm}
     kept = {name: value for name, value in in_frame.items() if math.isfinite(value)}
+    flare = flare_of(read)
     return Grader(
         base=base,
         plan=plan,
@@ -268,6 +283,7 @@ def grader(base: BaseLast, plan: GradePlan, family: str) -> Grader:
         first=Node(own, 0.0, 0.0),
         base_mm={name: value for name, value in base_mm.items() if name in kept},
         in_frame_mm=kept,
+        base_flare_deg=None if flare is None else flare[0],
     )
 
 
@@ -301,6 +317,16 @@ def measures_of(shape: Shape) -> dict[str, float]:
     """The checked measures of a last, in mm by name."""
     values = {name: measure_named(name).taken_of(shape).value for name in CHECKED}
     return {name: value for name, value in values.items() if value is not None}
+
+
+def flare_of(shape: Shape) -> tuple[float, float] | None:
+    """The flare angle of a last and its standard deviation, degrees; None if it is not shown."""
+    try:
+        flare = shape_flare(shape)
+    except GeometryRefused:
+        return None
+    angle_deg, sd_deg = flare.angle_deg, flare.angle_sd_deg
+    return (angle_deg, sd_deg) if math.isfinite(angle_deg) else None
 
 
 def spreads_of(shape: Shape) -> dict[str, float | None]:

@@ -128,7 +128,7 @@ def parentage_of_run(run: GradedRun, last: GradedLast, base: str) -> Parentage:
     }
     targets = tuple(
         Target(each.name, each.unit, each.base, each.planned, each.reached)
-        for each in last.measures
+        for each in last.shown
         if each.planned is not None
     )
     return Parentage(base, run.base_sha256, "grade", targets, figures, rule=rule.name)

@@ -11,6 +11,8 @@ from footfit.report.terminal.scan_tables import cell, lined_table
 from footfit.report.wording.run_words import break_words
 from footfit.report.wording.text import visible
 
+IN_FULL = 4
+"""A run of more lasts has one table, with a row for each last."""
 OFF, UNSURE = "!", "?"
 """Stand beside an increment that is out of tolerance, and beside one that may be."""
 
@@ -22,7 +24,10 @@ def graded_run_table(run: results.GradedRun) -> RenderableType:
     held = ", ".join(run.held) or "nothing"
     sources = f"by the rule {visible(run.rule.name)}, {run.rule.law}; held: {held}"
     parts: list[RenderableType] = [Text(f"{base} graded {sources}", "bold")]
-    parts += [_graded_table(last) for last in run.lasts]
+    if len(run.lasts) > IN_FULL:
+        parts.append(_run_table(run))
+    else:
+        parts += [_graded_table(last) for last in run.lasts]
     worst = max(
         (each for last in run.lasts if (each := last.worst) is not None),
         key=lambda each: abs(each.difference or 0.0),
@@ -39,13 +44,48 @@ def graded_run_table(run: results.GradedRun) -> RenderableType:
     return Group(*parts)
 
 
+def _run_table(run: results.GradedRun) -> RenderableType:
+    """A row for each last: what it has of each planned measure, and what is farthest off. What is
+    held has a line of its own.
+    """
+    first = run.lasts[0].shown
+    names = [each.name for each in first if each.by not in ("follows", "held")]
+    heads = [_words(name).replace(" ", "\n") for name in names]
+    table = lined_table("size", *heads, "off\nmost", right=frozenset((*heads, "off\nmost")))
+    for last in run.lasts:
+        own = {each.name: each for each in last.shown}
+        reached = (own[name].reached if name in own else None for name in names)
+        table.add_row(
+            cell(last.size if last.width is None else f"{last.size} {last.width}"),
+            *("-" if value is None else plain(value) for value in reached),
+            "-" if last.worst is None else signed(last.worst.difference or 0.0, 3),
+        )
+    held = ", ".join(_held_words(run, each.name) for each in first if each.by == "held")
+    lines = [f"Held, in mm: {held}"] * bool(held)
+    lines.append("Reached, in mm; the flare in degrees. --csv FILE has every measure, and its plan")
+    return Group(table, *(Text(words, "dim") for words in lines))
+
+
+def _held_words(run: results.GradedRun, name: str) -> str:
+    """What the lasts of a run have of a held measure: one number, or the least and the most."""
+    rows = (each for last in run.lasts for each in last.measures if each.name == name)
+    values = [each.reached for each in rows if each.reached is not None]
+    span = dict.fromkeys(map(plain, (min(values), max(values)))) if values else ["-"]
+    return f"{_words(name)} {' to '.join(span)}"
+
+
+def _words(name: str) -> str:
+    """The name of a measure in words."""
+    return {"flare_angle": "flare"}.get(name, name.replace("_", " "))
+
+
 def _graded_table(last: results.GradedLast) -> RenderableType:
     """One last: a row for each measure."""
     numbers = ("base", "planned", "reached", "off", "±")
     table = lined_table("mm", *numbers, "by", right=frozenset(numbers))
-    for each in last.measures:
+    for each in last.shown:
         table.add_row(
-            cell(each.name.replace("_", " ")),
+            cell(_words(each.name) if each.unit == "mm" else f"{_words(each.name)}, {each.unit}"),
             plain(each.base, 2),
             *("-" if value is None else plain(value, 2) for value in (each.planned, each.reached)),
             "-" if each.difference is None else signed(each.difference, 2),

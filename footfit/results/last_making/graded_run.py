@@ -22,8 +22,10 @@ from footfit.results.values import (
 if TYPE_CHECKING:
     from footfit.results.last_record import LastLabels
 
-By = Literal["rule", "held", "scaled", "follows"]
-"""What a measure of a graded last is by. What a rule does not plan and nothing holds follows."""
+By = Literal["rule", "held", "scaled", "follows", "kept"]
+"""What a measure of a graded last is by. What a rule does not plan and nothing holds follows. The
+flare is kept: a longer bottom keeps the heading of its middle.
+"""
 
 
 @dataclass(frozen=True, slots=True)
@@ -58,7 +60,8 @@ class GradedLast(Part):
 
     ``output`` is its file, ``stored`` whether the catalogue has it now. ``data`` is the content of
     the file, an STL in mm in the base's canonical frame. ``heel_by_shape_mm`` is what its heel
-    height reads without its labels.
+    height reads without its labels. ``flare`` is the flare angle in degrees, as planned and as
+    reached; None if the bottom does not show it.
     """
 
     last: str
@@ -72,6 +75,7 @@ class GradedLast(Part):
     output: str | None = None
     stored: bool = False
     heel_by_shape_mm: float | None = None
+    flare: GradedMeasure | None = None
     warnings: tuple[Notice, ...] = ()
 
     not_written = ("labels", "data")
@@ -83,6 +87,11 @@ class GradedLast(Part):
         if reached is None or self.heel_by_shape_mm is None:
             return 0.0
         return self.heel_by_shape_mm - reached
+
+    @property
+    def shown(self) -> tuple[GradedMeasure, ...]:
+        """All measures that a table has: those in mm, and the flare."""
+        return self.measures if self.flare is None else (*self.measures, self.flare)
 
     @property
     def worst(self) -> GradedMeasure | None:
@@ -127,6 +136,6 @@ class GradedRun(Document):
                 *map(json_number, (each.difference, each.sd)),
             )
             for last in self.lasts
-            for each in last.measures
+            for each in last.shown
         ]
         return rows(self.columns, values)
