@@ -18,7 +18,7 @@ from __future__ import annotations
 import argparse
 import csv
 from collections import defaultdict
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 from concurrent.futures import ProcessPoolExecutor
 from dataclasses import dataclass, replace
 
@@ -28,6 +28,18 @@ from benchmarks import measures, stance
 from benchmarks.alignment import scan_of
 from benchmarks.tables import markdown, put
 from benchmarks.trueness_fit import Fitted, heel_shares
+from benchmarks.trueness_tables import (
+    ASKED_INSIDE,
+    ASKED_RATIO,
+    FAMILIES,
+    FEWEST,
+    Error,
+    Errors,
+    group_words,
+    groups_of,
+    outside,
+    tables,
+)
 from footfit.errors import FootfitError
 from footfit.geometry.measures.measure_table import measure_named, of_kind
 from footfit.geometry.numeric.arrays import Floats, Ints
@@ -42,10 +54,7 @@ from tools.resting import at_rest, pitched
 
 FINE = {"rings": 170, "segments": 120}
 FINE_OTHER = {"n_long": 170, "n_round": 104}
-FAMILIES = ("own", "lasts2", "feet")
 FEET = 24
-ASKED_INSIDE, ASKED_RATIO = 0.95, (0.8, 1.5)
-FEWEST = 5  # of so few lasts a cell says nothing
 
 
 @dataclass(frozen=True)
@@ -60,8 +69,7 @@ class Drawn:
     @property
     def words(self) -> str:
         """Its family and band as a table has them."""
-        low, high = HEEL_BANDS_MM[self.band]
-        return "feet" if self.family == "feet" else f"{self.family} {low:.0f}-{high:.0f}"
+        return group_words(self.family, self.band)
 
     @property
     def rng(self) -> np.random.Generator:
@@ -76,24 +84,6 @@ class Case:
 
     mesh: tuple[Floats, Ints]
     draft: Drafted
-
-
-@dataclass(frozen=True)
-class Error:
-    """How far a value is from the true one, its total standard deviation, that without the part
-    of the trueness, the band of the heel, and the heel by the shape.
-    """
-
-    family: str
-    band: int
-    error: float
-    total_sd: float
-    other_sd: float
-    heel_mm: float | None
-
-
-Errors = dict[str, list[Error]]
-"""By measure."""
 
 
 def to_plan_axis(vertices: Floats, faces: Ints) -> Floats:
@@ -231,11 +221,6 @@ def all_errors(count: int, seed: int, jobs: int) -> tuple[Errors, list[str]]:
     return by_measure, refused
 
 
-def rms(numbers: Sequence[float]) -> float:
-    """The root of the mean square."""
-    return float(np.sqrt(np.mean(np.square(numbers))))
-
-
 def fit_rows(by_measure: Errors, kind: str) -> Iterator[list[str]]:
     """A row a measure: the mean error, and the trueness by heel."""
     for entry in of_kind(kind):
@@ -243,7 +228,7 @@ def fit_rows(by_measure: Errors, kind: str) -> Iterator[list[str]]:
         if not errors:
             continue
         where = [(e.family, e.band) for e in errors]
-        cells = [np.flatnonzero([at == cell for at in where]) for cell in _groups(kind)]
+        cells = [np.flatnonzero([at == cell for at in where]) for cell in groups_of(kind)]
         fitted = Fitted(
             error=np.array([e.error for e in errors]),
             other_sd=np.array([e.other_sd for e in errors]),
@@ -255,91 +240,6 @@ def fit_rows(by_measure: Errors, kind: str) -> Iterator[list[str]]:
         groups = [[e.error for e in errors if e.family == family] for family in FAMILIES]
         bias = np.mean([np.mean(group) for group in groups if group])
         yield [entry.name, f"{bias:+.2f}", *(f"{sd:.2f}" for sd in fitted.sds())]
-
-
-def trueness_rows(by_measure: Errors, kind: str) -> Iterator[list[str]]:
-    """A row a measure: the error of each family, and what values state."""
-    families = FAMILIES[2:] if kind == "foot" else FAMILIES[:2]
-    for entry in of_kind(kind):
-        cells = []
-        for family in families:
-            off = [e.error for e in by_measure[entry.name] if e.family == family]
-            cells += [f"{np.mean(off):+.2f}", f"{rms(off):.2f}"] if off else ["", ""]
-        if any(cells):
-            known = entry.trueness(kind)
-            stated = [
-                f"{known.bias:+.2f}",
-                f"{entry.sd_of(kind):g}",
-                *(f"{sd:.2f}" for sd in known.sd),
-            ]
-            yield [entry.name, *cells, *stated]
-
-
-def covered(known: Sequence[Error]) -> tuple[float, float]:
-    """The share of true values within 2 total_sd, and the mean total_sd over the RMS error."""
-    inside = float(np.mean([abs(e.error) <= 2.0 * e.total_sd for e in known]))
-    return inside, float(np.mean([e.total_sd for e in known])) / rms([e.error for e in known])
-
-
-def outside(by_measure: Errors, kind: str) -> tuple[list[str], int]:
-    """The cells of measure, family and band that miss the bar, in words, and how many there are.
-
-    A cell may miss 5 % of its true values, and one more: that is what so few lasts can show.
-    """
-    words, cells = [], 0
-    for entry in of_kind(kind):
-        for family, band in _groups(kind):
-            known = [e for e in by_measure[entry.name] if (e.family, e.band) == (family, band)]
-            if len(known) < FEWEST:
-                continue
-            cells += 1
-            inside, ratio = covered(known)
-            missed = round((1.0 - inside) * len(known))
-            few = missed <= 1 + (1.0 - ASKED_INSIDE) * len(known)
-            if not (few and ASKED_RATIO[0] <= round(ratio, 2) <= ASKED_RATIO[1]):
-                name = Drawn(0, family, band, 0).words
-                words.append(f"{entry.name} {name}: {100 * inside:.0f} %, {ratio:.2f}")
-    return words, cells
-
-
-def coverage_rows(by_measure: Errors, kind: str) -> Iterator[list[str]]:
-    """A row a measure: by family and band the share within 2 total_sd, and mean total over RMS."""
-    for entry in of_kind(kind):
-        cells = []
-        for family, band in _groups(kind):
-            known = [e for e in by_measure[entry.name] if (e.family, e.band) == (family, band)]
-            if not known:
-                cells.append("")
-                continue
-            inside, ratio = covered(known)
-            cells.append(f"{100 * inside:.0f} %, {ratio:.1f}")
-        if any(cells):
-            yield [entry.name, *cells]
-
-
-def _groups(kind: str) -> list[tuple[str, int]]:
-    """The families and bands of a kind."""
-    if kind == "foot":
-        return [("feet", 0)]
-    return [(family, band) for family in FAMILIES[:2] for band in range(len(HEEL_BANDS_MM))]
-
-
-def tables(by_measure: Errors) -> dict[str, str]:
-    """The tables of docs/measures.md by name."""
-    made = {}
-    for kind in ("last", "foot"):
-        families = FAMILIES[2:] if kind == "foot" else FAMILIES[:2]
-        bands = (
-            [""] if kind == "foot" else [f" {low:.0f}-{high:.0f}" for low, high in HEEL_BANDS_MM]
-        )
-        heads = [f"{family}: {word}" for family in families for word in ("bias", "RMS")]
-        heads += ["stated bias", "sd", *(f"trueness{band}" for band in bands)]
-        rows = list(trueness_rows(by_measure, kind))
-        made[f"trueness-{kind}"] = markdown(["measure", *heads], rows)
-        heads = [Drawn(0, family, band, 0).words for family, band in _groups(kind)]
-        rows = list(coverage_rows(by_measure, kind))
-        made[f"coverage-{kind}"] = markdown(["measure", *heads], rows)
-    return made
 
 
 def main() -> None:
