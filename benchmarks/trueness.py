@@ -1,6 +1,6 @@
 """How true each measure is: its errors against what is known of a shape, by family and heel.
 
-    python -m benchmarks.trueness [--count 20] [--seed 202] [--fit] [--write]
+    python -m benchmarks.trueness [--count 40 ...] [--seed 505 ...] [--fit] [--write]
 
 Shapes are lasts of ``tools.last_specs.wide``, and, where they stand beside the project, lasts of
 ``../shared/tools/lasts2.py`` and generated feet of ``../shared/scans``. The truth is read by brute
@@ -9,8 +9,9 @@ the heel height and the toe spring at the tip are the planted ones. A coarser me
 goes the whole way from a scan, in a random pose: clean, with 0.3 mm of white noise, with 0.3 mm of
 ripple, or decimated, in turn. ``--write`` puts the tables into docs/measures.md.
 
-``--fit`` prints what the table of measures should state. What it states was fitted with ``--seed
-101``; the tables of the docs are of another seed, so they judge it by lasts it was not fitted to.
+``--fit`` prints what the table of measures should state. It states what ``--count 40 24 30 --seed
+101 303 404 --fit`` gave: each count is of its own seed. The tables of the docs are of another seed,
+so they judge it by lasts that it was not fitted to.
 """
 
 from __future__ import annotations
@@ -18,7 +19,7 @@ from __future__ import annotations
 import argparse
 import csv
 from collections import defaultdict
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator, Sequence
 from concurrent.futures import ProcessPoolExecutor
 from dataclasses import dataclass, replace
 
@@ -29,7 +30,6 @@ from benchmarks.alignment import scan_of
 from benchmarks.tables import markdown, put
 from benchmarks.trueness_fit import Fitted, heel_shares
 from benchmarks.trueness_tables import (
-    ASKED_INSIDE,
     ASKED_RATIO,
     FAMILIES,
     FEWEST,
@@ -55,6 +55,7 @@ from tools.resting import at_rest, pitched
 FINE = {"rings": 170, "segments": 120}
 FINE_OTHER = {"n_long": 170, "n_round": 104}
 FEET = 24
+AIMED_INSIDE = 0.96  # to reach .95 on lasts that a table was not fitted to
 
 
 @dataclass(frozen=True)
@@ -159,15 +160,16 @@ def foot(number: int) -> Case:
     return Case((vertices, faces), draft)
 
 
-def all_drawn(count: int, seed: int) -> Iterator[Drawn]:
-    """``count`` lasts for each family and band, and the generated feet at hand."""
+def all_drawn(counts: Sequence[int], seeds: Sequence[int]) -> Iterator[Drawn]:
+    """As many lasts of each seed for each family and band, and the generated feet at hand."""
     families = ("own", "lasts2") if stance.second_family() else ("own",)
-    for number in range(count):
-        for family in families:
-            for band in range(len(HEEL_BANDS_MM)):
-                yield Drawn(seed, family, band, number)
+    for count, seed in zip(counts, seeds, strict=True):
+        for number in range(count):
+            for family in families:
+                for band in range(len(HEEL_BANDS_MM)):
+                    yield Drawn(seed, family, band, number)
     if (measures.SCANS / "makehuman" / "truth.csv").exists():
-        yield from (Drawn(seed, "feet", 0, number) for number in range(FEET))
+        yield from (Drawn(seeds[0], "feet", 0, number) for number in range(FEET))
 
 
 def values(
@@ -207,12 +209,12 @@ def errors_of(drawn: Drawn) -> dict[str, Error] | str:
     return errors
 
 
-def all_errors(count: int, seed: int, jobs: int) -> tuple[Errors, list[str]]:
+def all_errors(drawn: Iterable[Drawn], jobs: int) -> tuple[Errors, list[str]]:
     """Every error by measure, and what was refused."""
     by_measure: Errors = defaultdict(list)
     refused = []
     with ProcessPoolExecutor(jobs) as pool:
-        for errors in pool.map(errors_of, all_drawn(count, seed)):
+        for errors in pool.map(errors_of, drawn):
             if isinstance(errors, str):
                 refused.append(errors)
                 continue
@@ -235,7 +237,7 @@ def fit_rows(by_measure: Errors, kind: str) -> Iterator[list[str]]:
             shares=heel_shares([e.heel_mm for e in errors], kind),
             cells=[cell for cell in cells if len(cell) >= FEWEST],
             ratios=ASKED_RATIO,
-            missed=1.0 - ASKED_INSIDE,
+            missed=1.0 - AIMED_INSIDE,
         )
         groups = [[e.error for e in errors if e.family == family] for family in FAMILIES]
         bias = np.mean([np.mean(group) for group in groups if group])
@@ -245,13 +247,13 @@ def fit_rows(by_measure: Errors, kind: str) -> Iterator[list[str]]:
 def main() -> None:
     """Print the tables, or write them."""
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("--count", type=int, default=20)
-    parser.add_argument("--seed", type=int, default=202)
+    parser.add_argument("--count", type=int, nargs="+", default=[40])
+    parser.add_argument("--seed", type=int, nargs="+", default=[505])
     parser.add_argument("--jobs", type=int, default=2)
     parser.add_argument("--fit", action="store_true")
     parser.add_argument("--write", action="store_true")
     options = parser.parse_args()
-    by_measure, refused = all_errors(options.count, options.seed, options.jobs)
+    by_measure, refused = all_errors(all_drawn(options.count, options.seed), options.jobs)
     for name, text in tables(by_measure).items():
         print(f"{name}\n{text}")
         if options.write:
