@@ -8,7 +8,7 @@ and the mean slope near the place where that model has the tread.
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 
@@ -19,6 +19,7 @@ from footfit.geometry.stance.tread_fit import (
     TREAD_FIT,
     SlopedLine,
     TreadFit,
+    TreadFitSettings,
     fitted_tread,
     model_arc,
     sloped,
@@ -54,8 +55,11 @@ class GroundSettings:
     near_reach : float
         Standard deviation of the weights about the place where the fit has the tread, over the
         length.
-    near_bend : float
-        Curvature times length at which the weight has fallen to .61: what bends is no tread.
+    near_bend, near_steep_deg, near_least : float
+        Curvature times length at which the weight has fallen to .61: what bends is no tread. Behind
+        the tread of a low last the bottom bends less, because it is less steep. So this counts
+        whole if the steepest slope is ``near_steep_deg`` or more, else in proportion, and
+        ``near_least`` of it at least.
     near_sd_deg : float
         The near slope's standard deviation where the tread is level: lasts differ by this in what
         their makers mean by it.
@@ -81,6 +85,8 @@ class GroundSettings:
     bend_bandwidth: float = 0.035
     near_reach: float = 0.03
     near_bend: float = 0.8
+    near_steep_deg: float = 14.0
+    near_least: float = 0.25
     near_sd_deg: float = 0.5
     near_level_deg: float = 2.5
     level_break_deg: float = 4.0
@@ -92,6 +98,9 @@ class GroundSettings:
 
 
 GROUND = GroundSettings()
+LAST_FIT = replace(TREAD_FIT, turn=(TREAD_FIT.turn[0], 1.0))
+"""Once the ground is about known, a bottom may break as sharply as it does. While it is sought,
+such freedom finds wrong grounds."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -122,7 +131,7 @@ def bottom_cues(
     bottom = _bottom(line)
     if rough is None or line is None or bottom is None:
         return None
-    fit = _fit(lambda _: bottom, rough.ground, rough.parameters, settings)
+    fit = _fit(lambda _: bottom, rough.ground, rough.parameters, settings, LAST_FIT)
     if fit is None:
         return None
     near = _near_slope(line, fit.ground, bottom.place_of(fit), settings)
@@ -201,6 +210,7 @@ def _fit(
     ground: float,
     start: Floats | float,
     settings: GroundSettings,
+    model: TreadFitSettings = TREAD_FIT,
 ) -> TreadFit | None:
     """The model's ground, the tread's place being counted along that very ground."""
     fit = None
@@ -208,7 +218,7 @@ def _fit(
         bottom = bottom_at(ground)
         if bottom is None:
             return None
-        fit = fitted_tread(bottom, ground, start, _least_ground(bottom.line, settings))
+        fit = fitted_tread(bottom, ground, start, _least_ground(bottom.line, settings), model)
         start = fit.parameters
         off = fit.ground - ground
         ground += settings.damping * off
@@ -240,8 +250,10 @@ def _near_slope(
     if smooth is None:
         return None
     bend = np.gradient(smooth.slope, arc)
+    steep = float((ground - smooth.slope).max()) / np.radians(settings.near_steep_deg)
+    most = settings.near_bend * float(np.clip(steep, settings.near_least, 1.0))
     off = bottom.places(ground) - place
-    weight = np.exp(-0.5 * ((off / settings.near_reach) ** 2 + (bend / settings.near_bend) ** 2))
+    weight = np.exp(-0.5 * ((off / settings.near_reach) ** 2 + (bend / most) ** 2))
     weight /= weight.sum()
     mean = float(weight @ bottom.slope)
     spread = float(np.sqrt(weight @ (bottom.slope - mean) ** 2))

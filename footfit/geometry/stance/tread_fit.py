@@ -56,7 +56,7 @@ class TreadFitSettings:
     bandwidth: float = 0.012
     height_sd: float = 0.0012
     slope_sd: float = 0.06
-    tread: tuple[float, float] = (0.68, 0.02)
+    tread: tuple[float, float] = (0.675, 0.02)
     turn: tuple[float, float] = (0.17, 0.5)
     power: tuple[float, float] = (1.2, 0.2)
     fall: tuple[float, float] = (0.4, 1.5)
