@@ -74,7 +74,7 @@ def outside(by_measure: Errors, kind: str) -> tuple[list[str], int]:
     words, cells = [], 0
     for entry in of_kind(kind):
         for family, band in groups_of(kind):
-            known = _ofgroups_of(by_measure[entry.name], [(family, band)])
+            known = _cell_errors(by_measure[entry.name], [(family, band)])
             if len(known) < FEWEST:
                 continue
             cells += 1
@@ -94,7 +94,7 @@ def coverage_rows(by_measure: Errors, kind: str) -> Iterator[list[str]]:
     groups = groups_of(kind)
     columns = [groups, *([group] for group in groups)] if len(groups) > 1 else [groups]
     for entry in of_kind(kind):
-        cells = [_ofgroups_of(by_measure[entry.name], column) for column in columns]
+        cells = [_cell_errors(by_measure[entry.name], column) for column in columns]
         if any(cells):
             yield [entry.name, *(known_words(*covered(cell)) if cell else "" for cell in cells)]
     of_all = [all_measures(by_measure, kind, column) for column in columns]
@@ -120,7 +120,7 @@ def all_measures(
     mean over measures and groups of mean total_sd over RMS; None if nothing is known.
     """
     names = [entry.name for entry in of_kind(kind)]
-    cells = [_ofgroups_of(by_measure[name], [group]) for name in names for group in groups]
+    cells = [_cell_errors(by_measure[name], [group]) for name in names for group in groups]
     cells = [cell for cell in cells if len(cell) >= FEWEST]
     if not cells:
         return None
@@ -129,7 +129,7 @@ def all_measures(
     return float(inside), float(np.exp(np.log(ratios).mean()))
 
 
-def _ofgroups_of(errors: Sequence[Error], groups: Sequence[tuple[str, int]]) -> list[Error]:
+def _cell_errors(errors: Sequence[Error], groups: Sequence[tuple[str, int]]) -> list[Error]:
     """The errors of some families and bands."""
     return [error for error in errors if (error.family, error.band) in groups]
 

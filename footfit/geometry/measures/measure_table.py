@@ -270,9 +270,9 @@ MEASURES: tuple[MeasureDefinition, ...] = (
         0.2,
         last_sd=0.25,
         foot=off(-0.25, 0.52),
-        last=off(-0.02, 0.00, 0.00, 0.00, 0.19),
+        last=off(0.03, 0.00, 0.00, 0.00, 0.13),
     ),
-    MeasureDefinition(heights.heel_height, 3, 0.5, last=off(-0.66, 0.00, 0.79, 0.67, 0.61)),
+    MeasureDefinition(heights.heel_height, 3, 0.5, last=off(-0.81, 0.00, 1.21, 0.84, 0.55)),
     MeasureDefinition(
         widths.bottom_width_ball, 2, 0.3, LAST, last=off(0.21, 0.33, 0.23, 0.31, 0.27)
     ),
@@ -280,15 +280,15 @@ MEASURES: tuple[MeasureDefinition, ...] = (
         widths.bottom_width_heel, 2, 0.2, LAST, last=off(-0.01, 0.00, 0.00, 0.00, 0.11)
     ),
     MeasureDefinition(lengths.tape_length, 3, 0.3, LAST, last=off(-0.26, 0.13, 0.40, 0.43, 0.56)),
-    MeasureDefinition(lengths.stick_length, 2, 0.3, LAST, last=off(-0.07, 0.12, 0.00, 0.16, 0.59)),
-    MeasureDefinition(lengths.bottom_length, 2, 0.35, LAST, last=off(0.15, 0.47, 0.43, 0.35, 0.72)),
+    MeasureDefinition(lengths.stick_length, 2, 0.3, LAST, last=off(-0.03, 0.14, 0.18, 0.23, 0.50)),
+    MeasureDefinition(lengths.bottom_length, 2, 0.35, LAST, last=off(0.15, 0.47, 0.42, 0.35, 0.72)),
     MeasureDefinition(
-        heights.toe_spring_tip, 1, 0.45, LAST, last=off(0.13, 0.39, 0.09, 1.26, 0.20)
+        heights.toe_spring_tip, 1, 0.45, LAST, last=off(0.20, 0.35, 0.32, 1.30, 0.15)
     ),
-    MeasureDefinition(lengths.tread_from, 1, 2.0, LAST, last=off(0.33, 0.77, 0.00, 0.64, 0.45)),
-    MeasureDefinition(lengths.tread_to, 1, 2.0, LAST, last=off(-1.54, 3.91, 3.49, 1.21, 0.53)),
+    MeasureDefinition(lengths.tread_from, 1, 2.0, LAST, last=off(0.11, 1.76, 0.00, 0.59, 0.32)),
+    MeasureDefinition(lengths.tread_to, 1, 2.0, LAST, last=off(-2.05, 3.62, 4.99, 1.47, 0.72)),
     MeasureDefinition(
-        heights.seat_angle_deg, 1, 0.4, LAST, last=off(-0.09, 0.24, 0.00, 0.00, 0.00)
+        heights.seat_angle_deg, 1, 0.4, LAST, last=off(-0.14, 0.32, 0.03, 0.00, 0.00)
     ),
 )
 
