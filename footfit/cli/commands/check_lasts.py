@@ -24,6 +24,9 @@ def check_lasts(
     It lists each finding with its reason. If one is a fault it exits with 7. Near twins and
     doubtful sides are worth a look, and no fault.
 
+    It reads no meshes, so a label of the heel height hides a wrong heel. check-run FAMILY reads how
+    each shape of a run stands.
+
     Example: footfit check-lasts --csv findings.csv
     """
     from footfit.cli.answers import answer_result

@@ -7,9 +7,11 @@ from footfit.report.page.rendering import html_page, picture_data
 from footfit.report.wording.custom_words import (
     CUSTOM_SPREADS,
     custom_verdict_words,
+    judged_words,
     room_words,
     with_spread,
 )
+from footfit.report.wording.fit_words import SAME_IS_ZERO
 from footfit.report.wording.text import file_name
 from footfit.results import CustomLast
 
@@ -23,6 +25,8 @@ def custom_page(custom: CustomLast) -> str:
         verdict=custom_verdict_words(custom),
         rooms=room_words(custom),
         with_spread=with_spread,
+        judged=judged_words,
+        same=SAME_IS_ZERO,
         spreads=CUSTOM_SPREADS,
         moved=picture_data(custom_figure(custom, titled=False)),
     )

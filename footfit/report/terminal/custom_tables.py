@@ -10,6 +10,7 @@ from footfit.report.terminal.scan_tables import lined_table
 from footfit.report.wording.custom_words import (
     CUSTOM_SPREADS,
     custom_verdict_words,
+    judged_words,
     room_words,
     with_spread,
 )
@@ -81,7 +82,7 @@ def _judged_table(custom: CustomLast) -> RenderableType:
     table = lined_table("zone", *columns, "base is", "custom is", right=frozenset(columns))
     for zone in custom.judged:
         pairs = ((zone.base, zone.base_sd), (zone.custom, zone.custom_sd))
-        values = ("-" if value is None else with_spread(signed(value), sd) for value, sd in pairs)
+        values = (judged_words(*pair, zone.unit) for pair in pairs)
         verdicts = (zone.base_verdict or "-", zone.custom_verdict or "-")
         table.add_row(zone.label, _target(zone), *values, *verdicts)
     return table

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from footfit.number_words import plain
+from footfit.number_words import plain, signed
 from footfit.report.wording.text import visible
 from footfit.results import CustomLast
 
@@ -18,7 +18,7 @@ def custom_verdict_words(custom: CustomLast) -> str:
     return visible(f"{words}, because of {', '.join(worst)}")
 
 
-def with_spread(words: str, sd: float | None) -> str:
+def with_spread(words: str, sd: float | None, digits: int = 1) -> str:
     """A number in words with its spread, if that is known.
 
     Examples
@@ -26,7 +26,19 @@ def with_spread(words: str, sd: float | None) -> str:
     >>> with_spread("252.2", 0.6), with_spread("+1.0", None)
     ('252.2 ± 0.6', '+1.0')
     """
-    return words if sd is None else f"{words} ± {plain(sd)}"
+    return words if sd is None else f"{words} ± {plain(sd, digits)}"
+
+
+def judged_words(value: float | None, sd: float | None, unit: str) -> str:
+    """The clearance of a zone with its spread, without its unit; a ratio has two decimals.
+
+    Examples
+    --------
+    >>> judged_words(0.726, 0.049, "ratio"), judged_words(-2.38, 1.38, "mm")
+    ('+0.73 ± 0.05', '-2.4 ± 1.4')
+    """
+    digits = 2 if unit == "ratio" else 1
+    return "-" if value is None else with_spread(signed(value, digits), sd, digits)
 
 
 CUSTOM_SPREADS = (
