@@ -6,6 +6,7 @@ import manifold3d
 import numpy as np
 import pytest
 
+import footfit
 from footfit.geometry.drawing.bottom_outline import bottom_outline, flat_frame
 from footfit.geometry.drawing.lower_part import below
 from footfit.geometry.drawing.shadow import shadow_outline
@@ -14,6 +15,7 @@ from footfit.geometry.drawing.views import views
 from footfit.geometry.measures.landmarks import Shape
 from footfit.geometry.measures.measure_table import measure_named
 from tests.bounds import ROUNDING
+from tests.conftest import SAMPLES
 from tests.shapes import cube, sphere
 from tests.test_geometry_along_the_bottom import SPEC
 from tools.bent_lasts import bent
@@ -99,6 +101,18 @@ def test_a_bottom_is_as_wide_as_its_measures_say() -> None:
         met = (outline[:, 0] > place) != (after[:, 0] > place)
         width_mm = np.ptp(outline[met, 1])
         assert width_mm == pytest.approx(measure_named(name).value_of(shape).value, abs=0.6)
+
+
+def test_the_sides_of_a_bottom_have_no_steps() -> None:
+    """Where a chamfer lies between bottom and wall, an outline stepped from one edge to the other:
+    by 37 degrees and back on this last, within 2 mm.
+    """
+    shape = footfit.align(SAMPLES / "lasts" / "loafer-40.stl").prepared.shape
+    outline = bottom_outline(shape, flat_frame(shape))
+    after = np.roll(outline, -1, axis=0) - outline
+    turn_deg = np.degrees(np.diff(np.unwrap(np.arctan2(*after.T[::-1]))))
+    share = outline[1:, 0] / np.ptp(outline[:, 0])
+    assert np.abs(turn_deg[(share > 0.15) & (share < 0.82)]).max() < 25.0  # measured: 16
 
 
 def test_the_views_of_a_last_are_named_and_run_one_way() -> None:

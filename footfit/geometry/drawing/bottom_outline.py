@@ -9,7 +9,7 @@ In each the edge is where a line touches that is half-way between the bottom and
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -40,6 +40,8 @@ class BottomOutlineSettings:
         From half plane to half plane around a centre.
     touch_deg : float
         How far the touching line is turned both ways to find where it touches.
+    ramp : float
+        The sides are smoothed from the centres on; in full so far from them.
     """
 
     heel: float = 0.12
@@ -49,9 +51,12 @@ class BottomOutlineSettings:
     step: float = 0.006
     turn_deg: float = 2.0
     touch_deg: float = 15.0
+    ramp: float = 0.05
 
 
 BOTTOM_OUTLINE = BottomOutlineSettings()
+SIDES = replace(TAPE_OUTLINES, smoothing=0.02, noise_times=1e9, facets=0.0)
+"""All that smoothing takes away counts as noise."""
 LINE_PLACES = 400
 """Of a side line, from the nearest of which the foot of a perpendicular is looked for."""
 LEAST_GAIN = 0.2
@@ -157,8 +162,22 @@ def bottom_outline(
     loop = np.array(points)
     if not np.isfinite(loop).all():
         return None
-    loop = steady_loop(loop, frame.length_mm, TAPE_OUTLINES)
-    return _between_ends(loop, frame.length_mm, settings)
+    return _between_ends(_steadied(loop, frame.length_mm, settings), frame.length_mm, settings)
+
+
+def _steadied(loop: Floats, long: float, settings: BottomOutlineSettings) -> Floats:
+    """An outline without noise; along its sides also without steps.
+
+    Where a chamfer lies between bottom and wall, the line goes over from one of its edges to the
+    other. An insole has no such step. The ends of a last may have corners.
+    """
+    steady = steady_loop(loop, long, TAPE_OUTLINES)
+    smooth = steady_loop(loop, long, SIDES)
+    inside = np.minimum(
+        steady[:, 0] - settings.heel * long, (1 - settings.toe) * long - steady[:, 0]
+    )
+    share = np.clip(inside / (settings.ramp * long), 0.0, 1.0)[:, None]
+    return np.asarray(steady + share * (smooth - steady))
 
 
 def _between_ends(loop: Floats, long: float, settings: BottomOutlineSettings) -> Floats:
