@@ -171,7 +171,8 @@ def store_custom_lasts(
         for custom in customs:
             copy = compact_copy(custom.vertices_mm, custom.faces, len(custom.faces))
             parent = custom.base if custom.base in names else None
-            labels = replace(custom.record.labels, parent=parent)
+            # it has no size, so it is no last of the base's run
+            labels = replace(custom.record.labels, parent=parent, family=None)
             record = replace(custom.record, labels=labels)
             lasts.append(NewLast(record, copy, custom.sections, custom.parentage))
         catalogue.add_all(lasts, replace=replaces)
