@@ -129,7 +129,8 @@ def _lasts_words(checked: results.RunCheck) -> Text:
 def _steps_table(checked: results.RunCheck, kind: str, at: str) -> RenderableType:
     """A row for each measure: what it grows by, and its increments."""
     steps = [step for step in checked.steps if (step.kind, step.at) == (kind, at)]
-    pairs = list(dict.fromkeys((step.start, step.end) for step in steps))
+    order = list(dict.fromkeys(label for step in steps for label in (step.start, step.end)))
+    pairs = sorted({(s.start, s.end) for s in steps}, key=lambda pair: [*map(order.index, pair)])
     heads = [f"{visible(start)}\nto {visible(end)}" for start, end in pairs]
     per = "per\nstep"
     table = lined_table("mm", per, "±", *heads, right=frozenset((per, "±", *heads)))
