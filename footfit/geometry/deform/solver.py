@@ -41,7 +41,9 @@ class Solution:
     """A field, where it brings the vertices (n, 3), and the measures there, (goals,).
 
     ``knobs`` are turned to where the search ended. ``targets_mm`` (goals,) are the targets; those
-    that gave way are where the search moved them.
+    that gave way are where the search moved them. ``effect`` (goals, knobs) is how each measure
+    changes with each knob, as the search knows it; None if no step was needed. ``met`` says whether
+    the search ended because it arrived.
     """
 
     field: Field
@@ -50,6 +52,8 @@ class Solution:
     values_mm: Floats
     targets_mm: Floats
     rounds: int
+    effect: Floats | None = None
+    met: bool = True
 
 
 def turned_field(field: Field, knobs: Sequence[Knob], values: Floats) -> Field:
@@ -104,7 +108,7 @@ def solution(
     best = at(values)
     if wishes.missed_mm(best.values_mm) + wishes.beyond_mm(best.values_mm) <= settings.near_mm:
         return best
-    effect = _effects(best.field, knobs, [goal.probe for goal in goals], vertices_mm, settings)
+    effect = _effects(best.field, knobs, goals, vertices_mm, settings)
     rounds, most, failed = 0, settings.most, 0
     while not (
         rounds == settings.rounds or failed > settings.failing or wishes.met(best.values_mm)
@@ -124,7 +128,8 @@ def solution(
             most = settings.shorter * float(np.abs(step / units).max())
         if np.isfinite(trial.values_mm[wishes.firm]).all():
             effect += np.outer(more, step) / (step @ step)
-    return replace(best, targets_mm=wishes.targets, rounds=rounds)
+    met = wishes.met(best.values_mm)
+    return replace(best, targets_mm=wishes.targets, rounds=rounds, effect=effect, met=met)
 
 
 def _own_costs(
@@ -139,14 +144,18 @@ def _own_costs(
 def _effects(
     start: Field,
     knobs: Sequence[Knob],
-    probes: Sequence[Probe],
+    goals: Sequence[Goal],
     vertices_mm: Floats,
     settings: SolverSettings,
 ) -> Floats:
     """How each measure changes with each knob of the first field, (goals, knobs)."""
     chart = start.chart
-    result = np.empty((len(probes), len(knobs)))
-    for row, probe in enumerate(probes):
+    result = np.empty((len(goals), len(knobs)))
+    for row, goal in enumerate(goals):
+        if not isinstance(goal.probe, Probe):
+            result[row] = goal.probe
+            continue
+        probe = goal.probe
         places = chart.places(chart.standing(vertices_mm[probe.rows]))
 
         def value(field: Field, probe: Probe = probe, places: Places = places) -> float:

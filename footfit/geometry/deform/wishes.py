@@ -72,6 +72,7 @@ SOLVER = SolverSettings()
 class Goal:
     """A measure's target in mm, and the probe that answers for it where the search begins.
 
+    Instead of a probe it may have what a search before knew of its change with each knob, (knobs,).
     A miss of ``miss_mm`` costs as much as a bend or a size of ``SolverSettings``. A goal that is
     not ``firm`` is only pulled towards its target: the search does not wait for it. Each goal
     should stay within its ``range_mm``. If the goal in the row ``gives_way_to`` cannot stay in its
@@ -80,7 +81,7 @@ class Goal:
     """
 
     target_mm: float
-    probe: Probe
+    probe: Probe | Floats
     miss_mm: float = 0.01
     firm: bool = True
     range_mm: tuple[float, float] = (-np.inf, np.inf)

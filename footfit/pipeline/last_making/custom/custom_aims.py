@@ -81,12 +81,19 @@ class CustomAim:
         return self.measure.replace("_", " ")
 
     def moved_to(self, target: float) -> CustomAim:
-        """The same aim with another target of the least tape."""
-        if self.allowance is None or self.measure not in GIVES_WAY:
+        """The same aim with another target of the least tape, or of the toe room."""
+        if self.measure not in (*GIVES_WAY, LENGTH):
             return self
         more = target - self.target
-        allowance, moved_mm = self.allowance + more, self.moved_mm + more
-        return replace(self, target=target, allowance=allowance, moved_mm=moved_mm)
+        allowance = None if self.allowance is None else self.allowance + more
+        return replace(self, target=target, allowance=allowance, moved_mm=self.moved_mm + more)
+
+    def shifted(self, more_mm: float) -> CustomAim:
+        """The same aim on a copy of the base that reads so much more."""
+        low, high = self.good_mm
+        good_mm = low + more_mm, high + more_mm
+        base, target = self.base + more_mm, self.target + more_mm
+        return replace(self, base=base, target=target, good_mm=good_mm)
 
 
 def fit_in(foot: Profiled, last: LastRecord, base: BaseLast, question: CustomQuestion) -> FootFit:
@@ -119,7 +126,7 @@ def custom_aims(foot: Profiled, base: BaseLast, question: CustomQuestion) -> tup
         aims += _ball_line(foot, base, rules, judged.heels)
     aims += _girths(foot, base, rules, judged.heels)
     for name in PULLED if question.bottom_kept else (*WIDTHS, *PULLED):
-        own, stored = measure_named(name).value_of(base.shape).value, base.record.value_of(name)
+        own, stored = measure_named(name).taken_of(base.shape).value, base.record.value_of(name)
         if own is not None and stored is not None and name in off:
             rule = rules[name]
             allowance, target = rule.target + rule.cavity, stored + off[name]
@@ -169,7 +176,7 @@ def _ball_line(
     foot: Profiled, base: BaseLast, rules: Mapping[str, ZoneRule], heels: Heels
 ) -> list[CustomAim]:
     """The pull on the ball's place along the last: it stays, or comes well into its good range."""
-    own = measure_named(BALL_LENGTH).value_of(base.shape).value
+    own = measure_named(BALL_LENGTH).taken_of(base.shape).value
     scanned = next((row.measured.value for row in foot.measures if row.name == BALL_LENGTH), None)
     if own is None or scanned is None or "ball_line" not in rules:
         return []
@@ -198,7 +205,7 @@ def _girths(
     of_foot = {row.name: row.measured.value for row in foot.measures}
     aims = []
     for name, zones in LEAST_TAPES.items():
-        scanned_mm, base_mm = of_foot.get(name), measure_named(name).value_of(base.shape).value
+        scanned_mm, base_mm = of_foot.get(name), measure_named(name).taken_of(base.shape).value
         if scanned_mm is None or base_mm is None or not all(zone in rules for zone in zones):
             continue
         foot_mm = scanned_mm + share * full_change(model, foot, name)[0]

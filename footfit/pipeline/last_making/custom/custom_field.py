@@ -98,6 +98,14 @@ class CustomSettings:
 CUSTOM = CustomSettings()
 COLD = replace(SOLVER, failing=3, shorter=0.3)
 """A search that begins at the base."""
+WARM = replace(COLD, shaping=3, rounds=8)
+"""A search that begins where another one ended."""
+KNOWN = replace(COLD, shaping=2, rounds=4, failing=1)
+"""The same, if what that one knew of the knobs serves once more."""
+FOLLOWED = replace(COLD, shaping=0, rounds=6)
+"""A search that begins where one on a light copy ended: only firm aims are still missed."""
+ENOUGH = 3000
+"""The determinant and the scales are smooth, so they are taken at about so many vertices."""
 FREE_MM = 100.0
 """The unit of a knob in mm whose size costs nothing."""
 
@@ -145,7 +153,7 @@ def custom_shape(
     aims: Sequence[CustomAim],
     start: Field,
     carried: Carried,
-    knobs: Sequence[Knob] = (),
+    first: Solution | None = None,
     manner: Manner = MANNER,
 ) -> CustomShape:
     """The base, changed so that its firm aims are met as ``carried`` reads them, or nearly so.
@@ -158,29 +166,59 @@ def custom_shape(
         The turn of the flare.
     carried : Carried
         How the changed base lies and stands.
-    knobs : sequence of Knob
-        Where the search begins; by default at ``start``.
+    first : Solution
+        Where the search begins, perhaps that of a lighter copy; by default at ``start``.
     manner : Manner
     """
     own = [aim for aim in aims if aim.measure not in FOLLOWING]
-    settings = replace(COLD, shaping=3, rounds=8) if knobs else COLD
-    settings = replace(settings, heights=manner.heights)
-    knobs = knobs or _knobs(start.chart, own)
-    first = turned_field(start, knobs, np.array([knob.value for knob in knobs]))
-    moved = first.moved_points(base.shape.vertices_mm)
-    probes = carried.probes(moved, own)
-    length_mm = carried.base_length_mm
-    goals = [_goal(a, probe, asked_mm(a, length_mm)) for a, probe in zip(own, probes, strict=True)]
-    goals = _ranged(goals, own, manner)
-    read = partial(carried.values_mm, aims=own)
-    costs = _costs(start.chart, knobs)
-    solved = solution(start, knobs, base.shape.vertices_mm, goals, read, costs, settings)
-    least = least_determinant(solved.field, base.shape.vertices_mm)
-    wider, higher = solved.field.scales(base.shape.vertices_mm)
-    targets_mm = {a.measure: mm for a, mm in zip(own, solved.targets_mm.tolist(), strict=True)}
+    solved = None
+    if first and first.met and first.effect is not None:  # what the knobs do is known already
+        solved = _solution(base, own, start, carried, first, manner, first.effect)
+    if solved is None or not solved.met:
+        solved = _solution(base, own, start, carried, solved or first, manner)
+    some = base.shape.vertices_mm[:: max(1, len(base.shape.vertices_mm) // ENOUGH)]
+    least = least_determinant(solved.field, some)
+    wider, higher = solved.field.scales(some)
+    asked_for = zip(own, solved.targets_mm.tolist(), strict=True)
+    targets_mm = {aim.measure: mm for aim, mm in asked_for if aim.measure in GIVES_WAY}
     met = tuple(aim.moved_to(targets_mm.get(aim.measure, aim.target)) for aim in aims)
     scales = _largest(wider), _largest(higher)
     return CustomShape(met, solved, solved.vertices_mm, least, scales)
+
+
+def _solution(
+    base: BaseLast,
+    aims: Sequence[CustomAim],
+    start: Field,
+    carried: Carried,
+    first: Solution | None,
+    manner: Manner,
+    effect: Floats | None = None,
+) -> Solution:
+    """One search; without ``effect`` (aims, knobs) probes say what the knobs do."""
+    settings = COLD if first is None else WARM
+    if effect is not None:
+        settings = replace(settings, failing=1)
+    if first is not None and len(first.vertices_mm) != len(base.shape.vertices_mm):
+        settings = FOLLOWED
+    knobs = _knobs(start.chart, aims) if first is None else first.knobs
+    if effect is None:
+        turned = turned_field(start, knobs, np.array([knob.value for knob in knobs]))
+        probes = carried.probes(turned.moved_points(base.shape.vertices_mm), aims)
+    length_mm = carried.base_length_mm
+    goals = [
+        _goal(aim, probe, asked_mm(aim, length_mm))
+        for aim, probe in zip(aims, probes if effect is None else effect, strict=True)
+    ]
+    return solution(
+        start,
+        knobs,
+        base.shape.vertices_mm,
+        _ranged(goals, aims, manner),
+        partial(carried.values_mm, aims=aims),
+        _costs(start.chart, knobs),
+        replace(settings, heights=manner.heights),
+    )
 
 
 def _largest(factors: Floats) -> float:
@@ -212,7 +250,7 @@ def _pattern(chart: Chart, window: tuple[float, float]) -> Floats:
     return eased((chart.centres() - start) / (end - start))
 
 
-def _goal(aim: CustomAim, probe: Probe, target_mm: float) -> Goal:
+def _goal(aim: CustomAim, probe: Probe | Floats, target_mm: float) -> Goal:
     """What the solver brings an aim to."""
     if aim.firm:
         return Goal(target_mm, probe)
@@ -252,12 +290,10 @@ def _costs(chart: Chart, knobs: Sequence[Knob]) -> Floats:
 
 def refuse_far(aims: Sequence[CustomAim], base: BaseLast) -> None:
     """Raise OutOfReach for a measure that is too far from the base's; a length comes first."""
-    arc = base.shape.bottom_arc
-    if arc is None:
+    if base.shape.bottom_arc is None:
         raise OutOfReach("the base's bottom is open at the heel or the ball: take another base")
     for aim in aims:
-        of_length = aim.measure == LENGTH
-        most_mm = CUSTOM.longer * arc.length_mm if of_length else CUSTOM.girth * aim.base
+        most_mm = most_change_mm(aim, base)
         if aim.firm and abs(aim.target - aim.base) > most_mm:
             change = f"{plain(abs(aim.target - aim.base))} mm"
             words = (
@@ -265,6 +301,14 @@ def refuse_far(aims: Sequence[CustomAim], base: BaseLast) -> None:
                 f" most {plain(most_mm)} mm is possible"
             )
             raise OutOfReach(f"the {aim.words} is out of reach of this base: {words}")
+
+
+def most_change_mm(aim: CustomAim, base: BaseLast) -> float:
+    """By how much a measure of a base may change at most."""
+    arc = base.shape.bottom_arc
+    if aim.measure != LENGTH or arc is None:
+        return CUSTOM.girth * aim.base
+    return CUSTOM.longer * arc.length_mm
 
 
 def refuse_missed(

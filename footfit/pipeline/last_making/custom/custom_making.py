@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from contextlib import suppress
 from dataclasses import dataclass, field, replace
 
 import numpy as np
@@ -14,16 +15,21 @@ from footfit.geometry.deform.field import Field
 from footfit.geometry.measures.landmarks import Shape
 from footfit.geometry.mesh.surface import face_normals, vertex_normals
 from footfit.geometry.numeric.arrays import Floats, row_dots
+from footfit.pipeline.fit.judging.judged_lasts import JudgedLasts
+from footfit.pipeline.fit.ranking import foot_fits
 from footfit.pipeline.last_making.base_last import BaseLast
 from footfit.pipeline.last_making.custom.custom_aims import (
     FOLLOWING,
     LENGTH,
+    CustomAim,
     CustomQuestion,
     custom_aims,
     fit_in,
+    judged_in,
 )
 from footfit.pipeline.last_making.custom.custom_field import (
     CUSTOM,
+    most_change_mm,
     refuse_far,
 )
 from footfit.pipeline.last_making.custom.custom_reading import tape_plane, value_mm
@@ -36,18 +42,19 @@ from footfit.pipeline.last_making.custom.custom_rooms import (
 from footfit.pipeline.last_making.custom.custom_tries import (
     Attempt,
     Given,
-    MadeLast,
+    attempt_after,
     attempt_at,
+    first_attempt,
+    on_light_copy,
     with_bumps,
 )
 from footfit.pipeline.last_making.custom.good_zones import (
-    nearer_length,
     not_good,
-    toe_faults,
     with_reasons,
     zone_notices,
 )
-from footfit.pipeline.scan.kept_sections import kept_sections
+from footfit.pipeline.last_making.custom.made_last import MadeLast
+from footfit.pipeline.last_making.custom.toe_room import toe_room_change_mm
 from footfit.results import Parentage, Profiled, SideName, Target
 from footfit.results.last_making.custom_last import CustomLast
 
@@ -91,21 +98,14 @@ def customised(
     given = Given(base, chart, side or own, making.name, _flare_turn_deg(foot, base, making))
     given = replace(given, bottom_kept=question.bottom_kept)
 
-    before = fit_in(foot, base.record, base, question)
+    judged_base = judged_in(foot, base.record, base, question)
+    (before,) = foot_fits(judged_base, 0, base.record)
 
     def answer(attempt: Attempt) -> CustomLast:
         return _answer(foot, given, making, attempt, before)
 
-    attempt = attempt_at(given, aims)
-    made, notices, lost = answer(attempt), [], set[str]()
-    nearer = nearer_length(attempt.aims, made.judged, question)
-    if nearer is not None:
-        other = attempt_at(given, nearer, attempt)
-        mended = answer(other)
-        if toe_faults(mended.judged) < toe_faults(made.judged):
-            attempt, made = other, mended
-            words = "the toe room stays near that of the base: at the profile's target the toe box"
-            notices = [results.Notice("toe_room_kept", f"{words} would fit worse")]
+    attempt = _tried(foot, given, aims, question, judged_base)
+    made, notices, lost = answer(attempt), list[results.Notice](), set[str]()
     if making.rooms_mm:  # room is given on top of the targets, which are met without it
         lying_mm = attempt.made.lying(attempt.shape.vertices_mm)
         bumps = room_bumps(base.shape, chart, making.rooms_mm, attempt.made.shape, lying_mm)
@@ -122,6 +122,46 @@ def customised(
     judged = with_reasons(made.judged, question, lost)
     said = (*_notices(base), *zone_notices(judged, attempt.aims), *notices)
     return replace(made, judged=judged, warnings=said)
+
+
+def _tried(
+    foot: Profiled,
+    given: Given,
+    aims: Sequence[CustomAim],
+    question: CustomQuestion,
+    before: JudgedLasts,
+) -> Attempt:
+    """The best try at a custom last. The aim of its length gives way if the toe box needs that.
+
+    The search is made on a light copy of the base; the base itself only follows.
+
+    Raises
+    ------
+    OutOfReach
+        A target is out of reach of the base.
+    """
+    light, own = on_light_copy(given, aims)
+    first, best = first_attempt(light, own), None
+    with suppress(OutOfReach):
+        moved = _with_toe_room(foot, first, question, before)
+        best = attempt_at(light, moved, first) if moved else None
+    best = best or attempt_at(light, first.aims, first)
+    return best if light is given else attempt_after(given, aims, best)
+
+
+def _with_toe_room(
+    foot: Profiled, first: Attempt, question: CustomQuestion, before: JudgedLasts
+) -> list[CustomAim] | None:
+    """The aims of a first try with the toe room that its toe box needs; None if it needs none."""
+    made = first.made
+    length = first.aims[0]
+    if length.measure != LENGTH:
+        return None
+    most_mm, longer_mm = most_change_mm(length, made.base), length.target - length.base
+    judged = judged_in(foot, made.record, made.with_sections, question)
+    by_mm = toe_room_change_mm(judged, before, (-most_mm - longer_mm, most_mm - longer_mm))
+    moved = length.moved_to(length.target + by_mm)
+    return [moved, *first.aims[1:]] if by_mm else None
 
 
 def _flare_turn_deg(foot: Profiled, base: BaseLast, making: Making) -> float:
@@ -143,9 +183,7 @@ def _answer(
     """The result of what was made, without its warnings; ``before`` is the fit of the base."""
     question, profile, base = making.question, making.question.profile, given.base
     made, shape = attempt.made, attempt.shape
-    sections = kept_sections(made.shape)
-    kept_base = replace(base, sections=sections)
-    after = fit_in(foot, made.record, kept_base, question)
+    after = fit_in(foot, made.record, made.with_sections, question)
     judged, zones = _judged(before, after), _zones(foot, base, attempt)
     side = made.record.side.side or "right"
     mirror = np.array([1.0, -1.0 if side == "left" else 1.0, 1.0])
@@ -176,7 +214,7 @@ def _answer(
         least_determinant=shape.least_determinant,
         warnings=(),
         record=made.record,
-        sections=sections,
+        sections=made.with_sections.sections,
         parentage=_parentage(foot, base, making, zones),
         vertices_mm=made.vertices_mm,
         base_vertices_mm=base_vertices_mm,

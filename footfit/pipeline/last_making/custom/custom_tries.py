@@ -1,7 +1,8 @@
 """Tries at a custom last: the base is changed, written, read again, and changed again.
 
 A pose and a stance that are found in the finished last differ a little from those that the search
-carried along. So each try begins where the last one ended, and carries what was read there.
+carried along. So each try begins where the last one ended, and carries what was read there. Most
+tries are made on a light copy of the base: the last try there leads to within some tenths of a mm.
 """
 
 from __future__ import annotations
@@ -14,20 +15,21 @@ from operator import attrgetter
 
 import numpy as np
 
-from footfit import results
 from footfit.errors import FootfitError, OutOfReach
 from footfit.geometry.deform.bending import bend_deg
-from footfit.geometry.deform.chart import Chart
+from footfit.geometry.deform.chart import Chart, Places
 from footfit.geometry.deform.field import Bump
-from footfit.geometry.deform.solver import Knob
+from footfit.geometry.deform.solver import Solution
 from footfit.geometry.measures.landmarks import Shape
-from footfit.geometry.numeric.arrays import Floats, Ints
-from footfit.geometry.numeric.rotations import moved_points
-from footfit.geometry.search.pose_search import RoughPose
-from footfit.meshes.write import encoded_mesh
-from footfit.pipeline.batch.sources import ReadingOptions, Source
+from footfit.geometry.numeric.arrays import Floats
+from footfit.meshes.copies.lighter import lighter_mesh
 from footfit.pipeline.last_making.base_last import BaseLast
-from footfit.pipeline.last_making.custom.custom_aims import ANYWHERE, HEEL_GIRTH, CustomAim
+from footfit.pipeline.last_making.custom.custom_aims import (
+    ANYWHERE,
+    HEEL_GIRTH,
+    LENGTH,
+    CustomAim,
+)
 from footfit.pipeline.last_making.custom.custom_field import (
     CUSTOM,
     MANNER,
@@ -39,20 +41,17 @@ from footfit.pipeline.last_making.custom.custom_field import (
     missed,
     refuse_missed,
 )
-from footfit.pipeline.last_making.custom.custom_reading import Carried, asked_mm, gain_mm, value_mm
+from footfit.pipeline.last_making.custom.custom_reading import Carried, asked_mm
 from footfit.pipeline.last_making.custom.custom_rooms import with_room
-from footfit.pipeline.scan.align import aligned_scan
-from footfit.pipeline.scan.flare import profiled_scan
-from footfit.pipeline.scan.measure import last_record
-from footfit.pipeline.scan.preparation import prepared_scan, right_copy
-from footfit.pipeline.scan.reading import read
-from footfit.pipeline.scan.standing import stance_labels
-from footfit.results import LastLabels, PreparedScan, SideName
+from footfit.pipeline.last_making.custom.made_last import MadeLast, made_last
+from footfit.results import SideName
 
 SETTLED_MM = (0.15, 0.3, 0.3, 0.3, 0.3, 0.3)
+LIGHT_MM = 0.2
 HELPS = 0.75
-"""The finished last is made again if it reads so far from a target: by the tries before. A try that
-leaves more than ``HELPS`` of the miss before is the last one, if there are other manners."""
+"""The finished last is made again if it reads so far from a target: by the tries before; a light
+copy may be off by ``LIGHT_MM`` more. A try that leaves more than ``HELPS`` of the miss before is
+the last one, if there are other manners; so is one beyond a limit."""
 OUT_MM = 0.1
 """Another try is made if a measure reads so far out of its range, which is .95 of the good one."""
 BENT_DEG = 2.0, 4.0
@@ -60,6 +59,8 @@ BENT_DEG = 2.0, 4.0
 the bottom keeps its outline."""
 FLATTER, SLIMMER = Manner(heights=1.0), Manner(heights=0.25)
 SOFTER = Manner(heights=0.8, softer=4.0)
+LIGHT_FACES, LIGHT_SHARE = 5000, 0.6
+"""Of the light copy on which most tries are made; a base with not many more faces needs none."""
 TURN_DEG = 2.5
 """The flare is turned in steps of at most so much; each step begins where the last one ended."""
 
@@ -68,6 +69,9 @@ TURN_DEG = 2.5
 class Given:
     """What all tries at a custom last have: the base and its chart, the side and name of the new
     last, the turn of the flare, and whether the bottom keeps its outline.
+
+    ``whole`` is the base's own shape, if ``base`` has a light copy of it: how much a surface bends
+    depends on its faces.
     """
 
     base: BaseLast
@@ -76,6 +80,7 @@ class Given:
     name: str
     turn_deg: float
     bottom_kept: bool = False
+    whole: Shape | None = None
 
     @cached_property
     def carried(self) -> Carried:
@@ -87,64 +92,47 @@ class Given:
         """What the length reads on the base."""
         return self.carried.base_length_mm
 
+    @cached_property
+    def _places(self) -> Places:
+        """The vertices of the whole base in the chart."""
+        assert self.whole is not None
+        return self.chart.places(self.chart.standing(self.whole.vertices_mm))
 
-@dataclass(frozen=True)
-class MadeLast:
-    """A custom last as its file has it.
+    def bent_deg(self, shape: CustomShape) -> float:
+        """By how much too far a change bends the surface of the base."""
+        whole, after_mm = self.base.shape, shape.vertices_mm
+        if self.whole is not None:
+            whole = self.whole
+            after_mm = shape.solved.field.moved_points(whole.vertices_mm, self._places)
+        bent_deg = bend_deg(whole.vertices_mm, after_mm, whole.faces)
+        return max(bent_deg - BENT_DEG[self.bottom_kept], 0.0)
 
-    ``prepared`` is the file as it was read again, ``vertices_mm`` and ``faces`` are those of the
-    file; ``frame`` (4, 4) takes right vertices of the base's frame to the shape's canonical right
-    frame.
+
+def on_light_copy(given: Given, aims: Sequence[CustomAim]) -> tuple[Given, Sequence[CustomAim]]:
+    """The same on a light copy of the base, for which the aims are moved by what it reads more or
+    less; itself if the base has few faces.
     """
-
-    base: BaseLast
-    prepared: PreparedScan
-    labels: LastLabels
-    vertices_mm: Floats
-    faces: Ints
-    frame: Floats
-
-    @property
-    def shape(self) -> Shape:
-        """The right shape."""
-        return self.prepared.shape
-
-    @cached_property
-    def record(self) -> results.LastRecord:
-        """The record, with every measure and the flare."""
-        return last_record(profiled_scan(aligned_scan(self.prepared)), self.labels)
-
-    @cached_property
-    def gain_mm(self) -> float:
-        """How much longer it is along its bottom than along its length."""
-        return gain_mm(self.shape, self.base)
-
-    def value_mm(self, measure: str) -> float:
-        """A measure as :func:`custom_reading.value_mm` reads it."""
-        return value_mm(self.shape, measure, self.base, self.gain_mm)
-
-    @property
-    def to_file(self) -> Floats:
-        """From the shape's canonical right frame to the axes of the file, (4, 4)."""
-        return np.asarray(mirror_of(self.prepared.side.side) @ np.linalg.inv(self.frame))
-
-    def lying(self, vertices_mm: Floats) -> Floats:
-        """Right vertices (n, 3) of the base's frame in the last's canonical frame."""
-        return moved_points(self.frame, vertices_mm)
-
-    def carried(self, given: Given, vertices_mm: Floats) -> Carried:
-        """How bases that are changed a little otherwise lie and stand; ``vertices_mm`` (n, 3) are
-        the right ones that it was made of, in the base's frame.
-        """
-        faces = self.base.shape.faces
-        known = Shape(self.lying(vertices_mm), faces, "last", self.shape.labels)
-        vars(known)["stance"] = self.shape.stance
-        return Carried(known, self.base, self.frame, given.length_mm, self.gain_mm)
+    whole = given.base.shape
+    vertices_mm, faces = lighter_mesh(whole.vertices_mm, whole.faces, LIGHT_FACES)
+    if len(faces) > LIGHT_SHARE * len(whole.faces):
+        return given, aims
+    light = replace(given.base, shape=Shape(vertices_mm, faces, "last", whole.labels))
+    carried = Carried(light.shape, light)
+    names = [aim for aim in aims if aim.measure != LENGTH]
+    more_mm = dict(
+        zip(
+            (aim.measure for aim in names),
+            (carried.values_mm(vertices_mm, names) - [aim.base for aim in names]).tolist(),
+            strict=True,
+        )
+    )
+    moved = [aim.shifted(more_mm.get(aim.measure, 0.0)) for aim in aims]
+    return replace(given, base=light, whole=whole), moved
 
 
 @dataclass(frozen=True)
 class Attempt:
-    """A changed base and the last made of it.
+    """A changed base and the last made of it, in some manner.
 
     ``off_mm`` (aims,) is how far the last reads from each firm target, ``room_mm`` (aims,) what
     room for single places adds to that, ``out_mm`` how far the worst measure reads out of its good
@@ -158,12 +146,12 @@ class Attempt:
     room_mm: Floats
     out_mm: float
     bent_deg: float
+    manner: Manner = MANNER
 
     @property
-    def refused(self) -> bool:
-        """Whether it goes beyond a limit of stretch, or misses a target."""
-        over = limit_words(self.shape) is not None
-        return over or missed(self.aims, self.off_mm) is not None
+    def beyond(self) -> bool:
+        """Whether it goes beyond a limit of stretch, or bends the surface too far."""
+        return limit_words(self.shape) is not None or bool(self.bent_deg)
 
     @property
     def worth(self) -> tuple[bool, float, bool, float, float]:
@@ -173,7 +161,41 @@ class Attempt:
         """
         off_mm = float(np.abs(self.off_mm).max())
         out_mm = self.out_mm if self.out_mm > OUT_MM else 0.0
-        return self.refused, self.bent_deg, off_mm > SETTLED_MM[-1], out_mm, off_mm
+        over = limit_words(self.shape) is not None
+        refused = over or missed(self.aims, self.off_mm) is not None
+        return refused, self.bent_deg, off_mm > SETTLED_MM[-1], out_mm, off_mm
+
+    def carried(self, given: Given) -> Carried:
+        """How a base that is changed a little otherwise lies and stands."""
+        base, vertices_mm = given.base, self.shape.vertices_mm
+        if base is not self.made.base:  # this was made of the light copy
+            vertices_mm = self.shape.solved.field.moved_points(base.shape.vertices_mm)
+        known = Shape(self.made.lying(vertices_mm), base.shape.faces, "last", base.shape.labels)
+        vars(known)["stance"] = self.made.shape.stance
+        return Carried(known, base, self.made.frame, given.length_mm, self.made.gain_mm)
+
+
+def first_attempt(given: Given, aims: Sequence[CustomAim]) -> Attempt:
+    """The first try at a custom last: near its targets, though it may miss them by some tenths.
+
+    Raises
+    ------
+    OutOfReach
+        The ball is lost.
+    """
+    return _best(given, aims, None, MANNER, most=1)
+
+
+def attempt_after(given: Given, aims: Sequence[CustomAim], rough: Attempt) -> Attempt:
+    """The best try that begins where ``rough`` ended on a light copy, with the same aims.
+
+    Raises
+    ------
+    OutOfReach
+        As :func:`attempt_at`.
+    """
+    pairs = zip(aims, rough.aims, strict=True)
+    return attempt_at(given, [there.shifted(own.base - there.base) for own, there in pairs], rough)
 
 
 def attempt_at(given: Given, aims: Sequence[CustomAim], first: Attempt | None = None) -> Attempt:
@@ -187,13 +209,13 @@ def attempt_at(given: Given, aims: Sequence[CustomAim], first: Attempt | None = 
     OutOfReach
         A target is missed, or lies beyond the limits of stretch.
     """
-    best = _best(given, aims, first, MANNER)
+    best = _best(given, aims, first, first.manner if first else MANNER)
     for manner in (_other_manner(best), Manner(zones=False)):
-        if not any(best.worth[:3]):
+        if not any(best.worth[: 2 if first else 3]):
             break
         with suppress(OutOfReach):
-            first = best if manner.zones else None
-            best = min(best, _best(given, aims, first, manner), key=attrgetter("worth"))
+            start = best if manner.zones else None
+            best = min(best, _best(given, aims, start, manner), key=attrgetter("worth"))
     refuse_missed(best.aims, best.off_mm, best.shape, given.turn_deg)
     return best
 
@@ -206,36 +228,48 @@ def _other_manner(attempt: Attempt) -> Manner:
 
 
 def _best(
-    given: Given, aims: Sequence[CustomAim], first: Attempt | None, manner: Manner
+    given: Given,
+    aims: Sequence[CustomAim],
+    first: Attempt | None,
+    manner: Manner,
+    most: int = len(SETTLED_MM),
 ) -> Attempt:
     """The best of some tries; each begins where the last one ended.
 
-    In another manner than the usual one it begins at the base, which lies as ``first`` does.
+    In another manner than that of ``first`` it begins at the base, which lies as ``first`` does.
     """
-    knobs = first.shape.solved.knobs if first and manner == MANNER else ()
-    carried = first.made.carried(given, first.shape.vertices_mm) if first else given.carried
+    known = first.shape.solved if first and first.manner == manner else None
+    carried = first.carried(given) if first else given.carried
     steps = 1 if first else max(1, int(np.ceil(abs(given.turn_deg) / TURN_DEG)))
     for step in range(1, steps):
-        turned = _tried(given, aims, step / steps, carried, knobs, manner)
-        carried = turned.made.carried(given, turned.shape.vertices_mm)
-        knobs, aims = turned.shape.solved.knobs, turned.aims
-    tries: list[Attempt] = []
-    for settled_mm in SETTLED_MM:
+        turned = _tried(given, aims, step / steps, carried, known, manner)
+        carried, known, aims = turned.carried(given), turned.shape.solved, turned.aims
+    begun = known is not None and first is not None and first.made.base is given.base
+    tries = [first] if begun and first and tuple(first.aims) == tuple(aims) else []
+    before = int(first is not None and not tries)
+    more_mm = 0.0 if given.whole is None else LIGHT_MM
+    while not (tries and (_enough(tries, before, more_mm) or len(tries) == most)):
         try:
-            tried = _tried(given, aims, 1.0, carried, knobs, manner)
+            tried = _tried(given, aims, 1.0, carried, known, manner)
         except FootfitError:
             if not tries:
                 raise
             break
-        carried = tried.made.carried(given, tried.shape.vertices_mm)
-        knobs, aims = tried.shape.solved.knobs, tried.aims
+        carried, known, aims = tried.carried(given), tried.shape.solved, tried.aims
         tries.append(tried)
-        _, _, _, out_mm, off_mm = tried.worth
-        met = off_mm <= settled_mm and (not out_mm or len(tries) > 1)
-        stuck = len(tries) > 1 and off_mm > HELPS * tries[-2].worth[-1]
-        if met or (stuck and manner.zones):
-            break  # a limit of stretch that is passed with all targets met stays passed
     return min(tries, key=attrgetter("worth"))
+
+
+def _enough(tries: Sequence[Attempt], before: int, more_mm: float) -> bool:
+    """Whether the last of some tries needs no other one in its manner; ``before`` them were some
+    others. It may be off by ``more_mm`` more.
+    """
+    last, count = tries[-1], min(before + len(tries), len(SETTLED_MM))
+    _, _, _, out_mm, off_mm = last.worth
+    if off_mm <= SETTLED_MM[count - 1] + more_mm and (not out_mm or count > 1):
+        return True
+    stuck = last.beyond or (len(tries) > 1 and off_mm > HELPS * tries[-2].worth[-1])
+    return stuck and last.manner.zones
 
 
 def _tried(
@@ -243,15 +277,13 @@ def _tried(
     aims: Sequence[CustomAim],
     share: float,
     carried: Carried,
-    knobs: Sequence[Knob],
+    first: Solution | None,
     manner: Manner,
 ) -> Attempt:
     """One try, with a share of the turn."""
     start = first_field(given.chart, share * given.turn_deg, bottom_kept=given.bottom_kept)
-    shape = custom_shape(given.base, aims, start, carried, knobs, manner)
+    shape = custom_shape(given.base, aims, start, carried, first, manner)
     made = made_last(given.base, shape.vertices_mm, given.side, given.name)
-    before = given.base.shape
-    bent_deg = bend_deg(before.vertices_mm, shape.vertices_mm, before.faces)
     return Attempt(
         aims=shape.aims,
         shape=shape,
@@ -259,7 +291,8 @@ def _tried(
         off_mm=_off_mm(given, shape.aims, made),
         room_mm=np.zeros(len(aims)),
         out_mm=_out_mm(shape.aims, made),
-        bent_deg=max(bent_deg - BENT_DEG[given.bottom_kept], 0.0),
+        bent_deg=given.bent_deg(shape),
+        manner=manner,
     )
 
 
@@ -294,36 +327,3 @@ def with_bumps(given: Given, attempt: Attempt, bumps: Sequence[Bump]) -> Attempt
     made = made_last(given.base, shape.vertices_mm, given.side, given.name)
     room_mm = _off_mm(given, attempt.aims, made) - attempt.off_mm
     return replace(attempt, shape=shape, made=made, room_mm=room_mm)
-
-
-def made_last(base: BaseLast, vertices_mm: Floats, side: SideName, name: str) -> MadeLast:
-    """The right vertices (n, 3) of a changed base as a last of one side, read again from its file.
-
-    The pose is known, so it is not searched for. The labels of how the base stands stay.
-    """
-    vertices_mm, faces = right_copy(vertices_mm, base.shape.faces, side)
-    data = encoded_mesh(vertices_mm, faces, "stl")
-    scan = read(Source(None, data), ReadingOptions(units="mm"))
-    quality = base.record.pose
-    length_mm = base.shape.length_mm
-    pose = RoughPose(
-        np.eye(3), np.zeros(3), length_mm, quality.cost, quality.margin, "last", accepted=True
-    )
-    old = base.record.labels
-    labels = LastLabels(
-        name,
-        style=old.style,
-        family=old.family,
-        heel_height_mm=old.heel_height_mm,
-        toe_spring_mm=old.toe_spring_mm,
-        platform_mm=old.platform_mm,
-    )
-    prepared = prepared_scan(replace(scan, pose=pose), side, labels=stance_labels(labels))
-    mirror = mirror_of(side)
-    frame = mirror @ prepared.canonical_transform @ mirror
-    return MadeLast(base, prepared, labels, vertices_mm, faces, np.asarray(frame, np.float64))
-
-
-def mirror_of(side: SideName | None) -> Floats:
-    """What takes a right shape to one of a side, and back, (4, 4)."""
-    return np.diag([1.0, -1.0 if side == "left" else 1.0, 1.0, 1.0])

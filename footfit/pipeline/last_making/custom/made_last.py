@@ -1,0 +1,109 @@
+"""A custom last as its file has it: written, and read again."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from functools import cached_property
+
+import numpy as np
+
+from footfit import results
+from footfit.geometry.measures.landmarks import Shape
+from footfit.geometry.numeric.arrays import Floats, Ints
+from footfit.geometry.numeric.rotations import moved_points
+from footfit.geometry.search.pose_search import RoughPose
+from footfit.meshes.write import encoded_mesh
+from footfit.pipeline.batch.sources import ReadingOptions, Source
+from footfit.pipeline.last_making.base_last import BaseLast
+from footfit.pipeline.last_making.custom.custom_reading import gain_mm, value_mm
+from footfit.pipeline.scan.align import aligned_scan
+from footfit.pipeline.scan.flare import profiled_scan
+from footfit.pipeline.scan.kept_sections import kept_sections
+from footfit.pipeline.scan.measure import last_record
+from footfit.pipeline.scan.preparation import prepared_scan, right_copy
+from footfit.pipeline.scan.reading import read
+from footfit.pipeline.scan.standing import stance_labels
+from footfit.results import LastLabels, PreparedScan, SideName
+
+
+@dataclass(frozen=True)
+class MadeLast:
+    """A custom last as its file has it.
+
+    ``prepared`` is the file as it was read again, ``vertices_mm`` and ``faces`` are those of the
+    file; ``frame`` (4, 4) takes right vertices of the base's frame to the shape's canonical right
+    frame.
+    """
+
+    base: BaseLast
+    prepared: PreparedScan
+    labels: LastLabels
+    vertices_mm: Floats
+    faces: Ints
+    frame: Floats
+
+    @property
+    def shape(self) -> Shape:
+        """The right shape."""
+        return self.prepared.shape
+
+    @cached_property
+    def record(self) -> results.LastRecord:
+        """The record, with every measure and the flare."""
+        return last_record(profiled_scan(aligned_scan(self.prepared)), self.labels)
+
+    @cached_property
+    def gain_mm(self) -> float:
+        """How much longer it is along its bottom than along its length."""
+        return gain_mm(self.shape, self.base)
+
+    @cached_property
+    def with_sections(self) -> BaseLast:
+        """The base with the sections of this last: what a fit reads."""
+        return replace(self.base, sections=kept_sections(self.shape))
+
+    def value_mm(self, measure: str) -> float:
+        """A measure as :func:`custom_reading.value_mm` reads it."""
+        return value_mm(self.shape, measure, self.base, self.gain_mm)
+
+    @property
+    def to_file(self) -> Floats:
+        """From the shape's canonical right frame to the axes of the file, (4, 4)."""
+        return np.asarray(mirror_of(self.prepared.side.side) @ np.linalg.inv(self.frame))
+
+    def lying(self, vertices_mm: Floats) -> Floats:
+        """Right vertices (n, 3) of the base's frame in the last's canonical frame."""
+        return moved_points(self.frame, vertices_mm)
+
+
+def made_last(base: BaseLast, vertices_mm: Floats, side: SideName, name: str) -> MadeLast:
+    """The right vertices (n, 3) of a changed base as a last of one side, read again from its file.
+
+    The pose is known, so it is not searched for. The labels of how the base stands stay.
+    """
+    vertices_mm, faces = right_copy(vertices_mm, base.shape.faces, side)
+    data = encoded_mesh(vertices_mm, faces, "stl")
+    scan = read(Source(None, data), ReadingOptions(units="mm"))
+    quality = base.record.pose
+    length_mm = base.shape.length_mm
+    pose = RoughPose(
+        np.eye(3), np.zeros(3), length_mm, quality.cost, quality.margin, "last", accepted=True
+    )
+    old = base.record.labels
+    labels = LastLabels(
+        name,
+        style=old.style,
+        family=old.family,
+        heel_height_mm=old.heel_height_mm,
+        toe_spring_mm=old.toe_spring_mm,
+        platform_mm=old.platform_mm,
+    )
+    prepared = prepared_scan(replace(scan, pose=pose), side, labels=stance_labels(labels))
+    mirror = mirror_of(side)
+    frame = mirror @ prepared.canonical_transform @ mirror
+    return MadeLast(base, prepared, labels, vertices_mm, faces, np.asarray(frame, np.float64))
+
+
+def mirror_of(side: SideName | None) -> Floats:
+    """What takes a right shape to one of a side, and back, (4, 4)."""
+    return np.diag([1.0, -1.0 if side == "left" else 1.0, 1.0, 1.0])
