@@ -44,7 +44,6 @@ from footfit.pipeline.last_making.custom.custom_tries import (
     Given,
     attempt_after,
     attempt_at,
-    first_attempt,
     on_light_copy,
     with_bumps,
 )
@@ -141,27 +140,26 @@ def _tried(
         A target is out of reach of the base.
     """
     light, own = on_light_copy(given, aims)
-    first, best = first_attempt(light, own), None
+    best = attempt_at(light, own)
+    moved = _with_toe_room(foot, best, question, before)
     with suppress(OutOfReach):
-        moved = _with_toe_room(foot, first, question, before)
-        best = attempt_at(light, moved, first) if moved else None
-    best = best or attempt_at(light, first.aims, first)
+        best = attempt_at(light, moved, best) if moved else best
     return best if light is given else attempt_after(given, aims, best)
 
 
 def _with_toe_room(
-    foot: Profiled, first: Attempt, question: CustomQuestion, before: JudgedLasts
+    foot: Profiled, attempt: Attempt, question: CustomQuestion, before: JudgedLasts
 ) -> list[CustomAim] | None:
-    """The aims of a first try with the toe room that its toe box needs; None if it needs none."""
-    made = first.made
-    length = first.aims[0]
+    """The aims of a try with the toe room that its toe box needs; None if it needs none."""
+    made = attempt.made
+    length = attempt.aims[0]
     if length.measure != LENGTH:
         return None
     most_mm, longer_mm = most_change_mm(length, made.base), length.target - length.base
     judged = judged_in(foot, made.record, made.with_sections, question)
     by_mm = toe_room_change_mm(judged, before, (-most_mm - longer_mm, most_mm - longer_mm))
     moved = length.moved_to(length.target + by_mm)
-    return [moved, *first.aims[1:]] if by_mm else None
+    return [moved, *attempt.aims[1:]] if by_mm else None
 
 
 def _flare_turn_deg(foot: Profiled, base: BaseLast, making: Making) -> float:

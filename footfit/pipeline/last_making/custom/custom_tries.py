@@ -51,7 +51,7 @@ LIGHT_MM = 0.2
 HELPS = 0.75
 """The finished last is made again if it reads so far from a target: by the tries before; a light
 copy may be off by ``LIGHT_MM`` more. A try that leaves more than ``HELPS`` of the miss before is
-the last one, if there are other manners; so is one beyond a limit."""
+the last one, if there are other manners; so is one whose search arrived beyond a limit."""
 OUT_MM = 0.1
 """Another try is made if a measure reads so far out of its range, which is .95 of the good one."""
 BENT_DEG = 2.0, 4.0
@@ -116,7 +116,9 @@ def on_light_copy(given: Given, aims: Sequence[CustomAim]) -> tuple[Given, Seque
     vertices_mm, faces = lighter_mesh(whole.vertices_mm, whole.faces, LIGHT_FACES)
     if len(faces) > LIGHT_SHARE * len(whole.faces):
         return given, aims
-    light = replace(given.base, shape=Shape(vertices_mm, faces, "last", whole.labels))
+    shape = Shape(vertices_mm, faces, "last", whole.labels)
+    vars(shape)["stance"] = whole.stance
+    light = replace(given.base, shape=shape)
     carried = Carried(light.shape, light)
     names = [aim for aim in aims if aim.measure != LENGTH]
     more_mm = dict(
@@ -175,17 +177,6 @@ class Attempt:
         return Carried(known, base, self.made.frame, given.length_mm, self.made.gain_mm)
 
 
-def first_attempt(given: Given, aims: Sequence[CustomAim]) -> Attempt:
-    """The first try at a custom last: near its targets, though it may miss them by some tenths.
-
-    Raises
-    ------
-    OutOfReach
-        The ball is lost.
-    """
-    return _best(given, aims, None, MANNER, most=1)
-
-
 def attempt_after(given: Given, aims: Sequence[CustomAim], rough: Attempt) -> Attempt:
     """The best try that begins where ``rough`` ended on a light copy, with the same aims.
 
@@ -232,23 +223,23 @@ def _best(
     aims: Sequence[CustomAim],
     first: Attempt | None,
     manner: Manner,
-    most: int = len(SETTLED_MM),
 ) -> Attempt:
     """The best of some tries; each begins where the last one ended.
 
     In another manner than that of ``first`` it begins at the base, which lies as ``first`` does.
     """
-    known = first.shape.solved if first and first.manner == manner else None
+    alike = first is not None and first.manner == manner
+    known = first.shape.solved if first and alike else None
     carried = first.carried(given) if first else given.carried
     steps = 1 if first else max(1, int(np.ceil(abs(given.turn_deg) / TURN_DEG)))
     for step in range(1, steps):
         turned = _tried(given, aims, step / steps, carried, known, manner)
         carried, known, aims = turned.carried(given), turned.shape.solved, turned.aims
-    begun = known is not None and first is not None and first.made.base is given.base
-    tries = [first] if begun and first and tuple(first.aims) == tuple(aims) else []
+    begun = first and alike and first.made.base is given.base
+    tries = [first] if first and begun and tuple(first.aims) == tuple(aims) else []
     before = int(first is not None and not tries)
     more_mm = 0.0 if given.whole is None else LIGHT_MM
-    while not (tries and (_enough(tries, before, more_mm) or len(tries) == most)):
+    while not (tries and _enough(tries, before, more_mm)):
         try:
             tried = _tried(given, aims, 1.0, carried, known, manner)
         except FootfitError:
@@ -268,8 +259,9 @@ def _enough(tries: Sequence[Attempt], before: int, more_mm: float) -> bool:
     _, _, _, out_mm, off_mm = last.worth
     if off_mm <= SETTLED_MM[count - 1] + more_mm and (not out_mm or count > 1):
         return True
-    stuck = last.beyond or (len(tries) > 1 and off_mm > HELPS * tries[-2].worth[-1])
-    return stuck and last.manner.zones
+    stuck = len(tries) > 1 and off_mm > HELPS * tries[-2].worth[-1]
+    stuck = stuck or (last.beyond and last.shape.solved.met)
+    return len(tries) == len(SETTLED_MM) or (stuck and last.manner.zones)
 
 
 def _tried(

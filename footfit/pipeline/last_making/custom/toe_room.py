@@ -10,12 +10,11 @@ from footfit.pipeline.fit.scoring import room_levels
 from footfit.pipeline.fit.zones import TOE_BOX
 from footfit.pipeline.last_making.custom.custom_aims import good_range
 
-GOOD_ROOM = 0.9
-"""The toe room stays within so much of its good range."""
 STEP_MM = 0.2
 """Toe rooms are tried so far apart."""
-DOUBT_MM = 0.15
-"""A zone of the toe box may come out so far from what is foreseen."""
+DOUBT_MM, DOUBT = 0.1, 0.12
+"""A zone of the toe box may come out so far from what is foreseen: in mm, and for each mm of
+change."""
 
 
 def toe_room_change_mm(
@@ -43,12 +42,12 @@ def toe_room_change_mm(
     if not toes or not np.isfinite(last.clearances.value[0, toes]).any():
         return 0.0
     rule = last.asked.columns[length].rule
-    low, high = good_range(rule.target, rule, GOOD_ROOM)
+    low, high = good_range(rule.target, rule)
     more_mm = np.arange(low, high, STEP_MM) - own_mm
     possible = (more_mm >= within_mm[0]) & (more_mm <= within_mm[1])
     more_mm = np.concatenate([[0.0], more_mm[possible]])
     others = _with_rooms(last, own_mm + more_mm)
-    faults = _faults(others, toes)
+    faults = _faults(others, toes, DOUBT_MM + DOUBT * np.abs(more_mm))
     better = (others.level < base.level[0]) | (
         (others.level == base.level[0]) & (others.distance <= base.distance[0])
     )
@@ -66,14 +65,14 @@ def _with_rooms(last: JudgedLasts, rooms_mm: Floats) -> JudgedLasts:
     return judged_lasts(last.asked, last.lasts.taken(rows), rows, last.heels.taken(rows), room)
 
 
-def _faults(lasts: JudgedLasts, toes: list[int]) -> Ints:
-    """How bad the zones of the toe box are together, (n,): 1 for each that is acceptable, 2 for one
-    that is poor.
+def _faults(lasts: JudgedLasts, toes: list[int], doubt_mm: Floats) -> Ints:
+    """How bad the zones of the toe box may be together, (n,): 1 for each that is acceptable, 2 for
+    one that is poor. They may come out by ``doubt_mm`` (n,) otherwise.
     """
     room = lasts.clearances
     spreads = room.foot_sd, room.last_sd, room.heel_sd
     levels = [
         room_levels(room.value + by_mm, *spreads, lasts.asked.columns)[:, toes]
-        for by_mm in (-DOUBT_MM, DOUBT_MM)
+        for by_mm in (-doubt_mm[:, None], doubt_mm[:, None])
     ]
     return np.asarray(np.maximum(*levels).clip(0).sum(axis=1))
