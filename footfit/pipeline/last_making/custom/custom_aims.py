@@ -31,9 +31,12 @@ PULLED = ("ball_girth", "instep_girth", HEEL_GIRTH)
 FOLLOWING = ("heel_girth_instep",)
 """The girth without a target: the bottom, the back and the top, which are kept, nearly set it; and
 a foot that was scanned flat has another one in a heel."""
-INNER_GOOD, MOST_BALL_MM, MOST_HEEL_MM = 0.7, 12.0, 3.0
+INNER_GOOD, MOST_BALL_MM = 0.7, 12.0
 """A zone that is only pulled comes so far into its good range, as a share of that; the ball moves
-at most so far, and the short heel girth, which the kept parts nearly set."""
+at most so far."""
+HEEL_PULL_MM, HEEL_REACH_MM = 3.0, 8.0
+"""The short heel girth, which the kept parts nearly set, is pulled by at most so much; it is kept
+in its good range if it lies so near to that."""
 RANGE = 0.95
 """What should be in its zone's good range stays within so much of it."""
 GIVES_WAY = {"ball_girth_least": "ball_girth", "instep_girth_least": "instep_girth"}
@@ -146,8 +149,8 @@ def _pulled(
     more_mm = grown_mm - inner_good(rule, stored_mm + grown_mm - aim.target)
     good_mm = good_range(aim.base + aim.target - stored_mm, rule)
     if aim.measure == HEEL_GIRTH:
-        more_mm = min(max(more_mm, -MOST_HEEL_MM), MOST_HEEL_MM)
-        if not good_mm[0] - MOST_HEEL_MM <= aim.base <= good_mm[1] + MOST_HEEL_MM:
+        more_mm = min(max(more_mm, -HEEL_PULL_MM), HEEL_PULL_MM)
+        if not good_mm[0] - HEEL_REACH_MM <= aim.base <= good_mm[1] + HEEL_REACH_MM:
             good_mm = ANYWHERE
     return replace(aim, target=aim.base + more_mm, firm=False, good_mm=good_mm)
 

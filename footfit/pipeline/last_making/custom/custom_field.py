@@ -23,6 +23,7 @@ from footfit.geometry.numeric.arrays import Floats
 from footfit.number_words import plain
 from footfit.pipeline.last_making.base_last import BaseLast
 from footfit.pipeline.last_making.custom.custom_aims import (
+    ANYWHERE,
     BALL_LENGTH,
     FOLLOWING,
     GIVES_WAY,
@@ -84,7 +85,7 @@ class CustomSettings:
     pulled_mm: float = 1.0
     line_mm: float = 0.1
     edge_mm: float = 0.05
-    heel_edge_mm: float = 0.2
+    heel_edge_mm: float = 0.03
     met_mm: float = 0.5
     length_met_mm: float = 0.3
     wider: float = 1.25
@@ -120,13 +121,21 @@ class Manner:
         What a scale of heights costs, over a scale of widths.
     softer : float
         By how much cheaper it is to leave a zone's good range.
+    heel : bool
+        Whether the short heel girth is kept good.
     zones : bool
         Whether zones are kept good, beside the targets.
     """
 
     heights: float = SOLVER.heights
     softer: float = 1.0
+    heel: bool = True
     zones: bool = True
+
+    @property
+    def usual(self) -> bool:
+        """Whether it is the usual one, though perhaps without the heel's zone."""
+        return replace(self, heel=True) == MANNER
 
 
 MANNER = Manner()
@@ -268,9 +277,8 @@ def _ranged(goals: list[Goal], aims: Sequence[CustomAim], manner: Manner) -> lis
         edge_mm = CUSTOM.heel_edge_mm if aim.measure == HEEL_GIRTH else CUSTOM.edge_mm
         gives_way_to = rows.get(GIVES_WAY.get(aim.measure, ""))
         edge_mm *= manner.softer
-        ranged.append(
-            replace(goal, range_mm=aim.good_mm, edge_mm=edge_mm, gives_way_to=gives_way_to)
-        )
+        range_mm = ANYWHERE if aim.measure == HEEL_GIRTH and not manner.heel else aim.good_mm
+        ranged.append(replace(goal, range_mm=range_mm, edge_mm=edge_mm, gives_way_to=gives_way_to))
     return ranged
 
 

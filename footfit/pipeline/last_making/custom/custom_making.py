@@ -140,10 +140,14 @@ def _tried(
         A target is out of reach of the base.
     """
     light, own = on_light_copy(given, aims)
-    best = attempt_at(light, own)
+    try:
+        best = attempt_at(light, own)
+    except OutOfReach:  # the base itself has the last word
+        return attempt_at(given, aims)
     moved = _with_toe_room(foot, best, question, before)
     with suppress(OutOfReach):
-        best = attempt_at(light, moved, best) if moved else best
+        other = attempt_at(light, moved, best) if moved else best
+        best = other if other.sound_as(best) else best
     return best if light is given else attempt_after(given, aims, best)
 
 
@@ -153,7 +157,7 @@ def _with_toe_room(
     """The aims of a try with the toe room that its toe box needs; None if it needs none."""
     made = attempt.made
     length = attempt.aims[0]
-    if length.measure != LENGTH:
+    if length.measure != LENGTH or not attempt.manner.usual:  # it is hard enough to make
         return None
     most_mm, longer_mm = most_change_mm(length, made.base), length.target - length.base
     judged = judged_in(foot, made.record, made.with_sections, question)

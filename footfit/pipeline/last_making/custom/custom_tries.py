@@ -8,7 +8,6 @@ tries are made on a light copy of the base: the last try there leads to within s
 from __future__ import annotations
 
 from collections.abc import Sequence
-from contextlib import suppress
 from dataclasses import dataclass, replace
 from functools import cached_property
 from operator import attrgetter
@@ -54,9 +53,10 @@ copy may be off by ``LIGHT_MM`` more. A try that leaves more than ``HELPS`` of t
 the last one, if there are other manners; so is one whose search arrived beyond a limit."""
 OUT_MM = 0.1
 """Another try is made if a measure reads so far out of its range, which is .95 of the good one."""
-BENT_DEG = 2.0, 4.0
+BENT_DEG, LIGHT_DEG = (2.0, 4.0), 0.06
 """A last that bends the surface by more is made otherwise, if that helps; the second one counts if
-the bottom keeps its outline."""
+the bottom keeps its outline. On a light copy so much less is asked for."""
+FREE_HEEL, UNZONED = Manner(heel=False), Manner(zones=False)
 FLATTER, SLIMMER = Manner(heights=1.0), Manner(heights=0.25)
 SOFTER = Manner(heights=0.8, softer=4.0)
 LIGHT_FACES, LIGHT_SHARE = 5000, 0.6
@@ -101,11 +101,13 @@ class Given:
     def bent_deg(self, shape: CustomShape) -> float:
         """By how much too far a change bends the surface of the base."""
         whole, after_mm = self.base.shape, shape.vertices_mm
+        most_deg = BENT_DEG[self.bottom_kept]
         if self.whole is not None:
             whole = self.whole
             after_mm = shape.solved.field.moved_points(whole.vertices_mm, self._places)
+            most_deg -= LIGHT_DEG
         bent_deg = bend_deg(whole.vertices_mm, after_mm, whole.faces)
-        return max(bent_deg - BENT_DEG[self.bottom_kept], 0.0)
+        return max(bent_deg - most_deg, 0.0)
 
 
 def on_light_copy(given: Given, aims: Sequence[CustomAim]) -> tuple[Given, Sequence[CustomAim]]:
@@ -167,6 +169,10 @@ class Attempt:
         refused = over or missed(self.aims, self.off_mm) is not None
         return refused, self.bent_deg, off_mm > SETTLED_MM[-1], out_mm, off_mm
 
+    def sound_as(self, other: Attempt) -> bool:
+        """Whether it bends the surface no farther than another try, and zones are as good."""
+        return self.bent_deg <= other.bent_deg and self.out_mm <= max(other.out_mm, OUT_MM)
+
     def carried(self, given: Given) -> Carried:
         """How a base that is changed a little otherwise lies and stands."""
         base, vertices_mm = given.base, self.shape.vertices_mm
@@ -201,21 +207,36 @@ def attempt_at(given: Given, aims: Sequence[CustomAim], first: Attempt | None = 
         A target is missed, or lies beyond the limits of stretch.
     """
     best = _best(given, aims, first, first.manner if first else MANNER)
-    for manner in (_other_manner(best), Manner(zones=False)):
-        if not any(best.worth[: 2 if first else 3]):
-            break
-        with suppress(OutOfReach):
-            start = best if manner.zones else None
-            best = min(best, _best(given, aims, start, manner), key=attrgetter("worth"))
+    faults = 2 if first or given.whole else 3  # a miss that is left on a light copy does not matter
+    for manner in _other_manners(best):
+        if any(best.worth[:faults]):
+            best = _better(given, aims, best, manner)
+    for manner in _other_manners(best):
+        if best.worth[0]:  # targets that gave way may help
+            best = _better(given, best.aims, best, manner)
     refuse_missed(best.aims, best.off_mm, best.shape, given.turn_deg)
     return best
 
 
-def _other_manner(attempt: Attempt) -> Manner:
-    """How to try again what is refused, or bends the surface."""
-    if attempt.bent_deg:
-        return SOFTER
-    return SLIMMER if attempt.shape.scales[0] > CUSTOM.wider else FLATTER
+def _better(given: Given, aims: Sequence[CustomAim], best: Attempt, manner: Manner) -> Attempt:
+    """The better one of a try and the best one in another manner."""
+    try:
+        other = _best(given, aims, best if manner.zones else None, manner)
+    except OutOfReach:
+        return best
+    return min(best, other, key=attrgetter("worth"))
+
+
+def _other_manners(attempt: Attempt) -> tuple[Manner, ...]:
+    """How to try again what is refused, or bends the surface: at first without the heel's zone, if
+    the base is not good there.
+    """
+    slim = attempt.shape.scales[0] > CUSTOM.wider
+    other = SOFTER if attempt.bent_deg else SLIMMER if slim else FLATTER
+    heel = next((aim for aim in attempt.aims if aim.measure == HEEL_GIRTH), None)
+    if heel is None or heel.good_mm[0] <= heel.base <= heel.good_mm[1]:
+        return other, UNZONED
+    return FREE_HEEL, replace(other, heel=False), UNZONED
 
 
 def _best(
