@@ -150,7 +150,8 @@ def _effects(
 ) -> Floats:
     """How each measure changes with each knob of the first field, (goals, knobs)."""
     chart = start.chart
-    result = np.empty((len(goals), len(knobs)))
+    result = np.zeros((len(goals), len(knobs)))
+    patterns = np.stack([knob.pattern for knob in knobs], axis=1)
     for row, goal in enumerate(goals):
         if not isinstance(goal.probe, Probe):
             result[row] = goal.probe
@@ -162,9 +163,10 @@ def _effects(
             return probe.value(chart.resting(field.moved(places)))
 
         before = value(start)
-        for column, knob in enumerate(knobs):
-            step = settings.step * knob.unit
-            after = value(turned_field(start, [knob], np.array([step])))
+        near = (places.splines @ patterns).any(axis=0) | bool(start.turned.any())
+        for column in np.flatnonzero(near).tolist():  # no other knob moves the probe's points
+            step = settings.step * knobs[column].unit
+            after = value(turned_field(start, [knobs[column]], np.array([step])))
             result[row, column] = (after - before) / step
     return result
 

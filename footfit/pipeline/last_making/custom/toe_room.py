@@ -7,14 +7,14 @@ import numpy as np
 from footfit.geometry.numeric.arrays import Floats, Ints
 from footfit.pipeline.fit.judging.judged_lasts import JudgedLasts, judged_lasts
 from footfit.pipeline.fit.scoring import room_levels
-from footfit.pipeline.fit.zones import TOE_BOX
+from footfit.pipeline.fit.zones import TOE_BOX, TOES
 from footfit.pipeline.last_making.custom.custom_aims import good_range
 
 STEP_MM = 0.2
 """Toe rooms are tried so far apart."""
 DOUBT_MM, DOUBT = 0.1, 0.12
-"""A zone of the toe box may come out so far from what is foreseen: in mm, and for each mm of
-change."""
+"""A zone of the toe box may come out so far from what is foreseen: in mm, and at the walls for each
+mm of change too."""
 
 
 def toe_room_change_mm(
@@ -36,10 +36,10 @@ def toe_room_change_mm(
         The last can become shorter, or longer, by so much.
     """
     places = {column.rule.zone: place for place, column in enumerate(last.asked.columns)}
-    toes = [place for zone, place in places.items() if zone in TOE_BOX]
+    toes = {zone: place for zone, place in places.items() if zone in TOE_BOX}
     length = places["length"]
     own_mm = float(last.clearances.value[0, length])
-    if not toes or not np.isfinite(last.clearances.value[0, toes]).any():
+    if not np.isfinite(last.clearances.value[0, list(toes.values())]).any():
         return 0.0
     rule = last.asked.columns[length].rule
     low, high = good_range(rule.target, rule)
@@ -47,7 +47,8 @@ def toe_room_change_mm(
     possible = (more_mm >= within_mm[0]) & (more_mm <= within_mm[1])
     more_mm = np.concatenate([[0.0], more_mm[possible]])
     others = _with_rooms(last, own_mm + more_mm)
-    faults = _faults(others, toes, DOUBT_MM + DOUBT * np.abs(more_mm))
+    doubts_mm = {zone: DOUBT_MM + DOUBT * (zone == TOES) * np.abs(more_mm) for zone in toes}
+    faults = np.sum([_faults(others, toes[zone], doubts_mm[zone]) for zone in toes], axis=0)
     better = (others.level < base.level[0]) | (
         (others.level == base.level[0]) & (others.distance <= base.distance[0])
     )
@@ -65,14 +66,14 @@ def _with_rooms(last: JudgedLasts, rooms_mm: Floats) -> JudgedLasts:
     return judged_lasts(last.asked, last.lasts.taken(rows), rows, last.heels.taken(rows), room)
 
 
-def _faults(lasts: JudgedLasts, toes: list[int], doubt_mm: Floats) -> Ints:
-    """How bad the zones of the toe box may be together, (n,): 1 for each that is acceptable, 2 for
-    one that is poor. They may come out by ``doubt_mm`` (n,) otherwise.
+def _faults(lasts: JudgedLasts, place: int, doubt_mm: Floats) -> Ints:
+    """How bad a zone may be, (n,): 1 if it is acceptable, 2 if it is poor. It may come out by
+    ``doubt_mm`` (n,) otherwise.
     """
     room = lasts.clearances
     spreads = room.foot_sd, room.last_sd, room.heel_sd
     levels = [
-        room_levels(room.value + by_mm, *spreads, lasts.asked.columns)[:, toes]
-        for by_mm in (-doubt_mm[:, None], doubt_mm[:, None])
+        room_levels(room.value + by_mm[:, None], *spreads, lasts.asked.columns)[:, place]
+        for by_mm in (-doubt_mm, doubt_mm)
     ]
-    return np.asarray(np.maximum(*levels).clip(0).sum(axis=1))
+    return np.asarray(np.maximum(*levels).clip(0))
