@@ -23,13 +23,14 @@ from footfit.geometry.measures.landmarks import Shape
 from footfit.meshes.write import encoded_mesh
 from footfit.pipeline.fit.fit_profile import fit_profile
 from footfit.pipeline.fit.heel_model import heel_question
+from footfit.pipeline.last_making.custom import custom_making
 from footfit.pipeline.last_making.custom.custom_aims import (
     CustomAim,
     CustomQuestion,
     good_range,
 )
 from footfit.pipeline.last_making.custom.custom_field import CustomShape, refuse_missed
-from footfit.pipeline.last_making.custom.good_zones import nearer_length, with_reasons, zone_notices
+from footfit.pipeline.last_making.custom.good_zones import with_reasons, zone_notices
 from footfit.report.page.custom_page import custom_page
 from footfit.report.terminal.custom_tables import custom_table
 from footfit.report.terminal.scan_tables import terminal_text
@@ -200,7 +201,7 @@ def test_targets_are_met_with_a_turned_flare_and_room_comes_on_top() -> None:
     [
         ("instep-top", 6.0, "instep_girth_least"),
         ("waist-medial", 3.0, "waist_girth_least"),
-        ("waist-lateral", 2.0, "waist_girth_least"),
+        ("waist-lateral", 1.5, "waist_girth_least"),
         ("heel-lateral", 6.0, "heel_width"),
     ],
 )
@@ -228,11 +229,11 @@ def test_a_zone_that_is_not_good_is_named_with_its_reason() -> None:
     ]
     asked = CustomQuestion(fit_profile("walking"), heel_question(), BAREFOOT)
     (notice,) = zone_notices(with_reasons(zones, asked), ())
-    assert notice.message.startswith("not good in toes (the toe keeps its shape), flare (")
+    assert notice.message.startswith("not good in toes (the toe keeps its shape, and no good toe")
     assert "--flare-follow" in notice.message
     (kept,) = zone_notices(with_reasons(zones[3:], replace(asked, bottom_kept=True)), ())
     assert "--keep bottom" in kept.message
-    assert with_reasons(zones, asked)[1].to_dict()["why"] == "the toe keeps its shape"
+    assert with_reasons(zones, asked)[1].to_dict()["why"].startswith("the toe keeps its shape")
     assert zone_notices(with_reasons(zones[:1], asked), ()) == ()
 
 
@@ -268,24 +269,32 @@ def test_the_upright_girth_of_the_instep_is_good_too() -> None:
     assert any(notice.code == "target_moved" for notice in made.warnings)
 
 
-def test_the_toe_room_stays_near_the_base_if_the_toe_box_needs_it() -> None:
-    """Walking: a toe room is good from 10 to 20 mm, and .9 of that is 10.4 to 19.4 mm."""
-    asked = CustomQuestion(fit_profile("walking"), heel_question(), BAREFOOT)
-    aims = (CustomAim("length", "length", 270.0, 258.0),)
+def test_the_toe_room_leaves_its_target_if_the_toe_box_needs_it(monkeypatch) -> None:
+    """With a toe room of 14 mm a toe stands 8 mm through an almond toe's wall, which is poor."""
+    (made,) = footfit.customise(foot(), base(toe_shape="almond"))
+    room, toes = (zone_of(made, name) for name in ("length", "toes"))
+    assert (room.custom_verdict, toes.custom_verdict) == ("good", "acceptable")
+    (notice,) = (notice for notice in made.warnings if notice.code == "toe_room_moved")
+    length = next(zone for zone in made.zones if zone.name == "length")
+    moved_mm = length.target - length.base - (room.target - room.base)
+    assert f"{moved_mm:+.1f} mm" in notice.message
+    monkeypatch.setattr(custom_making, "toe_room_change_mm", lambda *_: 0.0)
+    (kept,) = footfit.customise(foot(), base(toe_shape="almond"))
+    assert zone_of(kept, "length").custom == pytest.approx(14.0, abs=0.2)
+    assert zone_of(kept, "toes").custom_verdict == "poor"
 
-    def room_mm(base_mm: float, base: str, toes: tuple[str, str]) -> float | None:
-        zones = [
-            JudgedZone("length", "toe room", "mm", 14.0, base_mm, base, 14.0, "good"),
-            JudgedZone("toes", "toes", "mm", -1.0, -5.0, toes[0], -7.5, toes[1]),
-        ]
-        nearer = nearer_length(aims, zones, asked)
-        return None if nearer is None else base_mm + nearer[0].target - 270.0
 
-    assert room_mm(26.0, "acceptable", ("acceptable", "poor")) == pytest.approx(19.4)
-    assert room_mm(26.0, "acceptable", ("good", "acceptable")) is None
-    assert room_mm(16.0, "good", ("good", "acceptable")) == pytest.approx(16.0)
-    assert room_mm(19.9, "good", ("acceptable", "poor")) == pytest.approx(19.4)
-    assert room_mm(16.0, "good", ("poor", "poor")) is None
+def zone_of(made, name: str) -> JudgedZone:
+    return next(zone for zone in made.judged if zone.name == name)
+
+
+def test_the_short_heel_girth_becomes_good_within_reach() -> None:
+    """It may lie up to 8 mm outside of its good range, which ends at 3 mm."""
+    (made,) = footfit.customise(foot(), base(cone_length=0.315))
+    heel = zone_of(made, "short_heel_girth")
+    assert heel.base_verdict == "acceptable"
+    assert heel.custom_verdict == "good"
+    assert {part.name: part.moved_mm for part in made.kept}["back curve"] < 0.1  # bar .6
 
 
 def test_the_ball_line_of_a_customer_stays_good() -> None:
