@@ -6,7 +6,6 @@ import errno
 import hashlib
 import os
 import re
-import tempfile
 import unicodedata
 from collections.abc import Iterator
 from contextlib import contextmanager, suppress
@@ -88,6 +87,8 @@ def partial_beside(final: Path) -> Iterator[Path]:
         The folder is missing or takes no file.
     """
     prefix = f".{final.name[:KEPT_OF_NAME]}."
+    import tempfile
+
     descriptor, name = tempfile.mkstemp(dir=final.parent, prefix=prefix, suffix=".partial")
     os.close(descriptor)
     partial = Path(name)

@@ -17,7 +17,7 @@ from typing import Any
 
 import numpy as np
 
-from footfit.cli.answer_forms import FORMS
+from footfit.cli.answer_forms import form_of
 from footfit.geometry.numeric.arrays import Floats, Ints
 from footfit.meshes.write import encoded_mesh
 from footfit.report.terminal.scan_tables import terminal_text
@@ -194,7 +194,7 @@ def contradictions(
 
 def wide_text(value: Any, printed: str) -> str:
     """What a command printed, in a terminal that is wide enough for every line."""
-    table = FORMS[type(value)].table
+    table = form_of(value).table
     assert printed == terminal_text(table(value))
     return terminal_text(table(value), WIDE)
 

@@ -29,7 +29,7 @@ def modules_after(*arguments: str) -> set[str]:
     return set(done.stdout.splitlines()[-1].split())
 
 
-@pytest.mark.parametrize("command", [None, *(name for name, _, _ in COMMANDS)])
+@pytest.mark.parametrize("command", [None, *COMMANDS])
 def test_help_opens_none_of_the_heavy_libraries(command: str | None) -> None:
     arguments = ("-h",) if command is None else (command, "-h")
     assert not modules_after(*arguments) & set(HEAVY)
@@ -41,7 +41,7 @@ def test_a_match_without_a_page_opens_no_templates(foot: Path, catalogue: Path) 
     assert not opened & {"jinja2", "matplotlib"}
 
 
-@pytest.mark.parametrize("command", [name for name, _, _ in COMMANDS])
+@pytest.mark.parametrize("command", list(COMMANDS))
 def test_every_command_has_help_with_an_example_and_the_shared_options(
     footfit: Footfit, command: str
 ) -> None:

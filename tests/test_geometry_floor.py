@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 
 from footfit.geometry.mesh.samples import quadrature
 from footfit.geometry.mesh.welding import welded_vertices
-from footfit.geometry.numeric.planes import LEVEL, Plane, fitted_plane
+from footfit.geometry.numeric.planes import LEVEL, Plane, PlanePoints
 from footfit.geometry.pose.floor_plate import is_flat, without_plate
 from footfit.geometry.pose.sole_plane import sole_plane, support
 from tests import distortions, shapes
@@ -25,9 +25,12 @@ def test_a_plane_through_points_of_a_plane_is_that_plane(seed):
     normal /= np.linalg.norm(normal)
     across = np.linalg.svd(normal[None])[2][1:]
     points = rng.normal(size=(40, 2)) @ across + 3.5 * normal
-    plane = fitted_plane(points, rng.uniform(0.1, 1.0, 40), LEVEL.normal)
+    known = PlanePoints(points)
+    plane = known.plane(rng.uniform(0.1, 1.0, 40), LEVEL.normal)
     assert plane.normal == pytest.approx(normal, abs=ROUNDING)
     assert plane.offset == pytest.approx(3.5, abs=ROUNDING)
+    for each in (plane, LEVEL):
+        assert known.heights(each) == pytest.approx(each.heights(points), abs=ROUNDING)
 
 
 def test_the_sole_plane_of_a_box_is_its_bottom():

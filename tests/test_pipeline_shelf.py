@@ -290,6 +290,31 @@ def test_a_damaged_block_changes_no_answer(
 SHARED: dict[str, Path] = {}
 
 
+def test_blocks_with_the_hash_of_an_earlier_version_are_read_as_they_are(
+    measured: list[NewLast], feet: list[Profiled], tmp_path: Path
+) -> None:
+    path = catalogue_of(tmp_path / "lasts.footfit", measured, 10)
+    sound = matched(feet[2:], choice(path, None, None), Question(top=4))
+    with closing(sqlite3.connect(path)) as connection, connection:
+        for key, data in connection.execute("SELECT rowid, data FROM search_block").fetchall():
+            earlier = block_bytes.OTHER_HASH, block_bytes.checksum(data, block_bytes.OTHER_HASH)
+            assert earlier[1] != block_bytes.checksum(data)
+            change = "UPDATE search_block SET layout = ?, hash = ? WHERE rowid = ?"
+            connection.execute(change, (*earlier, key))
+    shelf = choice(path, None, None)
+    assert not shelf.lasts.bad
+    assert not len(shelf.lasts.from_rows)
+    assert matched(feet[2:], shelf, Question(top=4)).to_dict() == sound.to_dict()
+    with open_catalogue(path, write=True) as catalogue:
+        assert catalogue.findings() == []
+        assert catalogue.renew_blocks() == 0
+        catalogue.rename(catalogue.names()[0], "renamed")
+    with closing(sqlite3.connect(path)) as connection:
+        layouts = connection.execute("SELECT DISTINCT layout FROM search_block").fetchall()
+    assert (block_bytes.LAYOUT,) in layouts
+    assert not choice(path, None, None).lasts.bad
+
+
 def test_a_catalogue_that_is_changed_meanwhile_is_read_again(
     measured: list[NewLast], feet: list[Profiled], tmp_path: Path
 ) -> None:

@@ -10,7 +10,7 @@ from pathlib import Path
 from typing import Any, NamedTuple
 
 from footfit import errors
-from footfit.cli.app import COMMANDS, application
+from footfit.cli.app import COMMANDS, application, function_of
 from tests.conftest import ROOT, Footfit
 
 PACKAGE = ROOT / "footfit"
@@ -82,8 +82,8 @@ def helps() -> Iterator[Words]:
     from typer.main import get_command
 
     group: Any = get_command(application())
-    for name, function, _ in COMMANDS:
-        yield Words(f"footfit {name}", inspect.getdoc(function) or "")
+    for name in COMMANDS:
+        yield Words(f"footfit {name}", inspect.getdoc(function_of(name)) or "")
         for parameter in group.get_command(None, name).params:
             yield Words(f"footfit {name} {parameter.name}", parameter.help or "")
 

@@ -8,14 +8,13 @@ from typing import TYPE_CHECKING
 
 from footfit import results
 from footfit.api.inputs import FilePath
-from footfit.catalogue import store
+from footfit.catalogue.catalogue_reader import open_reader
 from footfit.locations import Location, LocationName, location_of
 from footfit.pipeline.batch.runs import HERE
-from footfit.pipeline.library import backup, check
-from footfit.results.population.checked_lasts import LastsCheck
 
 if TYPE_CHECKING:
     from footfit.pipeline.shelf.shelf import Shelf
+    from footfit.results.population.checked_lasts import LastsCheck
 
 
 class CatalogueFile:
@@ -27,11 +26,13 @@ class CatalogueFile:
 
     def info(self) -> results.CatalogueFacts:
         """Where the file is, and what it holds."""
-        with store.open_catalogue(self.path) as catalogue:
+        with open_reader(self.path) as catalogue:
             return catalogue.summary()
 
     def check(self) -> results.CheckOutcome:
         """Everything that is not as it was stored. Nothing is changed."""
+        from footfit.pipeline.library import check
+
         return check.check(self.path)
 
     def check_lasts(self, tolerance: str | None = None) -> LastsCheck:
@@ -46,10 +47,14 @@ class CatalogueFile:
 
     def backup(self, file: FilePath, *, replace: bool = False) -> results.BackupOutcome:
         """Copy the catalogue and check the copy; raises OutputExists, CheckFailed or BadOption."""
+        from footfit.pipeline.library import backup
+
         return backup.back_up(self.path, Path(file), replace=replace)
 
     def restore(self, file: FilePath) -> results.RestoreOutcome:
         """Make the catalogue what a backup is; raises UnreadableFile, CheckFailed or BadOption."""
+        from footfit.pipeline.library import backup
+
         self._chosen.clear()
         return backup.restore(self.path, Path(file))
 

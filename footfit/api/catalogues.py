@@ -26,8 +26,7 @@ from footfit.api.inputs import (
     worn_options,
 )
 from footfit.api.scans import aligned_shape, profiled_shape, sources
-from footfit.api.wearers import FitLog
-from footfit.catalogue import store
+from footfit.catalogue.catalogue_reader import open_reader
 from footfit.catalogue.file.opening import FIRST_STEPS
 from footfit.errors import BadOption, NoReference
 from footfit.locations import LocationName, location_of
@@ -37,6 +36,8 @@ from footfit.pipeline.customers.customer import Customer, alone, one_pair
 from footfit.pipeline.library import lasts
 
 if TYPE_CHECKING:
+    from footfit.api.wearers import FitLog
+    from footfit.catalogue import store
     from footfit.catalogue.group_commit import NewLast
     from footfit.pipeline.fit.match import Question
     from footfit.pipeline.library.entries import Entry
@@ -162,6 +163,8 @@ class Catalogue(CatalogueFile):
     @property
     def fit_log(self) -> FitLog:
         """What wearers said of shoes on these lasts."""
+        from footfit.api.wearers import FitLog
+
         return FitLog(self.path)
 
     def _question(self, question: MatchKeywords) -> Question:
@@ -192,6 +195,8 @@ class Catalogue(CatalogueFile):
     @contextmanager
     def _written(self) -> Iterator[store.Catalogue]:
         """The catalogue, open for a change."""
+        from footfit.catalogue import store
+
         self._chosen.clear()
         with store.open_catalogue(self.path, write=True, create=False) as catalogue:
             yield catalogue
@@ -282,6 +287,8 @@ class Catalogue(CatalogueFile):
         NameTaken, UnknownLast, BadOption
             For the first last that cannot be stored; those before it are stored.
         """
+        from footfit.catalogue import store
+
         self._chosen.clear()
         with store.open_catalogue(self.path, write=True) as catalogue:
             yield from catalogue.add_many(lasts, replace=replace)
@@ -304,7 +311,7 @@ class Catalogue(CatalogueFile):
 
     def name(self, name: str) -> str:
         """The name of a last as it is stored, for one in any case; raises UnknownLast."""
-        with store.open_catalogue(self.path) as catalogue:
+        with open_reader(self.path) as catalogue:
             return catalogue.name(name)
 
     def last(self, name: str) -> results.StoredLast:
@@ -334,7 +341,7 @@ class Catalogue(CatalogueFile):
         """
         from footfit.meshes.copies.compact_copy import limited_copy
 
-        with store.open_catalogue(self.path) as catalogue:
+        with open_reader(self.path) as catalogue:
             copy = catalogue.mesh_copy(name)
         return copy if most_faces is None else limited_copy(copy, most_faces)
 
@@ -386,7 +393,7 @@ class Catalogue(CatalogueFile):
             if last is not None:
                 raise BadOption("--to goes with --method paper or paper-literal")
             return None
-        with store.open_catalogue(self.path) as catalogue:
+        with open_reader(self.path) as catalogue:
             reference = catalogue.reference(last)
         if reference is None:
             words = f"the paper's methods need a reference last; {FIRST_STEPS}"

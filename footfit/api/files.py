@@ -8,10 +8,10 @@ from typing import TYPE_CHECKING, Any
 from footfit import results
 from footfit.errors import BadOption
 from footfit.locations import LocationName, location_of
-from footfit.results.population.coverage_answer import Coverage
 
 if TYPE_CHECKING:
     from footfit.meshes.exchange import Trimesh
+    from footfit.results.population.coverage_answer import Coverage
 
 MOST_LETTERS = 80
 """Of a title or a customer: what two lines of the head of a page can show."""
@@ -143,6 +143,7 @@ def page(
     from footfit.report.page.custom_page import custom_page
     from footfit.report.page.difference_page import difference_page
     from footfit.report.page.match_page import match_page
+    from footfit.results.population.coverage_answer import Coverage
 
     if isinstance(result, Coverage):
         from footfit.report.page.coverage_page import coverage_page

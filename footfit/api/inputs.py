@@ -20,20 +20,13 @@ from typing import (
 from footfit.errors import BadOption
 from footfit.pipeline.batch.runs import Jobs
 from footfit.pipeline.batch.sources import ReadingOptions, Source
-from footfit.results import (
-    AlignedScan,
-    GrowthQuestion,
-    HeelQuestion,
-    Profiled,
-    Scan,
-    SearchBy,
-    Worn,
-)
+from footfit.results import AlignedScan, HeelQuestion, Profiled, Scan, SearchBy, Worn
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike
 
     from footfit.meshes.exchange import Trimesh
+    from footfit.results import GrowthQuestion
 
 F = TypeVar("F", bound=Callable[..., Any])
 NEAR_KEYWORD = 0.45
@@ -294,10 +287,13 @@ def growth_options(options: Mapping[str, Any]) -> GrowthQuestion | None:
     BadOption
         Age or sex is given without growth, or the age is not a child's.
     """
+    names = ("growth", "age_years", "sex")
+    given = {name: options[name] for name in names if options.get(name) is not None}
+    if given in ({}, {"growth": False}):
+        return None
     from footfit.pipeline.customers.growth_forecast import growth_question
 
-    names = ("growth", "age_years", "sex")
-    return growth_question(**{"growth": False} | {n: options[n] for n in names if n in options})
+    return growth_question(**{"growth": False} | given)
 
 
 def reading_options(options: Mapping[str, Any]) -> ReadingOptions:

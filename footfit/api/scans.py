@@ -10,11 +10,8 @@ from typing import TYPE_CHECKING, Any, TypeVar, Unpack
 
 from footfit.api.inputs import (
     CompareKeywords,
-    Mesh,
-    Meshes,
     ReadingKeywords,
     ScaleKeywords,
-    Shape,
     heel_options,
     known_keywords,
     reading_options,
@@ -24,20 +21,15 @@ from footfit.api.inputs import (
 from footfit.errors import BadOption
 from footfit.pipeline.batch import runs
 from footfit.pipeline.batch.sources import NONE_NAMED, ReadingOptions, Source, mesh_sources
-from footfit.pipeline.customers.customer import Customer, pairs_by_name, pairs_in_csv
-from footfit.results import (
-    AlignedScan,
-    Comparison,
-    MeasuredScan,
-    Method,
-    Profiled,
-    Reference,
-    Scan,
-    SurfaceCurvature,
-)
+from footfit.pipeline.customers.customer import pairs_by_name, pairs_in_csv
+from footfit.results import AlignedScan, Profiled
 
 if TYPE_CHECKING:
     from concurrent.futures import Executor
+
+    from footfit.api.inputs import Mesh, Meshes, Shape
+    from footfit.pipeline.customers.customer import Customer
+    from footfit.results import Comparison, MeasuredScan, Method, Reference, Scan, SurfaceCurvature
 
 T = TypeVar("T")
 

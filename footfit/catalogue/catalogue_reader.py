@@ -3,50 +3,54 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from footfit.catalogue.blocks.block_reading import BlockLasts, block_lasts
-from footfit.catalogue.checks.damage import findings
-from footfit.catalogue.file.copying import copy_into
-from footfit.catalogue.file.dialect import Driver
-from footfit.catalogue.file.engine import sqlite_errors_in_words
+from footfit.catalogue.file.engine import SETTINGS, sqlite_errors_in_words
 from footfit.catalogue.file.migrate import Revisions, Schema
 from footfit.catalogue.fit_log import FitLog
-from footfit.catalogue.rows.columns import (
-    LAST,
-    MESH_COPY,
-    PARENTAGE,
-    SECTION,
-    Table,
-)
-from footfit.catalogue.rows.digests import Row
+from footfit.catalogue.rows.columns import LAST, MESH_COPY, PARENTAGE, SECTION, Table
 from footfit.catalogue.rows.last_names import last_id
 from footfit.catalogue.rows.records import mesh_copy_of, parentage_of, record_of, sections_of
-from footfit.catalogue.rows.reference_last import (
-    reference_of,
-    stored_reference,
-)
+from footfit.catalogue.rows.reference_last import reference_of, stored_reference
 from footfit.catalogue.rows.search import StoredLasts, verified_records
-from footfit.catalogue.rows.summary import summary
-from footfit.catalogue.rows.verified_rows import (
-    intact_last,
-    last_names,
-    sealed_row,
-    stored_lasts,
-)
-from footfit.catalogue.server.any_location import OpenLocation
-from footfit.catalogue.server.catalogue_server import NO_FILE, CatalogueServer
+from footfit.catalogue.rows.verified_rows import intact_last, last_names, sealed_row, stored_lasts
+from footfit.catalogue.server.any_location import OpenLocation, open_location_for_reading
 from footfit.errors import BadOption, UnknownLast
-from footfit.results import (
-    CatalogueFacts,
-    Finding,
-    LastRecord,
-    MeshCopy,
-    Parentage,
-    Reference,
-    ShapeSections,
-)
+
+if TYPE_CHECKING:
+    from footfit.catalogue.file.dialect import Driver
+    from footfit.catalogue.rows.digests import Row
+    from footfit.locations import Location
+    from footfit.results import (
+        CatalogueFacts,
+        Finding,
+        LastRecord,
+        MeshCopy,
+        Parentage,
+        Reference,
+        ShapeSections,
+    )
+
+
+@contextmanager
+def open_reader(location: Location) -> Iterator[CatalogueReader]:
+    """Open a catalogue to read it, for a ``with`` block; `store.open_catalogue` can also write.
+
+    Raises
+    ------
+    NoCatalogue, CatalogueUnusable
+        There is no catalogue, or it cannot be read.
+    """
+    schema = Schema()
+    file, revisions = open_location_for_reading(location, schema, SETTINGS.busy_timeout_s)
+    try:
+        yield CatalogueReader(file, revisions, schema, SETTINGS.busy_timeout_s)
+    finally:
+        file.close()
 
 
 @dataclass
@@ -196,11 +200,15 @@ class CatalogueReader:
 
     def summary(self) -> CatalogueFacts:
         """What the catalogue is, and counts of what it holds."""
+        from footfit.catalogue.rows.summary import summary
+
         with self.file.reading() as connection:
             return summary(connection, self.file.path, self.file.size_bytes)
 
     def findings(self) -> list[Finding]:
         """Everything that is not as it was stored."""
+        from footfit.catalogue.checks.damage import findings
+
         with self.file.reading() as connection:
             return findings(connection, self.schema)
 
@@ -212,6 +220,9 @@ class CatalogueReader:
         CatalogueDamaged, CatalogueNotWritable, CatalogueLocked
             The catalogue cannot be read, or the copy cannot be written.
         """
+        from footfit.catalogue.file.copying import copy_into
+        from footfit.catalogue.server.catalogue_server import NO_FILE, CatalogueServer
+
         if isinstance(self.file, CatalogueServer):
             raise BadOption(NO_FILE, str(self.file.path))
         with sqlite_errors_in_words(self.file.path):

@@ -3,16 +3,20 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
-from footfit.catalogue.file.dialect import Driver, driver_of
+from footfit.catalogue.file.dialect import driver_of
 from footfit.catalogue.rows.columns import FIT
-from footfit.catalogue.rows.digests import Row
 from footfit.catalogue.rows.records import fit_entry_of
 from footfit.catalogue.rows.verified_rows import row_digest, rows
 from footfit.catalogue.rows.writing import add_fit, delete_rows
-from footfit.catalogue.server.any_location import OpenLocation
 from footfit.errors import CatalogueDamaged, UnknownFit
-from footfit.results import FitEntry, ForgetOutcome
+
+if TYPE_CHECKING:
+    from footfit.catalogue.file.dialect import Driver
+    from footfit.catalogue.rows.digests import Row
+    from footfit.catalogue.server.any_location import OpenLocation
+    from footfit.results import FitEntry, ForgetOutcome
 
 
 @dataclass(frozen=True, slots=True)
@@ -60,6 +64,8 @@ class FitLog:
         UnknownFit
             There is no such code or id.
         """
+        from footfit.results import ForgetOutcome
+
         with self.file.atomic() as connection:
             keys = _keys(driver_of(connection), asked)
             if not keys:

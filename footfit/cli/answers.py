@@ -234,7 +234,7 @@ def tell(value: Any, mode: OutputMode, notices: Notices | None = None) -> None:
 
     ``notices`` are those of a batch.
     """
-    from footfit.cli.answer_forms import FORMS
+    from footfit.cli.answer_forms import form_of
 
     (notices or Notices(replace(mode, total=1))).say(value)
     if not mode.answers:
@@ -244,7 +244,7 @@ def tell(value: Any, mode: OutputMode, notices: Notices | None = None) -> None:
 
         answer(json_line(value.to_dict()))
     else:
-        show(FORMS[type(value)].table(value))
+        show(form_of(value).table(value))
 
 
 @contextmanager

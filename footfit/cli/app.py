@@ -9,7 +9,7 @@ from importlib import import_module
 import typer
 
 from footfit.cli.boundary import run_guarded
-from footfit.cli.command_group import CommandTable, LazyGroup
+from footfit.cli.command_group import LazyGroup
 from footfit.cli.console import answer
 from footfit.cli.settings import use_one_blas_thread
 from footfit.version import __version__
@@ -30,18 +30,15 @@ HEADINGS = {
 """Every command below its heading in the help. Its file and its function have its name."""
 
 
-def _function(command: str) -> Callable[..., object]:
+COMMANDS = {name: heading for heading, names in HEADINGS.items() for name in names.split()}
+"""The heading of each command in the help."""
+
+
+def function_of(command: str) -> Callable[..., object]:
+    """The function of a command; its file is opened only now."""
     name = command.replace("-", "_")
     function: Callable[..., object] = getattr(import_module(f"footfit.cli.commands.{name}"), name)
     return function
-
-
-COMMANDS: CommandTable = tuple(
-    (name, _function(name), heading)
-    for heading, names in HEADINGS.items()
-    for name in names.split()
-)
-"""Every command: its name, its function, its heading in the help."""
 
 
 def _version(wanted: bool) -> None:
@@ -64,7 +61,8 @@ def _root(
 class Commands(LazyGroup):
     """The commands of footfit."""
 
-    table = COMMANDS
+    headings = COMMANDS
+    function_of = staticmethod(function_of)
 
 
 def application() -> typer.Typer:

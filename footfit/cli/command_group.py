@@ -7,7 +7,7 @@ command are read when the command is used, not when the list of commands is show
 from __future__ import annotations
 
 import inspect
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import fields, is_dataclass
 from functools import wraps
 from pathlib import Path
@@ -19,9 +19,6 @@ from typer.main import get_command
 
 from footfit.cli.console import answer
 from footfit.cli.options import OUTPUT
-
-CommandTable = tuple[tuple[str, Callable[..., object], str], ...]
-"""Every command: its name, its function, its heading in the help."""
 
 
 def plain_command(command: Callable[..., object]) -> Callable[..., None]:
@@ -145,30 +142,30 @@ class PlainCommand(_HelpAsAnswer, TyperCommand):
 
 
 class LazyGroup(_HelpAsAnswer, TyperGroup):
-    """The commands of `table`, each built when it is used."""
+    """The commands of `headings`, each opened and built when it is used."""
 
-    table: CommandTable = ()
+    headings: Mapping[str, str] = {}
+    function_of: Callable[[str], Callable[..., object]]
 
     def __init__(self, **settings: Any) -> None:
         super().__init__(**settings)
-        self.commands: dict[str, Any] = {name: None for name, _, _ in self.table}
+        self.commands: dict[str, Any] = dict.fromkeys(self.headings)
 
     def get_command(self, ctx: Any, cmd_name: str) -> Any:
         """The command of that name, None where there is none."""
-        function = {name: function for name, function, _ in self.table}.get(cmd_name)
-        if function is None:
+        if cmd_name not in self.headings:
             return None
         single = typer.Typer(add_completion=False, rich_markup_mode=None)
         settings = {"help_option_names": ["-h", "--help"]}
         command = single.command(cmd_name, cls=PlainCommand, context_settings=settings)
-        command(plain_command(function))
+        command(plain_command(self.function_of(cmd_name)))
         return get_command(single)
 
     def format_options(self, ctx: Any, formatter: Any) -> None:
         """Write the options, and the commands under their headings."""
-        docs = ((name, function.__doc__ or "", heading) for name, function, heading in self.table)
+        docs = ((name, self.function_of(name).__doc__ or "") for name in self.headings)
         summaries = (
-            (heading, (name, " ".join(doc.partition("\n\n")[0].split())))
-            for name, doc, heading in docs
+            (self.headings[name], (name, " ".join(doc.partition("\n\n")[0].split())))
+            for name, doc in docs
         )
         _write_sections((*_records(self, ctx), *summaries), formatter)

@@ -75,9 +75,9 @@ class Notices:
 
     def say(self, value: Any) -> None:
         """Write the notices of a result to stderr; in a batch, none twice."""
-        from footfit.cli.answer_forms import FORMS
+        from footfit.cli.answer_forms import form_of
 
-        form, mode = FORMS[type(value)], self.mode
+        form, mode = form_of(value), self.mode
         path, notices = form.notices(value)
         skipped = form.in_table if mode.answers and not mode.json else frozenset()
         if mode.total > 1:

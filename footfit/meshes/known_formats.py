@@ -4,25 +4,20 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass, replace
+from importlib import import_module
 from pathlib import PurePath
+from typing import Any
 
 from footfit.errors import BadOption, DamagedMesh, FootfitError, TooLarge, UnknownFormat
 from footfit.meshes.formats.foreign import is_text, known_foreign, likeness
-from footfit.meshes.formats.glb import is_glb, read_glb
-from footfit.meshes.formats.obj import is_obj, read_obj
-from footfit.meshes.formats.off import is_off, read_off
-from footfit.meshes.formats.ply import is_ply, read_ply
 from footfit.meshes.formats.raw import RawMesh, checked_mesh
-from footfit.meshes.formats.stl import is_binary_stl, read_ascii_stl, read_binary_stl
-from footfit.meshes.formats.threemf import is_3mf, read_3mf
 from footfit.meshes.read_limits import Limits
-from footfit.meshes.rhino.from_3dm import is_3dm, read_3dm
 from footfit.results.values import Notice
 
 
 @dataclass(frozen=True, slots=True)
 class MeshFormat:
-    """A way to store a mesh.
+    """A way to store a mesh. Its module is opened when a file may be of this format.
 
     Attributes
     ----------
@@ -30,37 +25,43 @@ class MeshFormat:
         What ``MeshInfo.format`` says.
     extension : str
         How files of this format end, and what ``--format`` takes.
-    recognised : callable
-        Tells whether bytes are of this format, by their content alone.
-    read : callable
-        From bytes and limits to a :class:`RawMesh`; it may raise anything on bad bytes.
+    module : str
+        The module of `footfit.meshes` that has the two functions.
+    recognises, reader : str
+        The function that tells whether bytes are of this format, by their content alone; and the
+        one from bytes and limits to a :class:`RawMesh`, which may raise anything on bad bytes.
     """
 
     name: str
     extension: str
-    recognised: Callable[[bytes], bool]
-    read: Callable[[bytes, Limits], RawMesh]
+    module: str
+    recognises: str
+    reader: str
 
+    def recognised(self, data: bytes) -> bool:
+        """Whether bytes are of this format."""
+        return bool(self._function(self.recognises)(data))
 
-def _is_ascii_stl(data: bytes) -> bool:
-    begins = data[:4096].removeprefix(b"\xef\xbb\xbf").lstrip().lower().startswith(b"solid")
-    return begins and is_text(data)
+    def read(self, data: bytes, limits: Limits) -> RawMesh:
+        """The mesh in the bytes."""
+        mesh: RawMesh = self._function(self.reader)(data, limits)
+        return mesh
 
-
-def _is_obj_text(data: bytes) -> bool:
-    return is_text(data) and known_foreign(data) is None and is_obj(data)
+    def _function(self, name: str) -> Callable[..., Any]:
+        function: Callable[..., Any] = getattr(import_module(f"footfit.meshes.{self.module}"), name)
+        return function
 
 
 # In this order: the surest signature first.
 FORMATS: tuple[MeshFormat, ...] = (
-    MeshFormat("stl-binary", "stl", is_binary_stl, read_binary_stl),
-    MeshFormat("ply", "ply", is_ply, read_ply),
-    MeshFormat("off", "off", is_off, read_off),
-    MeshFormat("glb", "glb", is_glb, read_glb),
-    MeshFormat("3mf", "3mf", is_3mf, read_3mf),
-    MeshFormat("3dm", "3dm", is_3dm, read_3dm),
-    MeshFormat("stl-ascii", "stl", _is_ascii_stl, read_ascii_stl),
-    MeshFormat("obj", "obj", _is_obj_text, read_obj),
+    MeshFormat("stl-binary", "stl", "formats.stl", "is_binary_stl", "read_binary_stl"),
+    MeshFormat("ply", "ply", "formats.ply", "is_ply", "read_ply"),
+    MeshFormat("off", "off", "formats.off", "is_off", "read_off"),
+    MeshFormat("glb", "glb", "formats.glb", "is_glb", "read_glb"),
+    MeshFormat("3mf", "3mf", "formats.threemf", "is_3mf", "read_3mf"),
+    MeshFormat("3dm", "3dm", "rhino.from_3dm", "is_3dm", "read_3dm"),
+    MeshFormat("stl-ascii", "stl", "formats.stl", "is_ascii_stl", "read_ascii_stl"),
+    MeshFormat("obj", "obj", "formats.obj", "is_obj", "read_obj"),
 )
 EXTENSIONS = tuple(sorted({known.extension for known in FORMATS}))
 _READABLE = "STL, OBJ, PLY, OFF, GLB, 3MF or 3DM"

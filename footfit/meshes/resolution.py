@@ -7,7 +7,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from footfit.errors import TooCoarse
-from footfit.geometry.numeric.arrays import Floats
+from footfit.geometry.numeric.arrays import Floats, distinct
+from footfit.geometry.numeric.quantiles import median
 from footfit.results.values import Notice
 
 
@@ -71,13 +72,13 @@ def coordinate_step(vertices: Floats) -> float:
 
 def _step(values: Floats) -> float:
     """The step between the values (n,) of an axis; 0 if their differences have none in common."""
-    gaps = np.diff(np.unique(values))
+    gaps = np.diff(distinct(values))
     size = float(np.abs(values).max())
     for least in (0.0, RESOLUTION.rounding * size):  # exact numbers first, then rounded ones
         wide = gaps[gaps > least]
         if not len(wide):
             return 0.0
-        step = float(np.median(wide[wide < 1.5 * wide.min()]))
+        step = median(wide[wide < 1.5 * wide.min()])
         off = np.abs(wide / step - np.round(wide / step))
         if off.max() < RESOLUTION.off_step:
             return step

@@ -9,12 +9,13 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from footfit.errors import BadOption
-from footfit.geometry.numeric.arrays import Floats
 from footfit.number_words import plain
-from footfit.results import AlignedScan, LastRecord, SurfaceCurvature
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
+
+    from footfit.geometry.numeric.arrays import Floats
+    from footfit.results import AlignedScan, LastRecord, SurfaceCurvature
 
 MESH_KINDS = ("stl", "ply", "obj", "off", "3mf", "3dm")
 PICTURE_KINDS = ("svg", "png")

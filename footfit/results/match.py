@@ -7,8 +7,6 @@ from itertools import zip_longest
 from typing import TYPE_CHECKING
 
 from footfit.geometry.fit.sizes import SYSTEMS, foot_size, foot_sizes, system_named
-from footfit.results.compare import tightest_place
-from footfit.results.evidence.child_growth import Growth
 from footfit.results.fit import ZONE_ENDS
 from footfit.results.heel import AS_SCANNED, FLARE, HeelChange, HeelQuestion
 from footfit.results.profile import flare_part
@@ -30,6 +28,7 @@ from footfit.results.worn import BAREFOOT, Worn
 
 if TYPE_CHECKING:
     from footfit.results.compare import SurfaceClearance, TightPlace
+    from footfit.results.evidence.child_growth import Growth
     from footfit.results.fit import FitProfile, FootFit
     from footfit.results.last_record import LastRecord
     from footfit.results.profile import Profiled
@@ -105,6 +104,8 @@ class Candidate(Part):
         """The tightest place of the feet, if their surfaces were compared with the last's."""
         if not self.surfaces:
             return None
+        from footfit.results.compare import tightest_place
+
         return tightest_place(
             [(surface.side, surface.zones) for surface in self.surfaces],
             [(fit.side, fit.toe_box) for fit in self.fits],

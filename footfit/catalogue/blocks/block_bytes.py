@@ -16,7 +16,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from footfit.geometry.numeric.arrays import Ints
+from footfit.geometry.numeric.arrays import Ints, distinct
 from footfit.results.columns.last_columns import (
     LastColumns,
     MeasureColumns,
@@ -25,9 +25,10 @@ from footfit.results.columns.last_columns import (
 )
 from footfit.results.columns.vocabulary import NO_WORD, Vocabulary, Words
 
-LAYOUT = "blocks/1"
-"""What a block of this footfit is. Lasts of a block with another layout are read from their rows.
-Change it if a part, or what is computed for it (`toe_walls.last_plan`), changes.
+LAYOUT, OTHER_HASH = LAYOUTS = ("blocks/2", "blocks/1")
+"""What a block of this footfit is, and one with the same parts and another hash, which is read too.
+Lasts of a block with any other layout are read from their rows. Change it if a part, or what is
+computed for it (`toe_walls.last_plan`), changes.
 """
 BLOCK_LASTS = 256
 """How many keys of lasts a block is for."""
@@ -44,7 +45,7 @@ def block_of(key: int) -> int:
     return key // BLOCK_LASTS
 
 
-def checksum(data: bytes | memoryview) -> str:
+def checksum(data: bytes | memoryview, layout: str = LAYOUT) -> str:
     """The hash of a part: its words of 64 bits, each times an odd number of its own, added up.
 
     A change inside one word always changes it; any other change is missed once in 2^64. It is ten
@@ -59,16 +60,26 @@ def checksum(data: bytes | memoryview) -> str:
     whole = len(data) // 8
     words = np.frombuffer(data, dtype="<u8", count=whole)
     rest = int.from_bytes(data[8 * whole :], "little")
-    factors = odd_factors(1 << max(whole + 2, 1 << 10).bit_length())
+    factors = odd_factors(1 << max(whole + 2, 1 << 10).bit_length(), layout)
     total = int(np.dot(words, factors[2 : whole + 2]))
     total += rest * int(factors[0]) + len(data) * int(factors[1])
     return f"{total % (1 << 64):016x}"
 
 
 @lru_cache(maxsize=4)
-def odd_factors(count: int) -> NDArray[np.uint64]:
-    """Odd numbers; those of a larger count begin with those of a smaller one."""
-    return np.random.PCG64(HASH_SEED).random_raw(count) | np.uint64(1)
+def odd_factors(count: int, layout: str = LAYOUT) -> NDArray[np.uint64]:
+    """Odd numbers; those of a larger count begin with those of a smaller one.
+
+    They are those of the generator SplitMix64 (Steele, Lea and Flood, 2014), which needs no module
+    of its own: loading ``numpy.random``, as for the other hash, takes 5 ms.
+    """
+    if layout == OTHER_HASH:
+        return np.random.PCG64(HASH_SEED).random_raw(count) | np.uint64(1)
+    mixed = np.arange(1, count + 1, dtype=np.uint64) * np.uint64(0x9E3779B97F4A7C15)
+    mixed += np.uint64(HASH_SEED)
+    for shift, factor in ((30, 0xBF58476D1CE4E5B9), (27, 0x94D049BB133111EB)):
+        mixed = (mixed ^ (mixed >> np.uint64(shift))) * np.uint64(factor)
+    return mixed ^ (mixed >> np.uint64(31)) | np.uint64(1)
 
 
 # ---------------------------------------------------------------- sections
@@ -98,7 +109,7 @@ def _local(words: Words, numbers: Ints) -> tuple[Ints, bytes]:
 
     The list is sorted, so that a block has the same bytes whatever was read before.
     """
-    used = sorted({int(number) for number in np.unique(numbers) if number != NO_WORD})
+    used = sorted({int(number) for number in distinct(numbers) if number != NO_WORD})
     texts = sorted((json.dumps(words.values[number]), number) for number in used)
     place = np.full(len(words) + 1, LACKING)  # NO_WORD is the last place
     place[[number for _, number in texts]] = np.arange(len(texts))

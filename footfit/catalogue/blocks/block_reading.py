@@ -17,7 +17,7 @@ import numpy as np
 from footfit.catalogue.blocks.block_bytes import (
     BOTTOM,
     LASTS,
-    LAYOUT,
+    LAYOUTS,
     MEASURES,
     PARTS,
     PLAN,
@@ -41,23 +41,17 @@ from footfit.catalogue.blocks.search_file import (
 from footfit.catalogue.file.dialect import Driver
 from footfit.catalogue.file.engine import SETTINGS
 from footfit.catalogue.file.migrate import Schema
-from footfit.catalogue.rows.verified_rows import (
-    LastRows,
-    stored_lasts,
-)
+from footfit.catalogue.rows.verified_rows import LastRows, stored_lasts
 from footfit.catalogue.server.any_location import open_location_for_reading, stamp_of
-from footfit.geometry.numeric.arrays import Bools, Ints
+from footfit.geometry.numeric.arrays import Bools, Ints, distinct
 from footfit.locations import Location
 from footfit.results import LastRecord
-from footfit.results.columns.last_columns import (
-    SPOILT,
-    LastColumns,
-    joined,
-)
+from footfit.results.columns.last_columns import SPOILT, LastColumns, joined
 from footfit.results.columns.vocabulary import Vocabulary
 
 CHUNK_BLOCKS = 16
 """So many blocks are looked at together: 4,096 lasts take some MB."""
+BLOCKS_ANEW = "type: footfit upgrade-catalogue, which makes it anew"
 KEPT_BYTES = 4_000_000
 """What is read of blocks stays in memory up to this size for each part; if it is asked for again,
 as for the next customer, whatever its size.
@@ -131,16 +125,19 @@ class BlockLasts:
 
     def taken(self, chosen: Ints, parts: Sequence[str]) -> LastColumns:
         """Some lasts with these parts, in the order of ``chosen``; raises as `chunks`."""
+        with self._snapshot(parts) as connection:
+            return self._taken(connection, chosen, parts)
+
+    def _taken(self, connection: Driver, chosen: Ints, parts: Sequence[str]) -> LastColumns:
         order = np.argsort(chosen, kind="stable")
         wanted = chosen[order]
         of_block = np.searchsorted(self.starts, wanted, side="right") - 1
         picked, apart = [], _only(self.from_rows, parts)
-        with self._snapshot(parts) as connection:
-            for at in np.unique(of_block).tolist():
-                rows_there = wanted[of_block == at] - self.starts[at]
-                there = at < len(self.blocks)
-                lasts = self._read(connection, at, at + 1, parts) if there else apart
-                picked.append(lasts.taken(rows_there))
+        for at in distinct(of_block).tolist():
+            rows_there = wanted[of_block == at] - self.starts[at]
+            there = at < len(self.blocks)
+            lasts = self._read(connection, at, at + 1, parts) if there else apart
+            picked.append(lasts.taken(rows_there))
         lasts = joined(picked or [apart.taken(chosen)]).taken(np.argsort(order))
         return _spoilt(lasts, np.isin(chosen, list(self.spoilt))) if self.spoilt else lasts
 
@@ -156,8 +153,9 @@ class BlockLasts:
         OtherCatalogue, BadBlocks
             The catalogue was changed meanwhile; a block does not say what the rows say.
         """
-        mine = self.taken(np.array(chosen, dtype=np.int64), PARTS[1:])
-        with self._snapshot(()) as connection:
+        parts = PARTS[1:]
+        with self._snapshot(parts) as connection:
+            mine = self._taken(connection, np.array(chosen, dtype=np.int64), parts)
             return [
                 self._shown(connection, row, mine.taken(slice(at, at + 1)))
                 for at, row in enumerate(chosen)
@@ -241,7 +239,9 @@ STORED = "block, layout, data, hash"
 
 def is_sound(layout: object, data: object, digest: object) -> bool:
     """Whether a part is what this footfit stored."""
-    return layout == LAYOUT and isinstance(data, bytes) and digest == checksum(data)
+    if layout not in LAYOUTS or not isinstance(data, bytes):
+        return False
+    return digest == checksum(data, str(layout))
 
 
 def block_lasts(

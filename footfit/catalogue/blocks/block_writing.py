@@ -26,8 +26,6 @@ from footfit.catalogue.rows.verified_rows import stored_lasts
 from footfit.results.columns.last_columns import SPOILT, LastColumns, joined
 from footfit.results.columns.vocabulary import Vocabulary
 
-BLOCKS_ANEW = "type: footfit upgrade-catalogue, which makes it anew"
-
 
 def refresh_blocks(
     connection: Driver, keys: Iterable[int], fresh: LastColumns | None = None

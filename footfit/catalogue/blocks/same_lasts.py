@@ -35,4 +35,8 @@ def same_lasts(one: LastColumns, other: LastColumns) -> bool:
 def _same(one: Any, other: Any, tolerance: float = 0.0) -> bool:
     if isinstance(one, tuple):
         return bool(one == other)
-    return bool(np.allclose(one, other, rtol=tolerance, atol=tolerance, equal_nan=True))
+    if np.array_equal(one, other, equal_nan=one.dtype.kind == "f"):  # the usual case, and quick
+        return True
+    return tolerance > 0.0 and bool(
+        np.allclose(one, other, rtol=tolerance, atol=tolerance, equal_nan=True)
+    )

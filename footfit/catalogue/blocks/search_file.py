@@ -35,7 +35,7 @@ from footfit.whole_files import partial_beside
 SUFFIX = ".search"
 LEAST_LASTS = 4_096
 """A smaller catalogue has no search file: its blocks are read in some hundredths of a second."""
-LAYOUT = f"search/2 {SKETCH} {DISTANCE}"
+LAYOUT = f"search/3 {SKETCH} {DISTANCE}"
 """What a search file of this footfit is."""
 MAGIC = b"footfit search\0\0"
 START, ALIGNED = len(MAGIC) + 32, 64

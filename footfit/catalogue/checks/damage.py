@@ -8,7 +8,8 @@ from functools import partial
 
 import numpy as np
 
-from footfit.catalogue.blocks.block_writing import BLOCKS_ANEW, wrong_blocks
+from footfit.catalogue.blocks.block_reading import BLOCKS_ANEW
+from footfit.catalogue.blocks.block_writing import wrong_blocks
 from footfit.catalogue.checks.plausible_values import implausible, implausible_values
 from footfit.catalogue.checks.schema_comparison import expected_objects, stored_objects
 from footfit.catalogue.file.dialect import Driver, ServerConnection, column_names, table_names

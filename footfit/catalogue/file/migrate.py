@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-import shlex
 import sqlite3
 from collections.abc import Callable
 from contextlib import closing
 from dataclasses import dataclass, field
+from functools import cache
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -25,6 +25,7 @@ Finish = Callable[[Driver], object]
 """What is done after the migrations of an older catalogue, in their transaction."""
 
 
+@cache
 def migrations_folder() -> Path:
     """The folder of the migrations: inside an installed footfit, beside it in a source tree."""
     package = Path(__file__).resolve().parents[2]
@@ -109,6 +110,8 @@ def require_known_revision(
             str(place),
         )
     if not older and revision != schema.head:
+        import shlex
+
         raise CatalogueUnusable(
             f"has the older schema {revision!r}; type: footfit upgrade-catalogue --catalogue"
             f" {shlex.quote(str(place))}",

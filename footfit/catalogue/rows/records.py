@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
+from functools import cache
 from operator import itemgetter
-from typing import Any
+from typing import TYPE_CHECKING
 
 from footfit.catalogue.file.engine import LACKS
 from footfit.catalogue.rows.columns import (
@@ -27,7 +28,6 @@ from footfit.geometry.fit.stations import STATIONS, NamedSection
 from footfit.geometry.flare.definition import FlareProfile
 from footfit.results import (
     Eigenframe,
-    FitEntry,
     LastLabels,
     LastRecord,
     Measure,
@@ -37,12 +37,14 @@ from footfit.results import (
     Notice,
     Parentage,
     PoseQuality,
-    RatedZone,
     Reference,
     ShapeSections,
     SideVerdict,
     Target,
 )
+
+if TYPE_CHECKING:
+    from footfit.results import FitEntry, RatedZone
 
 _labels = LAST.reader("labels", LastLabels, parent=itemgetter("parent"))
 _NOT_KEPT = {"step": lambda _: 0.0, "scanner": lambda _: None}  # no column keeps them
@@ -67,7 +69,6 @@ _stations = {
     )
     for station in STATIONS
 }
-_fit = FIT.reader("", FitEntry, zones=lambda row: _rated_zones(json.loads(row["zones"])))
 _parentage = PARENTAGE.reader(
     "", Parentage, targets=lambda row: tuple(Target(**each) for each in json.loads(row["targets"]))
 )
@@ -143,10 +144,16 @@ def fit_entry_of(row: Row) -> FitEntry:
         The table has lost a column, or the row holds what no entry has.
     """
     try:
-        return _fit(row)
+        return _fit_reader()(row)
     except (KeyError, TypeError, ValueError) as error:
         raise CatalogueDamaged(LACKS) from error
 
 
-def _rated_zones(stored: list[dict[str, Any]]) -> tuple[RatedZone, ...]:
-    return tuple(RatedZone(**zone) for zone in stored)
+@cache
+def _fit_reader() -> Callable[[Row], FitEntry]:
+    from footfit.results import FitEntry, RatedZone
+
+    def zones(row: Row) -> tuple[RatedZone, ...]:
+        return tuple(RatedZone(**zone) for zone in json.loads(row["zones"]))
+
+    return FIT.reader("", FitEntry, zones=zones)

@@ -7,12 +7,11 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from footfit.catalogue.file.dialect import Driver, driver_of
+from footfit.catalogue.file.dialect import driver_of
 from footfit.catalogue.rows.array_blobs import blob
 from footfit.catalogue.rows.columns import FRAME, REFERENCE
 from footfit.catalogue.rows.records import printed_frame_of, record_of, reference_from
 from footfit.catalogue.rows.verified_rows import (
-    LastRows,
     last_names,
     row_digest,
     rows,
@@ -21,17 +20,21 @@ from footfit.catalogue.rows.verified_rows import (
 )
 from footfit.catalogue.rows.writing import seal, update_row, write_reference
 from footfit.errors import CatalogueDamaged
-from footfit.geometry.numeric.arrays import Floats
 from footfit.geometry.pose.paper_frame import (
     canonical_centroid_mm,
     mirrored_frame,
     om_e,
     paper_transform,
 )
-from footfit.results import LastRecord, Reference
+from footfit.results import Reference
 
 if TYPE_CHECKING:
     import sqlalchemy as sa
+
+    from footfit.catalogue.file.dialect import Driver
+    from footfit.catalogue.rows.verified_rows import LastRows
+    from footfit.geometry.numeric.arrays import Floats
+    from footfit.results import LastRecord
 
 
 def stored_reference(connection: Driver) -> tuple[int, Reference] | None:

@@ -18,15 +18,17 @@ from footfit.catalogue.rows.columns import (
     PARENTAGE,
     REFERENCE,
     SECTION,
-    Table,
 )
-from footfit.catalogue.rows.digests import Row
-from footfit.catalogue.rows.verified_rows import LastRows, row_digest, rows, stored_lasts
-from footfit.results import FitEntry, LastRecord, Parentage, Reference, ShapeSections
+from footfit.catalogue.rows.verified_rows import row_digest, rows, stored_lasts
 from footfit.version import __version__
 
 if TYPE_CHECKING:
     import sqlalchemy as sa
+
+    from footfit.catalogue.rows.columns import Table
+    from footfit.catalogue.rows.digests import Row
+    from footfit.catalogue.rows.verified_rows import LastRows
+    from footfit.results import FitEntry, LastRecord, Parentage, Reference, ShapeSections
 
 LABEL_COLUMNS = tuple(name for name in LAST.readers("labels") if name != "name")
 """What is said of a last and may change."""

@@ -53,9 +53,17 @@ class AlongBottomSettings:
 
 
 ALONG_BOTTOM = AlongBottomSettings()
+GAUSS = (
+    (0.2386191860831969, 0.46791393457269104),
+    (0.6612093864662645, 0.3607615730481387),
+    (0.9324695142031519, 0.17132449237917027),
+)
+"""Half of the places from -1 to 1, and their weights, of Gauss's rule of six points (as
+``numpy.polynomial.legendre.leggauss`` gives them, which takes 2 ms to load).
+"""
 _PLACES = [
-    (0.5 + 0.5 * place, 0.5 * weight)
-    for place, weight in np.transpose(np.polynomial.legendre.leggauss(6)).tolist()
+    *((0.5 - 0.5 * place, 0.5 * weight) for place, weight in GAUSS[::-1]),
+    *((0.5 + 0.5 * place, 0.5 * weight) for place, weight in GAUSS),
 ]
 
 

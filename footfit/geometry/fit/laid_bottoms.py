@@ -14,7 +14,7 @@ import numpy as np
 from footfit.geometry.measures.landmarks import Shape
 from footfit.geometry.mesh.nearest import at_rim, nearest_on_surface, part_middles
 from footfit.geometry.mesh.surface import area_vectors, face_normals
-from footfit.geometry.numeric.arrays import Bools, Floats, Ints, row_dots
+from footfit.geometry.numeric.arrays import Bools, Floats, Ints, distinct, row_dots
 from footfit.geometry.numeric.rotations import rotations_about
 
 
@@ -142,7 +142,7 @@ def _samples(shape: Shape, settings: BottomSettings) -> tuple[Floats, Floats]:
     area = 0.5 * np.linalg.norm(area_vectors(shape.vertices_mm, faces), axis=1)
     splits = np.clip(np.ceil(np.sqrt(2.0 * area) / settings.spacing_mm), 1, 8).astype(np.int64)
     points, areas = [], []
-    for split in np.unique(splits).tolist():
+    for split in distinct(splits).tolist():
         chosen = splits == split
         corners = shape.vertices_mm[faces[chosen]]
         points.append((part_middles(split) @ corners).reshape(-1, 3))

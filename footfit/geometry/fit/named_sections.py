@@ -7,7 +7,6 @@ from dataclasses import dataclass
 import numpy as np
 
 from footfit.errors import HalfScan
-from footfit.geometry.fit.paired_sections import station_plane
 from footfit.geometry.fit.stations import STATIONS, NamedSection
 from footfit.geometry.measures.landmarks import Shape
 from footfit.geometry.mesh.sections import extremes_below, lowest, sections_across
@@ -50,6 +49,8 @@ def named_sections(
     A station where the section is open is left out. A section that runs over the top cut of a last
     or a leg is kept with it.
     """
+    from footfit.geometry.fit.paired_sections import station_plane
+
     kept = {}
     for station in STATIONS:
         origin, axes = station_plane(shape, station)

@@ -14,7 +14,7 @@ import numpy as np
 
 from footfit.geometry.fit.named_sections import NAMED_SECTIONS
 from footfit.geometry.fit.placement import PLACEMENT
-from footfit.geometry.numeric.arrays import Bools, Floats, Ints
+from footfit.geometry.numeric.arrays import Bools, Floats, Ints, distinct
 
 TOES = ("big toe", "second toe", "third toe", "fourth toe", "little toe")
 WALLS = ("front", "inner", "outer")
@@ -201,7 +201,7 @@ def _toe_points(foot: ToesPlan) -> tuple[Floats, Ints]:
     steps = np.linalg.norm(np.diff(corners, axis=0), axis=1)
     arc = np.concatenate([[0.0], np.cumsum(steps)])
     even = np.arange(0.0, arc[-1], TOE_BOX.step_mm)
-    at = np.union1d(arc, even)
+    at = distinct(np.concatenate([arc, even]))
     points = np.column_stack([np.interp(at, arc, corners[:, axis]) for axis in (0, 1)])
     aside = points[:, 1]
     share = (aside.max() - aside) / np.ptp(aside)
@@ -247,11 +247,12 @@ def _wall_distances(points_mm: Floats, edges_mm: Floats) -> tuple[Floats, Ints]:
     outer, inner = edges_mm[:, :, [0, 1]], edges_mm[:, ::-1, [0, 2]]
     ring = np.concatenate([outer, inner], axis=1)
     start, way = ring[:, :-1], np.diff(ring, axis=1)
-    from_start = points_mm[:, :, None] - start[:, None]  # (n, m, segments, 2)
-    squares = np.maximum(np.square(way).sum(axis=2), 1e-12)[:, None]
-    share = np.clip((from_start * way[:, None]).sum(axis=3) / squares, 0.0, 1.0)
-    off = from_start - share[..., None] * way[:, None]
-    distance = np.hypot(off[..., 0], off[..., 1])
+    # Coordinate by coordinate: NumPy is slow along an axis of two.
+    way_x, way_y = (np.ascontiguousarray(way[:, None, :, axis]) for axis in (0, 1))
+    from_x, from_y = (points_mm[:, :, None, i] - start[:, None, :, i] for i in (0, 1))
+    squares = np.maximum(np.square(way_x) + np.square(way_y), 1e-12)
+    share = np.clip((from_x * way_x + from_y * way_y) / squares, 0.0, 1.0)  # (n, m, segments)
+    distance = np.hypot(from_x - share * way_x, from_y - share * way_y)
     nearest = distance.argmin(axis=2)
     rows = np.arange(len(ring))[:, None]
     along, aside = np.moveaxis(way[rows, nearest], 2, 0)

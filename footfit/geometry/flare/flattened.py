@@ -10,7 +10,6 @@ from footfit.geometry.flare.centre_line import CentreLine
 from footfit.geometry.flare.definition import FlareDefinition
 from footfit.geometry.flare.leaning_shank import without_leaning_shank
 from footfit.geometry.flare.levelled_bottom import BottomShape, bottom_shape
-from footfit.geometry.flare.turning import laid_flat
 from footfit.geometry.flare.unrolling import FlatBottom, SideLine, flat_bottom, side_line
 from footfit.geometry.numeric.arrays import Floats, Ints
 from footfit.geometry.stance.stance import Stance
@@ -82,6 +81,8 @@ def flattened(
         flat = FlatBottom(*without_leaning_shank(vertices_mm, faces), np.eye(2))
         shape = bottom_shape(flat.vertices_mm, flat.faces, definition)
         return Flattened(shape, definition, SideLine.level(), flat.turn, np.eye(4))
+    from footfit.geometry.flare.turning import laid_flat
+
     stands = stance.standing_transform
     line = side_line(stance.middle_mm, stance.length_mm, definition)
     standing_mm = vertices_mm @ stands[:3, :3].T + stands[:3, 3]

@@ -9,15 +9,11 @@ import numpy as np
 
 from footfit.errors import HalfScan
 from footfit.geometry.flare.definition import FlareDefinition
-from footfit.geometry.mesh.sections import (
-    Segments,
-    lowest,
-    sections_across,
-    soles,
-)
+from footfit.geometry.mesh.sections import Segments, lowest, sections_across, soles
 from footfit.geometry.mesh.surface import area_vectors
 from footfit.geometry.mesh.welding import without_unused_vertices
 from footfit.geometry.numeric.arrays import Bools, Floats, Ints
+from footfit.geometry.numeric.quantiles import median
 
 # Faces that these leave out change no value, as a test checks; the rest is in the definition.
 _NEIGHBOURHOOD = 0.10  # a normal section reaches less than this forward and backward along x
@@ -135,7 +131,7 @@ def _stance(
         known = slope[window & np.isfinite(slope)]
         if len(known) == 0 or len(known) < definition.found_least * window.sum():
             return None
-        medians.append(float(np.median(known)))
+        medians.append(median(known))
     return float(np.mean(medians))
 
 

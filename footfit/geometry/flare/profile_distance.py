@@ -81,7 +81,7 @@ def profile_distances(profile: FlareProfile, many: Sequence[FlareProfile]) -> Pr
 
 def require_same_stations(count: int, counts: Sequence[int] | Ints) -> None:
     """Raise ValueError unless all profiles have so many stations."""
-    if any(other != count for other in np.unique(counts)):
+    if (np.asarray(counts) != count).any():
         raise ValueError("profiles of different definitions cannot be compared: upgrade the older")
 
 

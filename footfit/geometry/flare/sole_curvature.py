@@ -21,6 +21,7 @@ from footfit.geometry.flare.levelled_bottom import BottomShape
 from footfit.geometry.mesh.samples import short_triangles
 from footfit.geometry.mesh.surface import area_vectors
 from footfit.geometry.numeric.arrays import Floats
+from footfit.geometry.numeric.quantiles import median
 from footfit.geometry.numeric.smoothing import local_quadratic
 
 
@@ -67,7 +68,7 @@ def _station_means(
     kernel = np.exp(-0.5 * offset**2)
     normal = kernel @ binned[:, :3]
     floor_area = -normal[:, 2]  # seen from below
-    seen = floor_area > definition.surface_least * np.median(floor_area)
+    seen = floor_area > definition.surface_least * median(floor_area)
     if floor_area.max() <= 0.0 or seen.mean() < definition.found_least:
         return None
     cosine = np.ones(len(at))

@@ -8,7 +8,8 @@ import numpy as np
 
 from footfit.geometry.mesh.surface import area_vectors, unit
 from footfit.geometry.mesh.topology import edge_groups, lowest_connected
-from footfit.geometry.numeric.arrays import Bools, Floats, Ints, row_dots, row_lengths
+from footfit.geometry.numeric.arrays import Bools, Floats, Ints, distinct, row_dots, row_lengths
+from footfit.geometry.numeric.quantiles import median
 
 
 @dataclass(frozen=True, slots=True)
@@ -117,7 +118,7 @@ def _lie_in_planes(vertices: Floats, faces: Ints, patches: _Patches, length: flo
     """Which patches are thinner than ``FILLING.thickness``, (patches,)."""
     flat = np.zeros(int(patches.label.max()) + 1, dtype=bool)
     for number in range(len(flat)):
-        points = vertices[np.unique(faces[patches.rows[patches.label == number]])]
+        points = vertices[distinct(faces[patches.rows[patches.label == number]])]
         normal = np.linalg.svd(points - points.mean(axis=0), full_matrices=False)[2][-1]
         flat[number] = np.ptp(points @ normal) < FILLING.thickness * length
     return flat
@@ -134,7 +135,7 @@ def _large_facets(vertices: Floats, faces: Ints, length: float, *, apart: bool) 
     columns = [np.ascontiguousarray(column)[faces.T] for column in vertices.T]
     x, y, z = (np.square(column[[1, 2, 0]] - column) for column in columns)
     squares = x + y + z  # (3, m): the edge from each corner on
-    usual = float(np.sqrt(np.median(squares[:, :: max(1, len(faces) // 2000)])))
+    usual = float(np.sqrt(median(squares[:, :: max(1, len(faces) // 2000)])))
     least = max(FILLING.long * length, FILLING.longer * usual) ** 2
     large = (squares > least).any(axis=0)
     if not large.any():

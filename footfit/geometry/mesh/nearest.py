@@ -8,7 +8,7 @@ import numpy as np
 
 from footfit.geometry.mesh.surface import area_vectors, corner_angles, unit
 from footfit.geometry.mesh.topology import boundary_vertices
-from footfit.geometry.numeric.arrays import Bools, Floats, Ints, row_dots
+from footfit.geometry.numeric.arrays import Bools, Floats, Ints, distinct, row_dots
 
 
 @dataclass(frozen=True, slots=True)
@@ -177,7 +177,7 @@ def triangle_samples(
     longest = np.linalg.norm(corners - corners[:, [1, 2, 0]], axis=2).max(axis=1)
     splits = np.clip(np.ceil(longest / spacing), 1, most_splits).astype(np.int64)
     points, owners = [], []
-    for split in np.unique(splits).tolist():
+    for split in distinct(splits).tolist():
         chosen = np.flatnonzero(splits == split)
         points.append((part_middles(split) @ corners[chosen]).reshape(-1, 3))
         owners.append(np.repeat(chosen, split * split))

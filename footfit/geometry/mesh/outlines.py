@@ -11,6 +11,7 @@ from footfit.geometry.mesh.sections import Planes, plane_sections
 from footfit.geometry.mesh.surface import cross
 from footfit.geometry.mesh.welding import welded_vertices
 from footfit.geometry.numeric.arrays import Floats, Ints
+from footfit.geometry.numeric.quantiles import median
 
 
 @dataclass(frozen=True, slots=True)
@@ -231,7 +232,7 @@ def steady_loop(loop: Floats, length: float, settings: OutlineSettings = TAPE_OU
     off = even.points - smooth
     square = np.square(off).sum(axis=1)
     around = _convolved(square[:, None], bell(even.spread, settings.reach))[:, 0]
-    noise = float(np.median(square)) / MEDIAN_SQUARE - (settings.facets * length) ** 2
+    noise = median(square) / MEDIAN_SQUARE - (settings.facets * length) ** 2
     is_noise = np.minimum(1.0, settings.noise_times * max(0.0, noise) / np.maximum(around, 1e-12))
     off *= is_noise[:, None]
     moved = [np.interp(even.arc, even.at, column, period=even.length) for column in off.T]

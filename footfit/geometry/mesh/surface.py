@@ -18,8 +18,12 @@ def area_vectors(vertices: Floats, faces: Ints) -> Floats:
     >>> area_vectors(np.array([[0.0, 0, 0], [2, 0, 0], [0, 3, 0]]), np.array([[0, 1, 2]])).tolist()
     [[0.0, 0.0, 3.0]]
     """
-    a, b, c = (vertices[faces[:, corner]] for corner in range(3))
-    return 0.5 * cross(b - a, c - a)
+    a, b, c = (vertices.take(faces[:, corner], axis=0) for corner in range(3))
+    b -= a
+    c -= a
+    vectors = cross(b, c)
+    vectors *= 0.5
+    return vectors
 
 
 def cross(u: Floats, v: Floats) -> Floats:

@@ -10,7 +10,7 @@ from functools import reduce
 
 import numpy as np
 
-from footfit.geometry.numeric.arrays import Bools, Ints
+from footfit.geometry.numeric.arrays import Bools, Ints, distinct
 
 
 def half_edges(faces: Ints) -> Ints:
@@ -221,7 +221,7 @@ def closed_fan_vertices(faces: Ints, n_vertices: int) -> Bools:
     across = np.append(beyond, here)
     following = across - across % 3 + (across + 1) % 3
     joined = np.stack([np.append(here, beyond), following], axis=1)
-    roots = np.unique(lowest_connected(joined, faces.size))
+    roots = distinct(lowest_connected(joined, faces.size))
     fans = np.bincount(faces.ravel()[roots], minlength=n_vertices)
     single: Bools = closed & (fans == 1)
     return single

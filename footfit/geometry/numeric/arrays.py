@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import TypeVar
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -9,6 +11,7 @@ Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
 Bools = NDArray[np.bool_]
 Bytes = NDArray[np.uint8]
+Number = TypeVar("Number", bound=np.generic)
 
 
 def row_dots(rows: Floats, others: Floats) -> Floats:
@@ -20,3 +23,17 @@ def row_dots(rows: Floats, others: Floats) -> Floats:
 def row_lengths(rows: Floats) -> Floats:
     """The length of each row (k, d), (k,)."""
     return np.sqrt(row_dots(rows, rows))
+
+
+def distinct(values: NDArray[Number]) -> NDArray[Number]:
+    """Each of some values once, in order. ``np.unique`` does so too, but it loads ``numpy.ma``.
+
+    Examples
+    --------
+    >>> distinct(np.array([[2, 1], [2, 3]])).tolist()
+    [1, 2, 3]
+    """
+    ordered = np.sort(values, axis=None)
+    new = np.ones(len(ordered), dtype=bool)
+    new[1:] = ordered[1:] != ordered[:-1]
+    return ordered[new]

@@ -24,13 +24,33 @@ class Plane:
 LEVEL = Plane(np.array([0.0, 0.0, 1.0]), 0.0)
 
 
-def fitted_plane(points: Floats, weights: Floats, up: Floats) -> Plane:
-    """The plane with the least weighted square distance from points (n, 3), looking up."""
-    centre = weights @ points / weights.sum()
-    away = points.T - centre[:, None]
-    normal = np.linalg.eigh((weights * away) @ away.T)[1][:, 0]
-    normal = normal * np.where(normal @ up < 0, -1.0, 1.0)
-    return Plane(normal, float(normal @ centre))
+class PlanePoints:
+    """Points (n, 3) that planes are fitted to many times, with other weights each time.
+
+    They are kept by columns, about their mean, beside room for their products.
+    """
+
+    def __init__(self, points: Floats) -> None:
+        self._rows = np.ones((4, len(points)))
+        self._rows[:3] = points.T
+        self._middle = self._rows[:3].sum(axis=1) / max(len(points), 1)
+        self._rows[:3] -= self._middle[:, None]
+        self._products = np.empty_like(self._rows)
+
+    def heights(self, plane: Plane) -> Floats:
+        """Signed heights (n,) over a plane."""
+        heights: Floats = plane.normal @ self._rows[:3]
+        heights -= plane.offset - plane.normal @ self._middle
+        return heights
+
+    def plane(self, weights: Floats, up: Floats) -> Plane:
+        """The plane with the least weighted square distance, looking up."""
+        moments = np.multiply(weights, self._rows, out=self._products) @ self._rows.T
+        sums = moments[:3, 3]
+        centre = sums / moments[3, 3]
+        normal = np.linalg.eigh(moments[:3, :3] - np.outer(centre, sums))[1][:, 0]
+        normal = normal * np.where(normal @ up < 0, -1.0, 1.0)
+        return Plane(normal, float(normal @ (self._middle + centre)))
 
 
 def robust_plane(
@@ -62,9 +82,10 @@ def robust_plane(
     >>> bool(abs(plane.heights(flat)[0]) < 1e-3)
     True
     """
-    plane = fitted_plane(points, areas, LEVEL.normal) if start is None else start
+    known = PlanePoints(points)
+    plane = known.plane(areas, LEVEL.normal) if start is None else start
     up = plane.normal
     for _ in range(rounds):
-        weights = areas / (1.0 + np.square(plane.heights(points) / scale))
-        plane = fitted_plane(points, weights, up)
+        weights = areas / (1.0 + np.square(known.heights(plane) / scale))
+        plane = known.plane(weights, up)
     return plane

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from footfit.geometry.numeric.arrays import Floats
+from footfit.geometry.numeric.arrays import Floats, row_lengths
 
 # The real root of psi^4 = psi + 4 (Alexa, "Super-Fibonacci Spirals", CVPR 2022).
 SUPER_FIBONACCI_PSI = 1.533751168755204
@@ -58,7 +58,7 @@ def rotations_about(vectors: Floats) -> Floats:
     [[0.0, -1.0, 0.0], [1.0, 0.0, 0.0], [0.0, 0.0, 1.0]]
     """
     vectors = np.asarray(vectors, dtype=np.float64)
-    angle = np.linalg.norm(vectors, axis=1)
+    angle = row_lengths(vectors)
     half_sinc = 0.5 * np.sinc(angle / (2 * np.pi))
     return rotation_matrices(
         np.concatenate([vectors * half_sinc[:, None], np.cos(angle / 2)[:, None]], 1)

@@ -8,7 +8,7 @@ import numpy as np
 
 from footfit.geometry.mesh.surface import area_vectors
 from footfit.geometry.mesh.topology import boundary_edges
-from footfit.geometry.numeric.arrays import Bools, Floats, Ints
+from footfit.geometry.numeric.arrays import Bools, Floats, Ints, distinct
 from footfit.geometry.numeric.planes import robust_plane
 from footfit.geometry.pose.extents import principal_extents
 
@@ -51,7 +51,7 @@ def plate_pieces(vertices: Floats, faces: Ints, labels: Ints, areas: Floats) -> 
     plates = np.zeros(len(areas), dtype=bool)
     big = np.flatnonzero(areas >= PLATE.least_share * areas.max())
     points = {
-        piece: vertices[np.unique(faces[labels == piece])] for piece in big[: PLATE.most_pieces]
+        piece: vertices[distinct(faces[labels == piece])] for piece in big[: PLATE.most_pieces]
     }
     shapes = {piece: principal_extents(found) for piece, found in points.items()}
     thickness = {piece: _thickness(extents) for piece, (extents, _) in shapes.items()}
@@ -83,7 +83,7 @@ def without_plate(vertices: Floats, faces: Ints) -> Bools:
     Everything near the plane goes with it.
     """
     every = np.ones(len(faces), dtype=bool)
-    rim = np.unique(boundary_edges(faces))
+    rim = distinct(boundary_edges(faces))
     if len(rim) < 3:
         return every
     size = float(np.ptp(vertices, axis=0).max())

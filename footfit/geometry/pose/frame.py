@@ -203,9 +203,9 @@ def plan_axis(points: Floats, areas: Floats, ground: float, length: float) -> Fl
     height = (points[:, 2] - ground) / length
     steepness = np.clip((height - FRAME.axis_height) / FRAME.axis_softness, -50, 50)
     weights = areas / (1 + np.exp(steepness))
-    plan = points[:, :2]
-    away = plan - weights @ plan / weights.sum()
-    axis = np.linalg.eigh((weights[:, None] * away).T @ away)[1][:, 1]
+    away = np.ascontiguousarray(points[:, :2].T)
+    away -= (away @ weights / weights.sum())[:, None]
+    axis = np.linalg.eigh((weights * away) @ away.T)[1][:, 1]
     return np.asarray(axis * np.where(axis[0] < 0, -1.0, 1.0))
 
 
@@ -229,6 +229,7 @@ def origin_shift(sample: SurfaceSample, ground: float, length: float, sole: bool
 def _heel_middle(points: Floats, x0: float, length: float) -> float:
     """The mean of the middles in y of strips across the heel."""
     edges = x0 + np.linspace(*FRAME.heel_strip, FRAME.heel_strips + 1) * length
+    points = points[(points[:, 0] > edges[0]) & (points[:, 0] <= edges[-1])]
     strip = np.searchsorted(edges, points[:, 0]) - 1
     middles = [
         0.5 * (points[strip == i, 1].min() + points[strip == i, 1].max())

@@ -8,7 +8,7 @@ from itertools import product
 import numpy as np
 
 from footfit.errors import DamagedMesh
-from footfit.geometry.numeric.arrays import Bools, Floats, Ints
+from footfit.geometry.numeric.arrays import Bools, Floats, Ints, distinct
 from footfit.geometry.pose.floor_plate import plate_pieces
 from footfit.geometry.pose.pieces import PIECES
 
@@ -106,7 +106,7 @@ def _reached(vertices: Floats, faces: Ints, labels: Ints, matter: Bools) -> Bool
     reached = matter.copy()
     fresh = matter
     while fresh.any():
-        around = np.unique(np.unique(packed[fresh[labels]])[:, None] + steps)
+        around = distinct(distinct(packed[fresh[labels]])[:, None] + steps)
         touched = np.zeros_like(matter)
         touched[labels[np.isin(packed, around).any(axis=1)]] = True
         fresh = touched & ~reached

@@ -12,6 +12,7 @@ from typing import Literal
 import numpy as np
 
 from footfit.geometry.numeric.arrays import Floats
+from footfit.geometry.numeric.quantiles import median, quantile
 
 
 @dataclass(frozen=True, slots=True)
@@ -56,7 +57,7 @@ def side_score(points: Floats, length: float) -> float:
     if len(rows) < SIDE.stations // 2:
         return 0.0
     s, middle, top, bottom = (np.array(rows) - [start, 0.0, 0.0, 0.0]).T
-    bend = float(np.polynomial.polynomial.polyfit(s, middle, 2)[2])
+    bend = float(np.polyfit(s, middle, 2)[0])
     instep, arch = _median(top, s, SIDE.instep), _median(bottom, s, SIDE.arch)
     parts = (
         (bend / SIDE.bend_unit, SIDE.bend_limit),
@@ -82,7 +83,7 @@ def _station_row(points: Floats) -> tuple[float, float, float, float]:
     medial = z[(across > near) & (across < far)]
     lateral = z[(across < -near) & (across > -far)]
     top, bottom = (
-        float(np.quantile(medial, share) - np.quantile(lateral, share))
+        quantile(medial, share) - quantile(lateral, share)
         if len(medial) and len(lateral)
         else np.nan
         for share in (SIDE.top_share, SIDE.bottom_share)
@@ -93,4 +94,4 @@ def _station_row(points: Floats) -> tuple[float, float, float, float]:
 def _median(values: Floats, s: Floats, window: tuple[float, float]) -> float:
     """The median of the known values at stations s within a window; 0 if there are none."""
     known = values[np.isfinite(values) & (s >= window[0]) & (s <= window[1])]
-    return float(np.median(known)) if len(known) else 0.0
+    return median(known) if len(known) else 0.0

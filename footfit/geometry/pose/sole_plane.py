@@ -11,7 +11,8 @@ import numpy as np
 
 from footfit.geometry.mesh.samples import SurfaceSample
 from footfit.geometry.numeric.arrays import Bools, Floats
-from footfit.geometry.numeric.planes import LEVEL, Plane, fitted_plane, robust_plane
+from footfit.geometry.numeric.planes import LEVEL, Plane, PlanePoints, robust_plane
+from footfit.geometry.numeric.quantiles import median
 
 
 @dataclass(frozen=True, slots=True)
@@ -43,21 +44,25 @@ def sole_plane(sample: SurfaceSample, length: float, start: Plane = LEVEL) -> Pl
     """
     heights = start.heights(sample.points)
     near = (np.abs(heights) < FLOOR.reach * length) & (sample.normals @ start.normal < 0)
-    columns = np.asfortranarray  # the steps read one coordinate after the other
-    points, normals = columns(sample.points[near]), columns(sample.normals[near])
-    areas = sample.areas[near]
+    points, areas = PlanePoints(sample.points[near]), sample.areas[near]
+    normals = np.asfortranarray(sample.normals[near])  # the steps read column after column
     narrowing = np.geomspace(FLOOR.tau_first, FLOOR.tau_last, FLOOR.narrowing_steps)
     widths = np.append(narrowing, np.full(FLOOR.final_steps, FLOOR.tau_last)) * length
     plane = start
     for step, width in enumerate(widths):
         if step == FLOOR.narrowing_steps:
-            close = np.abs(plane.heights(points)) < FLOOR.weightless * width
-            points, normals, areas = columns(points[close]), columns(normals[close]), areas[close]
-        weights = areas * np.exp(-((plane.heights(points) / width) ** 2))
+            close = np.abs(points.heights(plane)) < FLOOR.weightless * width
+            points, areas = PlanePoints(sample.points[near][close]), areas[close]
+            normals = np.asfortranarray(normals[close])
+        weights = points.heights(plane)  # in place: these steps are a good part of an alignment
+        weights /= width
+        np.negative(np.square(weights, out=weights), out=weights)
+        np.exp(weights, out=weights)
+        weights *= areas
         weights *= squareness(normals, plane.normal)
         if np.count_nonzero(weights) < 3:
             return start
-        before, plane = plane, fitted_plane(points, weights, plane.normal)
+        before, plane = plane, points.plane(weights, plane.normal)
         if width == widths[-1] and _unmoved(before, plane, FLOOR.still, length):
             break
     return plane
@@ -65,8 +70,10 @@ def sole_plane(sample: SurfaceSample, length: float, start: Plane = LEVEL) -> Pl
 
 def squareness(normals: Floats, up: Floats) -> Floats:
     """How squarely normals (n, 3) look down: the cosine's fourth power, 0 for one that looks up."""
-    down = np.maximum(0.0, -(normals @ up))
-    return np.asarray(np.square(np.square(down)))
+    up_cosine = normals @ up
+    down = np.minimum(up_cosine, 0.0, out=up_cosine)
+    np.square(down, out=down)
+    return np.square(down, out=down)
 
 
 def _unmoved(before: Plane, after: Plane, still: float, length: float) -> bool:
@@ -94,7 +101,7 @@ def rim_plane(sample: SurfaceSample, length: float) -> Plane:
     station = np.clip(
         ((x - x.min()) / length * FLOOR.rim_stations).astype(int), 0, FLOOR.rim_stations - 1
     )
-    side = y > np.median(y)
+    side = y > median(y)
     rim = [
         _lowest_mean(sample, (station == s) & (side == half), FLOOR.rim_share)
         for s in range(FLOOR.rim_stations)

@@ -11,7 +11,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from footfit.geometry.numeric.arrays import Bools, Floats, Ints
+from footfit.geometry.numeric.arrays import Bools, Floats, Ints, row_lengths
 from footfit.geometry.numeric.rotations import rotations_about
 from footfit.geometry.search.templates import Singles, Template
 
@@ -91,8 +91,8 @@ def forward_costs(poses: Poses, points: Singles, normals: Singles, template: Tem
     q = posed_points(poses, points)
     turned = normals @ poses.rotation.transpose(0, 2, 1)
     index = template.nearest(q)
-    cosine = np.einsum("kni,kni->kn", turned, template.normals[index])
-    costs = point_costs(q - template.points[index], cosine, q[..., 2])
+    cosine = np.einsum("kni,kni->kn", turned, template.normals.take(index, axis=0))
+    costs = point_costs(q - template.points.take(index, axis=0), cosine, q[..., 2])
     mostly_leg = (q[..., 2] > FIT.leg_height).mean(axis=1) > FIT.leg_share
     return np.asarray(costs.mean(axis=1) + np.float32(FIT.implausible_cost) * mostly_leg)
 
@@ -143,8 +143,8 @@ def _gauss_newton(poses: Poses, points: Singles, normals: Singles, template: Tem
     q = posed_points(poses, points)
     turned = normals @ poses.rotation.transpose(0, 2, 1)
     index = template.nearest(q)
-    away = q - template.points[index]
-    plane = template.normals[index]
+    away = q - template.points.take(index, axis=0)
+    plane = template.normals.take(index, axis=0)
     cosine = np.einsum("kni,kni->kn", turned, plane)
     costs = point_costs(away, cosine, q[..., 2])
     lower = int(FIT.icp_quantile * (costs.shape[1] - 1))  # as np.quantile
@@ -158,23 +158,24 @@ def _gauss_newton(poses: Poses, points: Singles, normals: Singles, template: Tem
 
 def _plane_part(q: Singles, away: Singles, plane: Singles, weight: Singles) -> Floats:
     """Normal equations (k, 8, 8), the residual last, of the distances along ``plane``."""
-    rows = np.empty((*weight.shape, 8), dtype=np.float32)
-    qx, qy, qz = (q[..., i] for i in range(3))
-    nx, ny, nz = (plane[..., i] for i in range(3))
-    rows[..., 0] = qy * nz - qz * ny  # (omega x q) . n = omega . (q x n)
-    rows[..., 1] = qz * nx - qx * nz
-    rows[..., 2] = qx * ny - qy * nx
-    rows[..., 3:6] = plane
-    rows[..., 6] = qx * nx + qy * ny + qz * nz
-    rows[..., 7] = np.einsum("kni,kni->kn", away, plane)
-    return np.asarray((rows * weight[..., None]).transpose(0, 2, 1) @ rows, dtype=np.float64)
+    rows = np.empty((len(q), 8, q.shape[1]), dtype=np.float32)
+    qx, qy, qz = (np.ascontiguousarray(q[..., i]) for i in range(3))
+    nx, ny, nz = (np.ascontiguousarray(plane[..., i]) for i in range(3))
+    rows[:, 0] = qy * nz - qz * ny  # (omega x q) . n = omega . (q x n)
+    rows[:, 1] = qz * nx - qx * nz
+    rows[:, 2] = qx * ny - qy * nx
+    rows[:, 3], rows[:, 4], rows[:, 5] = nx, ny, nz
+    rows[:, 6] = qx * nx + qy * ny + qz * nz
+    rows[:, 7] = np.einsum("kni,kni->kn", away, plane)
+    return np.asarray((rows * weight[:, None]) @ rows.transpose(0, 2, 1), dtype=np.float64)
 
 
 def _point_part(q: Singles, away: Singles, weight: Singles) -> Floats:
     """Normal equations (k, 8, 8) of the distances point to point, from their moments alone."""
-    rows = np.concatenate([q, away, np.ones((*weight.shape, 1), dtype=np.float32)], axis=2)
-    left = np.concatenate([q, np.ones((*weight.shape, 1), dtype=np.float32)], axis=2)
-    moments = ((left * weight[..., None]).transpose(0, 2, 1) @ rows).astype(np.float64)
+    rows = np.ones((len(q), 7, q.shape[1]), dtype=np.float32)
+    rows[:, :3], rows[:, 3:6] = q.transpose(0, 2, 1), away.transpose(0, 2, 1)
+    left = rows[:, [0, 1, 2, 6]] * weight[:, None]
+    moments = (left @ rows.transpose(0, 2, 1)).astype(np.float64)
     qq, qe, wq = moments[:, :3, :3], moments[:, :3, 3:6], moments[:, 3, :3]
     we, total = moments[:, 3, 3:6], moments[:, 3, 6]
     squares = np.trace(qq, axis1=1, axis2=2)
@@ -193,14 +194,10 @@ def _point_part(q: Singles, away: Singles, weight: Singles) -> Floats:
 
 def _stepped(poses: Poses, step: Floats) -> Poses:
     """The poses after one step, shortened as a whole if a part of it is too long."""
-    size = np.stack(
-        [
-            np.linalg.norm(step[:, :3], axis=1) / FIT.max_turn,
-            np.linalg.norm(step[:, 3:6], axis=1) / FIT.max_shift,
-            np.abs(step[:, 6]) / FIT.max_scale_step,
-        ]
-    ).max(axis=0)
-    step = step / np.maximum(size, 1.0)[:, None]
+    size = np.maximum(np.abs(step[:, 6]) / FIT.max_scale_step, 1.0)
+    np.maximum(size, row_lengths(step[:, :3]) / FIT.max_turn, out=size)
+    np.maximum(size, row_lengths(step[:, 3:6]) / FIT.max_shift, out=size)
+    step = step / size[:, None]
     small = rotations_about(step[:, :3]).astype(np.float32)
     growth = np.exp(step[:, 6]).astype(np.float32)
     shift = growth[:, None] * np.einsum("kij,kj->ki", small, poses.shift) + step[:, 3:6]

@@ -6,6 +6,7 @@ much the next best pose is worse. Left or right is decided afterwards (``side.py
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from itertools import product
 
@@ -97,7 +98,7 @@ class RoughPose:
 def rough_pose(
     vertices: Floats,
     faces: Ints,
-    templates: tuple[Template, ...],
+    templates: Sequence[Template],
     windows: Windows = (),
     settings: PoseSearchSettings = POSE_SEARCH,
     ends: Floats | None = None,
@@ -111,8 +112,8 @@ def rough_pose(
     ----------
     vertices, faces : (n, 3) float64, (m, 3) int64
         Outward winding.
-    templates : tuple of Template
-        In the order in which ties are settled.
+    templates : sequence of Template
+        In the order in which ties are settled; one that is not needed is not asked for.
     windows : pairs of float
         Lengths, in the mesh's unit, that are plausible; poses with another length are taken last.
         Empty: any length.
@@ -152,7 +153,7 @@ class _Candidate:
 class _Search:
     """What a search is made with: the templates, plausible lengths, settings."""
 
-    templates: tuple[Template, ...]
+    templates: Sequence[Template]
     windows: Windows
     settings: PoseSearchSettings
     ends: Floats
@@ -177,10 +178,10 @@ class _Search:
         first = self.templates[: settings.first_templates]
         candidates = limited.candidates(clouds, first, settings.rotations)
         pose = _cheapest(candidates, settings)
-        for template in self.templates[settings.first_templates :]:
+        for place in range(settings.first_templates, len(self.templates)):
             if not self.is_doubtful(pose):
                 break
-            candidates += limited.candidates(clouds, (template,), settings.rotations)
+            candidates += limited.candidates(clouds, (self.templates[place],), settings.rotations)
             pose = _cheapest(candidates, settings)
         doubt = self.is_doubtful(pose)
         if doubt:
@@ -211,7 +212,7 @@ class _Search:
         )
 
     def candidates(
-        self, clouds: tuple[Cloud, Cloud], templates: tuple[Template, ...], count: int
+        self, clouds: tuple[Cloud, Cloud], templates: Sequence[Template], count: int
     ) -> list[_Candidate]:
         """The best few poses per template over both mirrors, fitted with all points."""
         rotations = super_fibonacci(count).astype(np.float32)
@@ -256,10 +257,9 @@ class _Search:
         in one valley, the margin would measure nothing; the turned poses are always there.
         """
         settings, result = self.settings, []
-        for template in self.templates:
-            fitted = [each for each in candidates if each.template is template]
-            if not fitted:
-                continue
+        tried = {id(each.template): each.template for each in candidates}.values()
+        for template in tried:
+            fitted = (each for each in candidates if each.template is template)
             best = min(fitted, key=lambda each: each.cost)
             cloud = best.cloud
             poses = turned_about(best.pose, straight_turns(), template.middle_y, settings.middle)

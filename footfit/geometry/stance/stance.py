@@ -8,13 +8,13 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from footfit.geometry.numeric.arrays import Floats, Ints
 from footfit.geometry.numeric.smoothing import local_quadratic
 from footfit.geometry.stance.cues import NO_LABELS, Cue, StanceLabels, agreed, combined, doubted
-from footfit.geometry.stance.ground import BottomCues, bottom_cues
 from footfit.geometry.stance.middle_line import (
     SEAT,
     MiddleLine,
@@ -24,6 +24,9 @@ from footfit.geometry.stance.middle_line import (
     stretch,
     turned,
 )
+
+if TYPE_CHECKING:
+    from footfit.geometry.stance.ground import BottomCues
 
 
 @dataclass(frozen=True, slots=True)
@@ -202,7 +205,7 @@ class Stance:
         x, z = self.stretch_mm(settings.toe).T
         if len(x) < 6:
             return None
-        return float(np.polynomial.Polynomial.fit(x, z, 2)(self.length_mm))
+        return float(np.polyfit(x - self.length_mm, z, 2)[2])
 
 
 def stance_of(
@@ -228,6 +231,8 @@ def stance_of(
     if kind == "foot":
         low_mm = vertices_mm[low_points(vertices_mm)]
         return Stance(0.0, 0.0, (0.0, 0.0), 0.0, float(np.ptp(low_mm[:, 0])), np.empty((0, 2)))
+    from footfit.geometry.stance.ground import bottom_cues
+
     bottom = bottom_cues(vertices_mm, faces)
     if bottom is None:
         return None

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from footfit.geometry.numeric.arrays import Bools, Floats, Ints
+from footfit.geometry.numeric.arrays import Bools, Floats, Ints, distinct
 
 
 @dataclass(frozen=True, slots=True)
@@ -65,7 +65,8 @@ def pressed_spikes(vertices: Floats, faces: Ints) -> tuple[Floats, int]:
     if not tips.any():
         return vertices, 0
     pairs = np.concatenate([faces[:, [i, j]] for i in range(3) for j in range(3) if i != j])
-    tip, neighbour = np.unique(pairs[tips[pairs[:, 0]]], axis=0).T  # every edge at a tip, once
+    ends = pairs[tips[pairs[:, 0]]]
+    tip, neighbour = np.divmod(distinct(ends[:, 0] * len(vertices) + ends[:, 1]), len(vertices))
     count = np.bincount(tip, minlength=len(vertices))
     inner = (count >= 3) & (count == np.bincount(faces.ravel(), minlength=len(vertices)))
     sums = [np.bincount(tip, vertices[neighbour, i], len(vertices)) for i in range(3)]

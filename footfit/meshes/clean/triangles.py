@@ -6,19 +6,14 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from footfit.geometry.mesh.topology import (
-    boundary_edges,
-    edge_groups,
-    face_components,
-    rows_differ,
-)
+from footfit.geometry.mesh.topology import boundary_edges, edge_groups, face_components, rows_differ
 from footfit.geometry.mesh.welding import (
     has_distinct_corners,
     nearby_vertices,
     rounding_distance,
     welded_vertices,
 )
-from footfit.geometry.numeric.arrays import Bools, Floats, Ints
+from footfit.geometry.numeric.arrays import Bools, Floats, Ints, distinct
 from footfit.meshes.clean.spikes import pressed_spikes
 from footfit.results.values import Notice, count_notice
 
@@ -95,7 +90,7 @@ def _welded(vertices: Floats, faces: Ints) -> tuple[Floats, Ints, Ints, tuple[No
     points, joined, source = welded_vertices(vertices, faces)
     if len(points) <= WELDING.loose_ratio * len(faces):
         return points, joined, source, ()
-    tolerance = rounding_distance(points[np.unique(joined)])
+    tolerance = rounding_distance(points[distinct(joined)])
     if not tolerance > 0.0:
         return points, joined, source, ()
     near, nearly, merged = welded_vertices(points[nearby_vertices(points, tolerance)], joined)

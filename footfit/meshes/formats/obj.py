@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 
 from footfit.errors import DamagedMesh
 from footfit.geometry.numeric.arrays import Bools, Floats, Ints
+from footfit.meshes.formats.foreign import is_text, known_foreign
 from footfit.meshes.formats.polygons import polygon_triangles
 from footfit.meshes.formats.raw import RawMesh, check_counts
 from footfit.meshes.formats.tokens import (
@@ -30,7 +31,9 @@ _SPACE = ord(" ")
 
 
 def is_obj(data: bytes) -> bool:
-    """Whether a line near the beginning is a vertex line of an OBJ."""
+    """Whether the content is text of no other known kind, with a vertex line near the beginning."""
+    if not is_text(data) or known_foreign(data) is not None:
+        return False
     return _VERTEX_LINE.search(unix_text(data[:_SNIFFED_BYTES])) is not None
 
 

@@ -15,7 +15,7 @@ import numpy as np
 from footfit.errors import DamagedMesh
 from footfit.geometry.mesh.topology import boundary_edges
 from footfit.geometry.mesh.welding import nearby_vertices, rounding_distance, welded_vertices
-from footfit.geometry.numeric.arrays import Floats, Ints
+from footfit.geometry.numeric.arrays import Floats, Ints, distinct
 from footfit.geometry.numeric.rotations import moved_points
 from footfit.meshes.formats.raw import RawMesh
 from footfit.meshes.read_limits import Limits
@@ -127,7 +127,7 @@ def _with_equal_seams(vertices: Floats, faces: Ints) -> Floats:
     if not len(faces) or not np.isfinite(vertices).all():
         return vertices
     points, corners, source = welded_vertices(vertices, faces)
-    rim = np.unique(boundary_edges(corners))
+    rim = distinct(boundary_edges(corners))
     near = rounding_distance(points)
     if not len(rim) or not near > 0.0:
         return vertices

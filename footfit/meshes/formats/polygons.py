@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from footfit.errors import DamagedMesh, TooLarge
 from footfit.geometry.mesh.surface import cross
-from footfit.geometry.numeric.arrays import Bools, Floats, Ints, row_dots
+from footfit.geometry.numeric.arrays import Bools, Floats, Ints, distinct, row_dots
 from footfit.meshes.formats.raw import doubles
 from footfit.meshes.read_limits import Limits
 from footfit.results.values import Notice
@@ -91,7 +91,7 @@ def polygon_triangles(
     triangles = np.empty((int(sizes.sum()), 3), dtype=np.int64)
     measurable = _is_measurable(vertices, corners)
     crossed = 0
-    for count in np.unique(counts[counts > 2]).tolist():
+    for count in distinct(counts[counts > 2]).tolist():
         chosen = np.flatnonzero(counts == count)
         polygons = corners[begins[chosen, None] + np.arange(count)]
         if count == 3 or not measurable:  # a bad number or index is refused after this

@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from footfit.errors import DamagedMesh, EmptyMesh
 from footfit.geometry.numeric.arrays import Floats, Ints
+from footfit.meshes.formats.foreign import is_text
 from footfit.meshes.formats.raw import RawMesh, check_counts, doubles
 from footfit.meshes.formats.tokens import BLANK, floats, unix_text, word_offsets
 from footfit.meshes.read_limits import Limits
@@ -47,6 +48,12 @@ def is_binary_stl(data: bytes) -> bool:
     """Whether the size is exactly as the count says. The words in the header do not matter."""
     count = declared_facets(data)
     return count is not None and len(data) == HEADER_BYTES + FACET.itemsize * count
+
+
+def is_ascii_stl(data: bytes) -> bool:
+    """Whether the text begins as that of an STL."""
+    begins = data[:4096].removeprefix(b"\xef\xbb\xbf").lstrip().lower().startswith(b"solid")
+    return begins and is_text(data)
 
 
 def read_binary_stl(data: bytes, limits: Limits) -> RawMesh:

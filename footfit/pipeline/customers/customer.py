@@ -7,13 +7,16 @@ from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from itertools import pairwise
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from footfit.errors import BadManifest, BadOption
 from footfit.number_words import first_names
-from footfit.pipeline.batch.csv_rows import CsvRow, Faults, csv_rows
 from footfit.pipeline.batch.side_words import SideInName, names_somebody, side_in_name
 from footfit.pipeline.batch.sources import Source, stored_path
 from footfit.results import Notice, SideName
+
+if TYPE_CHECKING:
+    from footfit.pipeline.batch.csv_rows import CsvRow
 
 COLUMNS = ("customer", "left", "right")
 SIDES: tuple[SideName, ...] = ("left", "right")
@@ -91,6 +94,8 @@ def pairs_in_csv(path: Path) -> list[Customer]:
     BadManifest
         The file is not understood, a row has no foot, or a customer or a file is named twice.
     """
+    from footfit.pipeline.batch.csv_rows import Faults, csv_rows
+
     faults, customers = Faults(), []
     names: set[str] = set()
     read: set[str] = set()

@@ -152,9 +152,9 @@ def _months(spare_mm: float, rate: float) -> tuple[float, float]:
     return months, math.hypot(RULE.room_sd_mm / rate, RULE.rate_sd_share * months)
 
 
-def with_growth(match: Match, asked: GrowthQuestion | None) -> Match:
-    """The answer with its forecast of growth, if that is asked for."""
-    growth = None if asked is None else growth_of(match, asked)
+def with_growth(match: Match, asked: GrowthQuestion) -> Match:
+    """The answer with its forecast of growth, if there is one."""
+    growth = growth_of(match, asked)
     if growth is None:
         return match
     notice = Notice("growth", growth.words)

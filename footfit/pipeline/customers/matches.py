@@ -13,7 +13,6 @@ from footfit.pipeline.batch.phases import begin
 from footfit.pipeline.batch.runs import HERE, Jobs, Outcome, outcomes
 from footfit.pipeline.batch.sources import ReadingOptions
 from footfit.pipeline.customers.customer import Customer, CustomerFoot
-from footfit.pipeline.customers.growth_forecast import with_growth
 from footfit.pipeline.customers.pair_sides import Foot, pair_of_feet, with_named_side
 from footfit.pipeline.fit.match import Question, matched
 from footfit.pipeline.scan.flare import profiled_scan
@@ -82,7 +81,11 @@ def answered(
     FootfitError
         As `matched`.
     """
-    answer = with_growth(matched(feet, library, question), question.growth)
+    answer = matched(feet, library, question)
+    if question.growth is not None:
+        from footfit.pipeline.customers.growth_forecast import with_growth
+
+        answer = with_growth(answer, question.growth)
     if question.surfaces_in is None:
         return answer
     from footfit.pipeline.fit.compare import with_surface_clearance

@@ -36,7 +36,7 @@ RANGES = ("good", "acceptable", "poor")
 
 def shipped() -> tuple[str, ...]:
     """The names of the profiles that come with footfit."""
-    return tuple(sorted(path.stem for path in FOLDER.glob("*.toml")))
+    return tuple(sorted(path.stem for path in FOLDER.iterdir() if path.suffix == ".toml"))
 
 
 def fit_profile(name_or_path: str = "walking") -> FitProfile:

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, fields
+from typing import TYPE_CHECKING
 
 import numpy as np
 
-from footfit.geometry.fit.foot_in_heel import SurfaceChange
 from footfit.geometry.numeric.arrays import Bools, Floats, Ints
 from footfit.results import (
     HeelChange,
@@ -19,6 +19,9 @@ from footfit.results import (
     Profiled,
 )
 from footfit.results.heel import FLARE
+
+if TYPE_CHECKING:
+    from footfit.geometry.fit.foot_in_heel import SurfaceChange
 
 SAME_DROP_MM = 5.0
 """Two drops that differ by less are one: a foot that was scanned at it needs no model."""
@@ -107,6 +110,8 @@ def heel_change(heels: Heels, row: int, foot: Profiled) -> HeelChange | None:
 
 def surface_change(heels: Heels, row: int) -> SurfaceChange:
     """How the surface of any foot changes in the heel of one last."""
+    from footfit.geometry.fit.foot_in_heel import SurfaceChange
+
     return SurfaceChange(
         **{
             field.name: float(heels.share[row]) * rule_of(heels.question.model, field.name).change

@@ -87,7 +87,7 @@ def matched(
         refuse_lasts(
             feet, forced=question.force_foot, hint=", and --force-foot takes it for a foot"
         )
-    shelf = shelf_of(library) if isinstance(library, results.Library) else library
+    shelf = library if isinstance(library, Shelf) else shelf_of(library)
     if not shelf.ranked.any():
         nothing = "no last passes these filters; see footfit list-lasts"
         raise NoCandidate(next((notice.message for notice in shelf.warnings), nothing))

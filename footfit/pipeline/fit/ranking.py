@@ -38,7 +38,6 @@ from footfit.pipeline.fit.scoring import (
 from footfit.pipeline.fit.worn_shifts import with_total
 from footfit.pipeline.fit.zones import TOES as TOES_ZONE
 from footfit.pipeline.fit.zones import ZONES
-from footfit.pipeline.shelf.near_lasts import nearest_by_flare
 from footfit.pipeline.shelf.nearness import feet_distance, flare_distances, shape_distance
 from footfit.pipeline.shelf.shelf import KeptSections, Lasts, of_own_side, record_lasts
 from footfit.results import FlareDifference, FootFit, LastRecord, Profiled, ToeBox, ZoneFit
@@ -165,6 +164,8 @@ def _ranked_by_distance(asked: Asked, lasts: Lasts, chosen: Bools, top: int) -> 
     """The order by flare or shape. Only the lasts that are shown are judged."""
     rows, least = np.flatnonzero(chosen), None
     if asked.by == "flare" and lasts.search is not None and 0 < top < len(rows):
+        from footfit.pipeline.shelf.near_lasts import nearest_by_flare
+
         least = nearest_by_flare(asked.feet, lasts.search, chosen, top, TIED_WITHIN)
     near, distance = least or (rows, _all_distances(asked, lasts, chosen))
     best, tier, wanted = near, [0], FIRST_LOOK

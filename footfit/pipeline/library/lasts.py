@@ -3,15 +3,19 @@
 from __future__ import annotations
 
 from functools import lru_cache
+from typing import TYPE_CHECKING
 
-from footfit.catalogue.store import Catalogue, open_catalogue
+from footfit.catalogue.catalogue_reader import open_reader
 from footfit.errors import BadOption
 from footfit.geometry.measures.measure_table import of_kind
 from footfit.geometry.pose.paper_frame import paper_frame_angle_deg
-from footfit.locations import Location
-from footfit.results import LastRecord, Library, Notice, StoredLast
-from footfit.results.library import SORTS
+from footfit.results import Notice, StoredLast
 from footfit.results.values import notices_about
+
+if TYPE_CHECKING:
+    from footfit.catalogue.catalogue_reader import CatalogueReader
+    from footfit.locations import Location
+    from footfit.results import LastRecord, Library
 
 
 def list_lasts(path: Location, sort: str = "name", **labels: str | None) -> Library:
@@ -27,9 +31,12 @@ def list_lasts(path: Location, sort: str = "name", **labels: str | None) -> Libr
     NoCatalogue, CatalogueUnusable
         There is no catalogue, or it cannot be read.
     """
+    from footfit.results import Library
+    from footfit.results.library import SORTS
+
     if sort not in SORTS:
         raise BadOption(f"lasts are sorted by {', '.join(SORTS)}, not by {sort!r}")
-    with open_catalogue(path) as catalogue:
+    with open_reader(path) as catalogue:
         stored, reference = catalogue.lasts(**labels), reference_name(catalogue)
         total = len(catalogue.names())
     return Library(
@@ -50,7 +57,7 @@ def last(path: Location, name: str) -> StoredLast:
     UnknownLast
         There is no last of that name.
     """
-    with open_catalogue(path) as catalogue:
+    with open_reader(path) as catalogue:
         record, reference = catalogue.record(name), reference_name(catalogue)
         parentage = catalogue.parentage(name)
     if record.paper_transform is None:
@@ -63,7 +70,7 @@ def last(path: Location, name: str) -> StoredLast:
     return StoredLast(record, reference, angle_deg, parentage)
 
 
-def reference_name(catalogue: Catalogue) -> str | None:
+def reference_name(catalogue: CatalogueReader) -> str | None:
     """The name of the reference; None in an empty catalogue."""
     reference = catalogue.reference()
     return None if reference is None else reference.last

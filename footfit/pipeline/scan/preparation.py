@@ -18,17 +18,10 @@ from footfit.geometry.mesh.holes import ClosedMesh, closed_mesh
 from footfit.geometry.mesh.samples import SurfaceSample, gathered_sample, quadrature
 from footfit.geometry.numeric.arrays import Floats, Ints
 from footfit.geometry.numeric.rotations import moved_points, nearest_rotation, transform
-from footfit.geometry.pose.frame import (
-    FRAME,
-    canonical_frame,
-    length_of,
-    toe_beyond,
-    turned_sample,
-)
+from footfit.geometry.pose.frame import FRAME, canonical_frame, length_of, toe_beyond, turned_sample
 from footfit.geometry.pose.missing_parts import doubtful_end, missing_part
 from footfit.geometry.pose.side import confidence, side_score
 from footfit.geometry.stance.cues import NO_LABELS, StanceLabels
-from footfit.meshes.copies.compact_copy import expanded_mesh
 from footfit.meshes.resolution import check_resolution, resolution_notices
 from footfit.pipeline.scan import settled_unit
 from footfit.pipeline.scan.one_shape import PosedShape, shape_in
@@ -181,6 +174,8 @@ def stored_shape(data: bytes, side: SideName | None) -> tuple[Floats, Ints]:
     CatalogueDamaged
         The copy is not sound.
     """
+    from footfit.meshes.copies.compact_copy import expanded_mesh
+
     shape = closed_shape(*right_copy(*expanded_mesh(data), side))
     for array in shape:
         array.flags.writeable = False  # the next comparison gets the same arrays

@@ -4,18 +4,24 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from footfit.errors import BadOption
 from footfit.geometry.measures.heights import HEIGHTS
-from footfit.geometry.measures.landmarks import Shape
 from footfit.geometry.measures.measure_table import measure_named
-from footfit.geometry.stance.cues import Cue, StanceLabels
-from footfit.geometry.stance.stance import Stance, stance_of
+from footfit.geometry.stance.cues import StanceLabels
+from footfit.geometry.stance.stance import stance_of
 from footfit.number_words import plain
 from footfit.pipeline.scan.trueness import measured
-from footfit.results import GroundCue, LastLabels, LastStance, MeshInfo, Notice
+from footfit.results import Notice
+
+if TYPE_CHECKING:
+    from footfit.geometry.measures.landmarks import Shape
+    from footfit.geometry.stance.cues import Cue
+    from footfit.geometry.stance.stance import Stance
+    from footfit.results import LastLabels, LastStance, MeshInfo
 
 LABELLED_MM = {"heel_height_mm": (0, 200), "toe_spring_mm": (0, 80), "platform_mm": (0, 100)}
 """What labels may say."""
@@ -65,6 +71,8 @@ def last_stance(shape: Shape, info: MeshInfo | None = None) -> LastStance | None
     stance = shape.stance
     if stance is None or shape.kind == "foot":
         return None
+    from footfit.results import GroundCue, LastStance
+
     entries = map(measure_named, ("heel_height", "toe_spring", "toe_spring_tip"))
     heel, spring, tip = (
         measured(entry, entry.taken_of(shape), shape.kind, shape.shape_heel_mm, info)

@@ -9,20 +9,18 @@ from pathlib import Path
 
 import numpy as np
 
-from footfit.catalogue.blocks.block_reading import BlockLasts
-from footfit.catalogue.blocks.block_writing import BLOCKS_ANEW
+from footfit.catalogue.blocks.block_reading import BLOCKS_ANEW, BlockLasts
 from footfit.catalogue.blocks.record_columns import LABELS
+from footfit.catalogue.catalogue_reader import open_reader
 from footfit.catalogue.file.opening import FIRST_STEPS
 from footfit.catalogue.rows.array_blobs import definition_text
 from footfit.catalogue.rows.search import rejection
-from footfit.catalogue.store import open_catalogue
 from footfit.errors import BadOption, EmptyCatalogue, NoCandidate
 from footfit.geometry.fit.sizes import SYSTEMS, system_named
 from footfit.geometry.flare.definition import FlareDefinition
 from footfit.geometry.numeric.arrays import Bools
 from footfit.locations import Location
 from footfit.pipeline.library.lasts import damaged_last, measure_definitions, reference_name
-from footfit.pipeline.library.stock import stock
 from footfit.pipeline.shelf.shelf import Shelf
 from footfit.results import Notice
 from footfit.results.columns.last_columns import KINDS, LastColumns
@@ -87,7 +85,7 @@ def choice(
 
 
 def _read(path: Location, untrusted: frozenset[int]) -> _Read:
-    with open_catalogue(path) as catalogue:
+    with open_reader(path) as catalogue:
         lasts = catalogue.block_lasts(untrusted)
         if not len(lasts.base) and not lasts.damaged:
             raise EmptyCatalogue(f"the catalogue holds no last; {FIRST_STEPS}", str(path))
@@ -202,6 +200,8 @@ def in_stock(shelf: Shelf, file: Path) -> Shelf:
     NoCandidate
         It has none of the lasts.
     """
+    from footfit.pipeline.library.stock import stock
+
     lasts, rows = shelf.lasts.base, np.flatnonzero(shelf.ranked)
     labels = _labels(lasts)
     known = sorted((lasts.names[row], labels[lasts.label[row]]) for row in rows.tolist())

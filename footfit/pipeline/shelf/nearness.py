@@ -14,7 +14,7 @@ from footfit.geometry.flare.profile_distance import (
     require_same_stations,
     total_distance,
 )
-from footfit.geometry.numeric.arrays import Floats
+from footfit.geometry.numeric.arrays import Floats, distinct
 from footfit.results import Profiled
 from footfit.results.columns.last_columns import LastColumns
 from footfit.results.columns.vocabulary import NO_WORD
@@ -81,7 +81,7 @@ def size_squares(mesh: Profiled, lasts: LastColumns) -> Floats:
             continue
         theirs = lasts.measure(name)
         shared = ~np.isnan(theirs.value) & (theirs.sd != 0.0)
-        for word in np.unique(theirs.word).tolist():
+        for word in distinct(theirs.word).tolist():
             if word == NO_WORD or lasts.words.measures.values[word][0] != ours.definition:
                 shared &= theirs.word != word
         spread = ours.measured.sd**2 + np.square(theirs.sd)

@@ -4,22 +4,29 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
-from typing import Protocol
+from typing import TYPE_CHECKING, Protocol
 
 import numpy as np
 
 from footfit.catalogue.blocks.block_reading import BadBlocks, ShownLast
-from footfit.catalogue.blocks.record_columns import Kept, columns_of
-from footfit.catalogue.blocks.search_file import OtherCatalogue, SearchFile
-from footfit.catalogue.store import Catalogue, open_catalogue
+from footfit.catalogue.blocks.record_columns import columns_of
+from footfit.catalogue.blocks.search_file import OtherCatalogue
+from footfit.catalogue.catalogue_reader import open_reader
 from footfit.errors import CatalogueDamaged, UnknownLast
-from footfit.geometry.numeric.arrays import Bools, Floats, Ints
 from footfit.locations import Location
 from footfit.pipeline.library.lasts import damaged_last
-from footfit.results import LastRecord, Library, Notice, ShapeSections
-from footfit.results.columns.last_columns import NOT_KEPT, SPOILT, LastColumns
+from footfit.results import ShapeSections
+from footfit.results.columns.last_columns import NOT_KEPT, SPOILT
 from footfit.results.columns.vocabulary import Vocabulary
 from footfit.results.values import notices_about
+
+if TYPE_CHECKING:
+    from footfit.catalogue.blocks.record_columns import Kept
+    from footfit.catalogue.blocks.search_file import SearchFile
+    from footfit.catalogue.catalogue_reader import CatalogueReader
+    from footfit.geometry.numeric.arrays import Bools, Floats, Ints
+    from footfit.results import LastRecord, Library, Notice
+    from footfit.results.columns.last_columns import LastColumns
 
 TWIN_LENGTH_MM = 2.0
 """Two lasts with the same labels and opposite sides are one pair if their lengths differ less."""
@@ -85,12 +92,12 @@ def record_lasts(records: Sequence[LastRecord], sections: KeptSections = None) -
     if isinstance(sections, Mapping):
         kept = [sections[record.labels.name] for record in records]
     elif sections is not None and records:
-        with open_catalogue(sections) as catalogue:
+        with open_reader(sections) as catalogue:
             kept = [_sections(catalogue, record.labels.name) for record in records]
     return RecordLasts(tuple(records), columns_of(records, kept, Vocabulary()))
 
 
-def _sections(catalogue: Catalogue, name: str) -> Kept:
+def _sections(catalogue: CatalogueReader, name: str) -> Kept:
     try:
         return catalogue.sections(name) or NOT_KEPT
     except (CatalogueDamaged, UnknownLast):

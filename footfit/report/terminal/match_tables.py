@@ -16,7 +16,6 @@ from rich.text import Text
 from footfit.geometry.fit.sizes import foot_size, foot_sizes, system_named
 from footfit.number_words import RATIO_KEPT, UNITS, plain, signed
 from footfit.report.terminal.scan_tables import cell, flare_words, lined_table
-from footfit.report.wording.comparison_words import surfaces_words, tightest_words
 from footfit.report.wording.fit_words import (
     OTHER_FOOT,
     left_out_words,
@@ -157,9 +156,17 @@ def _sentence(candidate: Candidate) -> RenderableType:
         words.append(f"; {OTHER_FOOT}")
     if candidate.tied_with:
         words.append(f"; {tie_words(candidate.tied_with)}")
-    lines = [tightest_words(candidate.tightest)] if candidate.surfaces else []
-    rooms = [Text(line, "dim") for line in (*lines, *surfaces_words(candidate.surfaces))]
-    return Padding(Group(words, *rooms), (0, 0, 0, 4))
+    return Padding(Group(words, *_rooms(candidate)), (0, 0, 0, 4))
+
+
+def _rooms(candidate: Candidate) -> list[Text]:
+    """Where the last is tight or loose, if the surfaces were compared."""
+    if not candidate.surfaces:
+        return []
+    from footfit.report.wording.comparison_words import surfaces_words, tightest_words
+
+    lines = (tightest_words(candidate.tightest), *surfaces_words(candidate.surfaces))
+    return [Text(line, "dim") for line in lines]
 
 
 # ---------------------------------------------------------------- zone by zone

@@ -113,6 +113,11 @@ def kind_words(pose: results.PoseQuality) -> str:
     return f"{pose.kind} ({words})" if words else pose.kind
 
 
+def aligned_scan_table(scan: results.AlignedScan) -> RenderableType:
+    """One mesh, aligned: the answer of ``footfit align``."""
+    return align_table(scan.alignment)
+
+
 def align_table(alignment: results.Alignment) -> RenderableType:
     """One mesh, aligned."""
     frame, pose, info = alignment.eigenframe, alignment.pose, alignment.info

@@ -9,7 +9,7 @@ import numpy as np
 from footfit.catalogue.blocks.record_columns import measure_columns
 from footfit.geometry.fit.along_the_bottom import ALONG_BOTTOM, LastLengths, length_along_bottom
 from footfit.geometry.measures.measure_table import measure_named
-from footfit.geometry.numeric.arrays import Floats, Ints
+from footfit.geometry.numeric.arrays import Floats, Ints, distinct
 from footfit.pipeline.fit.judging.cells import OTHER_DEFINITION, Cells, ZoneShape
 from footfit.results.columns.last_columns import LastColumns, MeasureColumns
 from footfit.results.columns.vocabulary import NO_WORD, Vocabulary, Words
@@ -75,7 +75,7 @@ def _heeled_gain(
     other = np.zeros(len(heel_mm), dtype=bool)
     for name, column in columns.items():
         there = column.word != NO_WORD
-        for word in np.unique(column.word[there]).tolist():
+        for word in distinct(column.word[there]).tolist():
             if words.values[word][0] != LENGTHS[name]:
                 other |= column.word == word
     reason = np.where(whole & other, sentences.number(OTHER_DEFINITION), NO_WORD)

@@ -8,7 +8,7 @@ from dataclasses import dataclass, fields
 import numpy as np
 
 from footfit.geometry.flare.definition import FlareProfile
-from footfit.geometry.numeric.arrays import Bools, Floats, Ints
+from footfit.geometry.numeric.arrays import Bools, Floats, Ints, distinct
 from footfit.results import LastRecord, Measure, Profiled
 from footfit.results.columns.last_columns import LastColumns
 from footfit.results.columns.vocabulary import NO_WORD, Words
@@ -102,7 +102,7 @@ def measure_difference(foot: ZoneShape, lasts: LastColumns, name: str, sentences
         return missing(len(lasts), sentences.number(f"the foot: {why}"))
     theirs = lasts.measure(name)
     lacks, silent = theirs.word == NO_WORD, np.isnan(theirs.value)
-    used = np.unique(theirs.word[~lacks])
+    used = distinct(theirs.word[~lacks])
     reason = np.full(len(lasts), NO_WORD)
     for word in used.tolist():
         definition, why = lasts.words.measures.values[word]
