@@ -193,12 +193,12 @@ class Catalogue(CatalogueFile):
         return chosen if stock is None else in_stock(chosen, Path(stock))
 
     @contextmanager
-    def _written(self) -> Iterator[store.Catalogue]:
-        """The catalogue, open for a change."""
+    def _written(self, *, create: bool = False) -> Iterator[store.Catalogue]:
+        """The catalogue, open for a change; a missing one is made if ``create`` says so."""
         from footfit.catalogue import store
 
         self._chosen.clear()
-        with store.open_catalogue(self.path, write=True, create=False) as catalogue:
+        with store.open_catalogue(self.path, write=True, create=create) as catalogue:
             yield catalogue
 
     # ------------------------------------------------------------ lasts
@@ -287,10 +287,7 @@ class Catalogue(CatalogueFile):
         NameTaken, UnknownLast, BadOption
             For the first last that cannot be stored; those before it are stored.
         """
-        from footfit.catalogue import store
-
-        self._chosen.clear()
-        with store.open_catalogue(self.path, write=True) as catalogue:
+        with self._written(create=True) as catalogue:
             yield from catalogue.add_many(lasts, replace=replace)
 
     def lasts(

@@ -27,30 +27,25 @@ LEVEL = Plane(np.array([0.0, 0.0, 1.0]), 0.0)
 class PlanePoints:
     """Points (n, 3) that planes are fitted to many times, with other weights each time.
 
-    They are kept by columns, about their mean, beside room for their products.
+    They are kept by columns, beside room for what is computed of them each time.
     """
 
     def __init__(self, points: Floats) -> None:
-        self._rows = np.ones((4, len(points)))
-        self._rows[:3] = points.T
-        self._middle = self._rows[:3].sum(axis=1) / max(len(points), 1)
-        self._rows[:3] -= self._middle[:, None]
-        self._products = np.empty_like(self._rows)
+        self._points = np.asfortranarray(points)
+        self._away, self._products = np.empty((2, 3, len(points)))
 
     def heights(self, plane: Plane) -> Floats:
         """Signed heights (n,) over a plane."""
-        heights: Floats = plane.normal @ self._rows[:3]
-        heights -= plane.offset - plane.normal @ self._middle
-        return heights
+        return plane.heights(self._points)
 
     def plane(self, weights: Floats, up: Floats) -> Plane:
         """The plane with the least weighted square distance, looking up."""
-        moments = np.multiply(weights, self._rows, out=self._products) @ self._rows.T
-        sums = moments[:3, 3]
-        centre = sums / moments[3, 3]
-        normal = np.linalg.eigh(moments[:3, :3] - np.outer(centre, sums))[1][:, 0]
+        centre = weights @ self._points / weights.sum()
+        away = np.subtract(self._points.T, centre[:, None], out=self._away)
+        moment = np.multiply(weights, away, out=self._products) @ away.T
+        normal = np.linalg.eigh(moment)[1][:, 0]
         normal = normal * np.where(normal @ up < 0, -1.0, 1.0)
-        return Plane(normal, float(normal @ (self._middle + centre)))
+        return Plane(normal, float(normal @ centre))
 
 
 def robust_plane(

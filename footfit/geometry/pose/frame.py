@@ -203,9 +203,9 @@ def plan_axis(points: Floats, areas: Floats, ground: float, length: float) -> Fl
     height = (points[:, 2] - ground) / length
     steepness = np.clip((height - FRAME.axis_height) / FRAME.axis_softness, -50, 50)
     weights = areas / (1 + np.exp(steepness))
-    away = np.ascontiguousarray(points[:, :2].T)
-    away -= (away @ weights / weights.sum())[:, None]
-    axis = np.linalg.eigh((weights * away) @ away.T)[1][:, 1]
+    plan = points[:, :2]
+    away = plan - weights @ plan / weights.sum()
+    axis = np.linalg.eigh((weights[:, None] * away).T @ away)[1][:, 1]
     return np.asarray(axis * np.where(axis[0] < 0, -1.0, 1.0))
 
 
