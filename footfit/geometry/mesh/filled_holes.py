@@ -184,7 +184,7 @@ def usual_bend(vertices: Floats, faces: Ints) -> float:
     pair = np.stack([order[first], order[first + 1]], axis=1) // 3
     bend = np.arccos(row_dots(normals[pair[:, 0]], normals[pair[:, 1]]).clip(-1.0, 1.0))
     bend = bend[bend > np.radians(FILLING.level_deg)]
-    return float(np.median(bend)) if len(bend) else 0.0
+    return median(bend) if len(bend) else 0.0
 
 
 # ---------------------------------------------------------------- planes
