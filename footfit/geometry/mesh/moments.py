@@ -38,41 +38,35 @@ def printed_covariance(vertices: Floats, faces: Ints) -> Floats:
     return np.asarray((areas[:, None] * away).T @ away / areas.sum(), dtype=np.float64)  # Eq. 2, 4
 
 
-def surface_centroid(vertices: Floats, faces: Ints) -> Floats:
-    """The area-weighted centroid of the surface, (3,), which Eq. 1 must mean.
-
-    Examples
-    --------
-    >>> triangle = np.array([[0.0, 0, 0], [3, 0, 0], [0, 3, 0]])
-    >>> surface_centroid(triangle, np.array([[0, 1, 2]])).tolist()
-    [1.0, 1.0, 0.0]
-    """
-    areas = face_areas(vertices, faces)
-    return np.asarray(areas @ face_barycentres(vertices, faces) / areas.sum(), dtype=np.float64)
-
-
 def surface_second_moment(vertices: Floats, faces: Ints) -> Floats:
-    """The exact second moment of the surface about its centroid, over its area, (3, 3).
+    """The exact second moment of the surface about its centroid: see `surface_moments`."""
+    return surface_moments(vertices, faces)[1]
 
-    It is sum A_i (9 T T' + sum v v') / 12 A, with each triangle's barycentre T and corners v
-    relative to the centroid. Splitting a triangle does not change it.
+
+def surface_moments(vertices: Floats, faces: Ints) -> tuple[Floats, Floats]:
+    """The area-weighted centroid of the surface, which Eq. 1 must mean, (3,); and the exact second
+    moment about it, over the area, (3, 3).
+
+    The moment is sum A_i (9 T T' + sum v v') / 12 A, with each triangle's barycentre T and corners
+    v relative to the centroid. Splitting a triangle does not change it.
 
     Examples
     --------
     A square plate of side 2 has a third of its half side squared along each side:
 
     >>> plate = np.array([[-1.0, -1, 0], [1, -1, 0], [1, 1, 0], [-1, 1, 0]])
-    >>> surface_second_moment(plate, np.array([[0, 1, 2], [0, 2, 3]])).round(12).diagonal().tolist()
-    [0.333333333333, 0.333333333333, 0.0]
+    >>> centroid, moment = surface_moments(plate, np.array([[0, 1, 2], [0, 2, 3]]))
+    >>> centroid.tolist(), moment.round(12).diagonal().tolist()
+    ([0.0, 0.0, 0.0], [0.333333333333, 0.333333333333, 0.0])
     """
     areas = face_areas(vertices, faces)
     barycentres = face_barycentres(vertices, faces)
-    centroid = areas @ barycentres / areas.sum()
+    centroid = np.asarray(areas @ barycentres / areas.sum(), dtype=np.float64)
     away, corners = barycentres - centroid, vertices - centroid
     # The corners' part, vertex by vertex: each counts with the areas of all faces around it.
     around = np.bincount(faces.ravel(), np.repeat(areas, 3), minlength=len(vertices))
     moment = 9 * (areas[:, None] * away).T @ away + (around[:, None] * corners).T @ corners
-    return np.asarray(moment / (12 * areas.sum()), dtype=np.float64)
+    return centroid, np.asarray(moment / (12 * areas.sum()), dtype=np.float64)
 
 
 def principal_axes(second_moment: Floats) -> tuple[Floats, Floats]:

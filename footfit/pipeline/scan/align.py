@@ -54,9 +54,9 @@ def _eigenframes(prepared: PreparedScan, method: Method) -> tuple[Eigenframe, Ei
         return printed, printed
     if method == "paper-literal":
         return _paired(P_c, paper_frame.largest_positive(R), C_M), printed
-    moment = moments.surface_second_moment(vertices_mm, faces)
+    centroid_mm, moment = moments.surface_moments(vertices_mm, faces)
     rows = paper_frame.settled_axes(moments.principal_axes(moment)[1], rotation)
-    return _paired(moments.surface_centroid(vertices_mm, faces), rows, moment), printed
+    return _paired(centroid_mm, rows, moment), printed
 
 
 def _paired(centroid_mm: Floats, rows: Floats, moment_mm2: Floats) -> Eigenframe:
