@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from dataclasses import fields as dataclass_fields
 from typing import TYPE_CHECKING, Literal
 
 from footfit.geometry.fit import sizes
+from footfit.geometry.fit.along_the_bottom import ALONG_BOTTOM, LastLengths, length_along_bottom
 from footfit.results.profile import flare_part
 from footfit.results.values import (
     Document,
@@ -109,8 +111,27 @@ class LastRecord:
 
     @property
     def label_check(self) -> sizes.LabelCheck | None:
-        """The label compared with the length; None if the label gives no number."""
-        return sizes.label_check(self.labels.size, self.labels.size_system, self.length_mm)
+        """The label compared with the length; None if the label gives no number.
+
+        The length is that along the bottom, which depends neither on the heel nor on the cone. Of a
+        level last, and of one whose bottom is not measured, it is the length at rest.
+        """
+        if self.labels.size is None:
+            return None
+        length_mm, raised = self._size_length()
+        check = sizes.label_check(self.labels.size, self.labels.size_system, length_mm)
+        return replace(check, length_name="length along the bottom") if check and raised else check
+
+    def _size_length(self) -> tuple[float | None, bool]:
+        """The length that a size label goes with, in mm, and whether it is all along the bottom."""
+        along = [self.value_of(known.name) for known in dataclass_fields(LastLengths)]
+        lengths = [value for value in along if value is not None]
+        heel_mm = self.value_of("heel_height")
+        whole = self.length_mm is not None and len(lengths) == len(along)
+        if not whole or heel_mm is None or heel_mm <= ALONG_BOTTOM.level_mm:
+            return self.length_mm, False
+        along_mm, _ = length_along_bottom(self.length_mm or 0.0, LastLengths(*lengths))
+        return float(along_mm), heel_mm >= ALONG_BOTTOM.raised_mm
 
     @property
     def label_notices(self) -> tuple[Notice, ...]:

@@ -90,12 +90,14 @@ class Size:
 @dataclass(frozen=True, slots=True)
 class LabelCheck:
     """A last's label against its length: ``by_length`` is the size that its length has, and ``off``
-    the label minus that, in whole sizes; + means that the label is too large.
+    the label minus that, in whole sizes; + means that the label is too large. ``length_name`` says
+    which length counts.
     """
 
     system: str
     by_length: float
     off: float
+    length_name: str = "length"
 
     @property
     def flagged(self) -> bool:
@@ -276,6 +278,6 @@ def label_words(check: LabelCheck) -> str:
     nearest = _nearest_sold(check.by_length, system)
     word = "larger" if check.off > 0 else "smaller"
     return (
-        f"labelled {plain(abs(check.off), 1, RATIO_KEPT)} sizes {word} than its length: "
-        f"it is {size_words(nearest, system)} by its length"
+        f"labelled {plain(abs(check.off), 1, RATIO_KEPT)} sizes {word} than its"
+        f" {check.length_name}: it is {size_words(nearest, system)} by its length"
     )
