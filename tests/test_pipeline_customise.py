@@ -229,7 +229,7 @@ def test_a_zone_that_is_not_good_is_named_with_its_reason() -> None:
     ]
     asked = CustomQuestion(fit_profile("walking"), heel_question(), BAREFOOT)
     (notice,) = zone_notices(with_reasons(zones, asked), ())
-    assert notice.message.startswith("not good in toes (the toe keeps its shape, and no good toe")
+    assert notice.message.startswith("not good in toes (the toe keeps its shape, and another ")
     assert "--flare-follow" in notice.message
     (kept,) = zone_notices(with_reasons(zones[3:], replace(asked, bottom_kept=True)), ())
     assert "--keep bottom" in kept.message

@@ -14,13 +14,14 @@ from footfit.pipeline.last_making.custom.custom_aims import (
 )
 from footfit.results import JudgedZone, Notice
 
+OTHER_ROOM = "and another good toe room does not help or cannot be made"
 WHY = {
     "ball_line": f"the ball moves by at most {MOST_BALL_MM:g} mm",
     "ball_girth": "its section keeps the shape of the base, and its least tape is good",
     "instep_girth": "its section keeps the shape of the base, and its least tape is good",
     "short_heel_girth": "the bottom, the back and the top stay, and nearly set it",
-    "toe_height": "the toe keeps its heights, and no good toe room is enough",
-    "toes": "the toe keeps its shape, and no good toe room is enough",
+    "toe_height": f"the toe keeps its heights, {OTHER_ROOM}",
+    "toes": f"the toe keeps its shape, {OTHER_ROOM}",
     "flare": "the flare stays",
     "plan": "the toe and the flare keep their outlines",
 }
