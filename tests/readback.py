@@ -457,6 +457,7 @@ def match_csv_facts(
         measured = clearances.get(name, Measured(None))
         cells[f"clearance_{name}_mm"] = mm(measured.value)
         cells[f"clearance_{name}_sd_mm"] = mm(measured.sd)
+        cells[f"clearance_{name}_total_sd_mm"] = mm(measured.total_sd)
     cells |= heel_cells(None if fit is None else fit.heel) | foot_cells(match, foot, "ranked")
     zones = {} if fit is None else {row.zone: row for row in fit.zones}
     for name, end in ZONE_ENDS.items():
@@ -465,6 +466,7 @@ def match_csv_facts(
         if name not in FIT_NAMES:
             cells[f"clearance_{name}{end}"] = mm(known.value)
             cells[f"clearance_{name}_sd{end}"] = mm(known.sd)
+            cells[f"clearance_{name}_total_sd{end}"] = mm(known.total_sd)
         cells[f"verdict_{name}"] = None if row is None else row.verdict
         cells[f"not_counted_{name}"] = None if row is None else row.not_counted or known.reason
     for column, value in cells.items():

@@ -14,10 +14,12 @@ from footfit.geometry.measures.landmarks import Shape
 from footfit.geometry.measures.lengths import tape_length
 from footfit.geometry.mesh.surface import unit
 from footfit.geometry.mesh.topology import is_closed
+from footfit.meshes.clean.contacts import contact_faces
 from footfit.meshes.clean.triangles import welded_mesh
 from tests import shapes
 from tests.distortions import moved, random_pose, subdivided
 from tools import last_cuts
+from tools.last_specs import wide
 from tools.lasts import LastSpec, last_mesh
 
 CASES = Path(__file__).parents[2] / "shared" / "cases"
@@ -109,6 +111,34 @@ def test_the_hinged_last_of_a_user_reads_as_the_whole_one():
     }
     read = [values[name] for name in GIRTHS[:3]]
     assert np.allclose(read, [239.2, 352.8, 321.4], atol=0.3)  # the case's table; measured 0.22
+
+
+@pytest.mark.parametrize(("style", "heel_mm"), [("shoe", 15.0), ("pump", 30.0), ("boot", 30.0)])
+def test_a_v_cut_of_closed_bodies_reads_as_one_of_one_body(style, heel_mm):
+    """With the faces between its bodies such a last is refused, or read as a foot."""
+    spec = wide(np.random.default_rng(3), style, (heel_mm, heel_mm + 1.0))
+    bodies = last_cuts.v_of_bodies(*last_mesh(spec))
+    pose = random_pose(np.random.default_rng(8))
+    read, one = (
+        footfit.measure((moved(vertices, pose), faces), units="mm", side="right")
+        for vertices, faces in (last_cuts.joined(bodies), last_cuts.as_one(bodies))
+    )
+    assert read.alignment.pose.kind == "last"
+    assert "inner_faces_removed" in {notice.code for notice in read.alignment.warnings}
+    values, whole = (
+        {row.name: row.measured.value for row in answer.measures} for answer in (read, one)
+    )
+    assert values.keys() == whole.keys()
+    for name in ("length", "stick_length", "heel_height", *GIRTHS):
+        assert values[name] == pytest.approx(whole[name], abs=0.4), name
+
+
+@pytest.mark.parametrize("cells", [20, 31, 40])
+def test_a_sheet_whose_two_sides_differ_is_no_contact(cells):
+    front, back = shapes.flat_sheet(cells=40), shapes.flat_sheet(cells=cells)
+    points, faces = last_cuts.joined([front, (back[0], back[1][:, ::-1])])
+    mesh = welded_mesh(points, faces)
+    assert not contact_faces(mesh.vertices, mesh.faces).any()
 
 
 # ---------------------------------------------------------------- what is taken out

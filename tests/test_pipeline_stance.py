@@ -2,18 +2,26 @@
 
 from __future__ import annotations
 
+from functools import cache
+
 import numpy as np
 import pytest
 
 from footfit.errors import BadOption
+from footfit.geometry.measures.landmarks import Shape
+from footfit.geometry.measures.measure_table import measure_named
+from footfit.geometry.mesh.surface import area_vectors
 from footfit.geometry.stance.cues import NO_LABELS, StanceLabels
+from footfit.geometry.stance.stance import stance_of
 from footfit.pipeline.scan.align import aligned_scan
 from footfit.pipeline.scan.preparation import prepared_scan
-from footfit.pipeline.scan.standing import check_stance_labels
+from footfit.pipeline.scan.standing import check_stance_labels, heights_by_shape, stance_notices
 from tests.conftest import SAMPLES
 from tests.reading import read_scan
 from tests.scans import cleaned
+from tools.last_specs import wide
 from tools.lasts import LastSpec, last_mesh, standing
+from tools.resting import at_rest
 
 SPEC = LastSpec(length_mm=262.0, heel_height_mm=45.0, level_tread=True, rings=90, segments=64)
 SOLVED_MM = 0.02  # of a label that decides; measured: .002
@@ -151,3 +159,68 @@ def test_a_platform_higher_than_the_heel_is_refused():
     ):
         check_stance_labels(StanceLabels(60.0, platform_mm=70.0))
     check_stance_labels(StanceLabels(60.0, platform_mm=60.0))
+
+
+# ---------------------------------------------------------------- by the shape, by a label alone
+
+
+@cache
+def resting(style, heel_mm):
+    """A last of a style, at rest, and how far along it each face is and whether it looks down."""
+    spec = wide(np.random.default_rng(3), style, (heel_mm, heel_mm + 1.0))
+    vertices, faces = last_mesh(spec)
+    vertices = at_rest(vertices)[0]
+    along = (vertices[faces].mean(axis=1)[:, 0] - vertices[:, 0].min()) / np.ptp(vertices[:, 0])
+    normal = area_vectors(vertices, faces)
+    return vertices, faces, along, normal[:, 2] < -0.5 * np.linalg.norm(normal, axis=1)
+
+
+def opened(style, heel_mm, gap, labels=NO_LABELS):
+    """The same last without its bottom between two shares of its length."""
+    vertices, faces, along, down = resting(style, heel_mm)
+    kept = ~(down & (along > gap[0]) & (along < gap[1]))
+    return Shape(vertices, faces[kept], "last", labels)
+
+
+@pytest.mark.parametrize(("style", "heel_mm"), [("shoe", 15.0), ("pump", 80.0), ("boot", 40.0)])
+@pytest.mark.parametrize(
+    "labels", [StanceLabels(30.0), StanceLabels(60.0, 15.0), StanceLabels(None, 20.0)]
+)
+def test_a_height_by_the_shape_is_that_of_the_last_without_its_label(style, heel_mm, labels):
+    mesh = resting(style, heel_mm)[:2]
+    alone, labelled = (stance_of(*mesh, "last", each) for each in (NO_LABELS, labels))
+    assert labelled.decided_by == "label"
+    by_shape = heights_by_shape(labelled)
+    assert by_shape == heights_by_shape(alone)
+    assert by_shape == {"heel_height": alone.heel_mm(), "toe_spring_tip": alone.tip_mm()}
+
+
+@pytest.mark.parametrize(("style", "heel_mm"), [("shoe", 15.0), ("pump", 80.0), ("child", 5.0)])
+def test_a_label_stands_a_last_whose_shape_shows_no_tread(style, heel_mm):
+    """A hole in the shank breaks the line; the labels are those of the whole last."""
+    whole = opened(style, heel_mm, (2.0, 2.0)).stance
+    assert opened(style, heel_mm, (0.28, 0.52)).stance is None
+    for labels in (StanceLabels(whole.heel_mm()), StanceLabels(None, whole.tip_mm())):
+        shape = opened(style, heel_mm, (0.28, 0.52), labels)
+        assert shape.stance.decided_by == "label"
+        assert np.degrees(shape.stance.ground) == pytest.approx(np.degrees(whole.ground), abs=0.05)
+        assert measure_named("stick_length").taken_of(shape).value is not None
+        assert stance_notices(shape) == ()
+
+
+@pytest.mark.parametrize("style", ["shoe", "pump", "child"])
+@pytest.mark.parametrize(
+    ("gap", "place"),
+    [
+        ((0.56, 0.80), "at the forepart"),
+        ((0.10, 0.80), "over most of its length"),
+        ((-1.0, 0.16), "at the seat"),
+    ],
+)
+def test_a_label_of_no_use_says_where_the_bottom_is_open(style, gap, place):
+    shape = opened(
+        style, {"shoe": 15.0, "pump": 80.0, "child": 5.0}[style], gap, StanceLabels(20.0)
+    )
+    (notice,) = stance_notices(shape)
+    assert notice.code == "stance_label_unused"
+    assert notice.message.startswith(f"the bottom is open {place}, so the labels")

@@ -19,12 +19,19 @@ from footfit.catalogue.rows.writing import seal, update_row
 from footfit.catalogue.store import open_catalogue
 from footfit.errors import NoCatalogue
 from footfit.geometry.flare.definition import FlareDefinition
+from footfit.meshes.copies.compact_copy import compact_copy, expanded_mesh
+from footfit.pipeline.library.measured_copy import measured_copy
 from footfit.pipeline.library.upgrade import upgrade
+from footfit.pipeline.scan.preparation import right_copy
 from footfit.pipeline.shelf.candidates import choice
+from footfit.results import SideName
 from tests.conftest import SAMPLES, Footfit
+from tests.distortions import axis_rotation, moved
 
 CORNERED = ("instep_girth_least",)
 """Its section keeps corners, and which bends are corners depends on the noise: measured 0.049."""
+LOOSE_PLACES = ("ball_length", "tread_from", "tread_to")
+"""They move along the bottom by more than they are off it."""
 ON_THE_GROUND = ("heel_height", "toe_spring_tip", "tread_from", "tread_to", "bottom_length")
 
 
@@ -231,3 +238,29 @@ def test_an_upgrade_makes_no_catalogue(tmp_path: Path) -> None:
     with pytest.raises(NoCatalogue):
         upgrade(tmp_path / "none.footfit")
     assert not list(tmp_path.iterdir())
+
+
+@pytest.mark.parametrize(
+    ("roll_deg", "side"), [(1.0, "right"), (-1.5, "right"), (2.0, "left"), (-1.0, "left")]
+)
+def test_a_last_that_was_left_rolled_is_measured_level(
+    catalogue: Path, roll_deg: float, side: SideName
+) -> None:
+    """Older versions did not level a last across its tread: a degree is .5 mm of heel."""
+    with open_catalogue(catalogue) as opened:
+        record = opened.lasts().records[0]
+        copy = opened.mesh_copy(record.labels.name)
+    points, faces = right_copy(*right_copy(*expanded_mesh(copy.data), record.side.side), side)
+    record = replace(record, side=replace(record.side, side=side))
+    rolled = moved(points, axis_rotation("x", roll_deg))
+    rolled = rolled - [0.0, 0.0, rolled[:, 2].min()]
+    level, again = (
+        measured_copy(record, compact_copy(mesh, faces, len(faces))) for mesh in (points, rolled)
+    )
+    for row, other in zip(level.measures, again.measures, strict=True):
+        most_mm = 0.5 if row.name in LOOSE_PLACES else 0.1  # measured: 0.05
+        assert other.measured.value == pytest.approx(row.measured.value, abs=most_mm), row.name
+    assert level.standing_transform is not None
+    assert again.standing_transform is not None
+    stands = moved(points, level.standing_transform)
+    assert np.abs(moved(rolled, again.standing_transform) - stands)[:, 2].max() < 0.15

@@ -34,7 +34,12 @@ def v_cut(
     top = float(vertices_mm[near, 2].max())
     half = np.tan(np.radians(angle_deg / 2)) * (depth_mm + 60.0)
     wedge = [[x, top - depth_mm], [x + half, top + 60.0], [x - half, top + 60.0]]
-    return _mesh(_solid(vertices_mm, faces) - _across(wedge))
+    return cut_out(vertices_mm, faces, wedge)
+
+
+def cut_out(vertices_mm: Floats, faces: Ints, outline: Sequence[Sequence[float]]) -> Solid:
+    """A last without what lies within an outline of (x, z), across its whole width."""
+    return _mesh(_solid(vertices_mm, faces) - _across(outline))
 
 
 def hinge(
@@ -80,7 +85,30 @@ def slit(vertices_mm: Floats, faces: Ints, *, gap_mm: float = 2.0, left_mm: floa
     near = np.abs(vertices_mm[:, 0] - x) < 0.02 * length_mm
     low, half = float(vertices_mm[near, 2].min()) + left_mm, gap_mm / 2
     outline = [[x - half, low], [x + half, low], [x + half + 40.0, 200.0], [x - half + 40.0, 200.0]]
-    return _mesh(_solid(vertices_mm, faces) - _across(outline))
+    return cut_out(vertices_mm, faces, outline)
+
+
+def v_of_bodies(
+    vertices_mm: Floats, faces: Ints, edges_mm: Sequence[float] = (5.0, 4.0, 6.0)
+) -> list[Solid]:
+    """A last with a V-cut as a modeller may leave it: three closed bodies, each meshed alone.
+
+    The bottom, and on it the rear and the front of the cone; ``edges_mm`` are their longest edges.
+    """
+    length_mm = float(np.ptp(vertices_mm[:, 0]))
+    x = vertices_mm[:, 0].min() + 0.36 * length_mm
+    near = np.abs(vertices_mm[:, 0] - x) < 0.02 * length_mm
+    z = float(vertices_mm[near, 2].min()) + 0.12 * length_mm
+    upper, lower = _solid(vertices_mm, faces).split_by_plane((0.0, 0.0, 1.0), z)
+    lean = 0.25 * length_mm  # so far each wall leans over this height
+    high, far = z + length_mm, 400.0
+    walls = [
+        upper
+        ^ _across([[x, z], [x + side * lean, high], [x + side * far, high], [x + side * far, z]])
+        for side in (-1.0, 1.0)
+    ]
+    bodies = zip((lower, *walls), edges_mm, strict=True)
+    return [_mesh(body.refine_to_length(edge_mm)) for body, edge_mm in bodies]
 
 
 def joined(bodies: Sequence[Solid]) -> Solid:
@@ -90,6 +118,14 @@ def joined(bodies: Sequence[Solid]) -> Solid:
         faces.append(triangles + start)
         start += len(vertices)
     return np.concatenate([vertices for vertices, _ in bodies]), np.concatenate(faces)
+
+
+def as_one(bodies: Sequence[Solid]) -> Solid:
+    """Bodies that touch as one solid."""
+    whole = _solid(*bodies[0])
+    for body in bodies[1:]:
+        whole += _solid(*body)
+    return _mesh(whole)
 
 
 def _cone_top(vertices_mm: Floats) -> Floats:

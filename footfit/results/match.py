@@ -52,7 +52,8 @@ DEFAULT_SYSTEM = "eu"
 def _zone_columns(name: str) -> tuple[str, ...]:
     """The columns of one zone; clearances of FIT_NAMES have theirs already."""
     end = ZONE_ENDS[name]
-    taken = () if name in FIT_NAMES else (f"clearance_{name}{end}", f"clearance_{name}_sd{end}")
+    ends = () if name in FIT_NAMES else (end, f"_sd{end}", f"_total_sd{end}")
+    taken = (f"clearance_{name}{each}" for each in ends)
     return *taken, f"verdict_{name}", f"not_counted_{name}"
 
 
@@ -218,7 +219,11 @@ class Match(Document):
 
     columns = (
         *("path", "foot_side", "by", *CANDIDATE_COLUMNS, "flare_distance", "flare_delta_deg"),
-        *(f"clearance_{name}_{end}" for name in FIT_NAMES for end in ("mm", "sd_mm")),
+        *(
+            f"clearance_{name}_{end}"
+            for name in FIT_NAMES
+            for end in ("mm", "sd_mm", "total_sd_mm")
+        ),
         *("foot_verdict", "verdict", "why", "tied_with", "not_judged"),
         *("profile", "profile_sha256", *HEEL_COLUMNS, *FOOT_COLUMNS, "size_asked", *ZONE_COLUMNS),
     )
@@ -281,7 +286,7 @@ class Match(Document):
             *(getattr(candidate, name) for name in CANDIDATE_COLUMNS),
             candidate.flare.distance,
             candidate.flare.delta_deg,
-            *(end for measured in room for end in (measured.value, measured.sd)),
+            *(end for each in room for end in (each.value, each.sd, each.total_sd)),
             None if fit is None else fit.verdict,
             candidate.verdict,
             candidate.why,
@@ -321,7 +326,7 @@ def zone_cells(fit: FootFit | None, name: str) -> tuple[object, ...]:
     if zone is None:
         return (None,) * len(_zone_columns(name))
     known = zone.clearance.to_dict()  # with the decimals that JSON has
-    taken = () if name in FIT_NAMES else (known["value"], known["sd"])
+    taken = () if name in FIT_NAMES else (known["value"], known["sd"], known["total_sd"])
     return *taken, zone.verdict, zone.not_counted or zone.clearance.reason
 
 

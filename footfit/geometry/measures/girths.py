@@ -8,6 +8,7 @@ from footfit.geometry.measures.least_tape import heel_tape, tape_about, tape_ove
 from footfit.geometry.measures.measure_value import (
     BLOCKED,
     CUT,
+    CUT_OUT,
     OPEN,
     MeasureValue,
     lacking,
@@ -60,7 +61,8 @@ def short_heel_girth(shape: Shape) -> MeasureValue:
         return MeasureValue(None, OPEN.format(place="cone"))
     section = shortest_around_heel(shape)
     if section is None:
-        return MeasureValue(None, CUT.format(place="bend of the ankle"))
+        foot = shape.kind == "foot"
+        return MeasureValue(None, CUT.format(place="bend of the ankle") if foot else CUT_OUT)
     return section_value(shape, section, "heel", hull_girth, over_cone=True)
 
 

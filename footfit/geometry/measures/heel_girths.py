@@ -60,16 +60,20 @@ def shortest_around_heel(shape: Shape, settings: HeelSettings = HEEL) -> Outline
     """The section around the heel with the smallest girth.
 
     If a last's cone ends before the girth grows again, it is the section at the cone's front edge.
-    None for a foot if its leg is cut too low.
+    None for a foot if its leg is cut too low, and for a last if that edge was cut away.
     """
     edge_deg = settings.steepest_deg
     if shape.kind == "last":
-        edge_deg = angle_to_deg(shape, cone_edge(shape))
+        edge = cone_edge(shape)
+        edge_deg = angle_to_deg(shape, edge)
     angles, girths = _whole_girths(shape, edge_deg, settings.step_deg)
     turn = _turn(angles, girths)
     if shape.kind == "last":
-        reached = turn is not None and turn.steps_beyond <= settings.beyond
-        return around_heel(shape, min(turn.angle_deg, edge_deg) if reached and turn else edge_deg)
+        if turn is not None and turn.steps_beyond <= settings.beyond and turn.angle_deg < edge_deg:
+            return around_heel(shape, turn.angle_deg)
+        cut = shape.cone_cut
+        lost = cut is not None and cut.takes(edge, shape.length_mm)
+        return None if lost else around_heel(shape, edge_deg)
     if turn is None or turn.steps_beyond > settings.beyond:
         return None
     section = around_heel(shape, turn.angle_deg)
@@ -99,8 +103,10 @@ def cone_edge(shape: Shape, settings: HeelSettings = HEEL) -> Floats:
     lean = min(steep, fall(settings.ball))
     normal = np.array([np.sin(lean), 0.0, np.cos(lean)])
     x = shape.vertices_mm[:, 0]
-    a, b, c = ((x > start_mm) & (x < shape.x_mm(settings.cone_end)))[shape.faces.T]
-    return tip(shape.vertices_mm, shape.faces[a & b & c], normal, shape.length_mm).place
+    # A flat top may be a few large facets: one that begins behind the line is not left out.
+    ahead, behind = (x > start_mm)[shape.faces], (x < shape.x_mm(settings.cone_end))[shape.faces]
+    faces = shape.faces[ahead.any(axis=1) & behind.all(axis=1)]
+    return tip(shape.vertices_mm, faces, normal, shape.length_mm).place
 
 
 def _whole_girths(

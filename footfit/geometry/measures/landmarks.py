@@ -15,13 +15,12 @@ from footfit.geometry.flare.flattened import Flattened, flattened
 from footfit.geometry.flare.leaning_shank import heel_end
 from footfit.geometry.flare.levelled_bottom import low_length
 from footfit.geometry.measures.bottom_arc import BottomArc, bottom_arc
-from footfit.geometry.measures.tape import Crown
+from footfit.geometry.measures.tape import ConeCut, Crown, cone_cut, crosses_cone, touched_mm
 from footfit.geometry.measures.top_cut import TOP_CUT, runs_over_cut, top_cut_faces
 from footfit.geometry.mesh.filled_holes import filled_faces
 from footfit.geometry.mesh.outermost_point import LAST_TIPS, TIPS, Tip, TipSettings, tip
 from footfit.geometry.mesh.outlines import OUTLINES, Outline, OutlineSettings, outline
 from footfit.geometry.numeric.arrays import Bools, Floats, Ints
-from footfit.geometry.numeric.hulls import convex_hull, depth_under_hull
 from footfit.geometry.stance.cues import NO_LABELS, StanceLabels
 from footfit.geometry.stance.stance import Stance, stance_of
 
@@ -231,8 +230,6 @@ class Shape:
             return None
         return np.array([outermost.place[0], side * outermost.reach, outermost.place[2]])
 
-    # ------------------------------------------------------------ what was not scanned
-
     @cached_property
     def filled(self) -> Bools:
         """Which faces (m,) a program closed a hole with: nothing was scanned there.
@@ -265,12 +262,7 @@ class Shape:
         if upright:
             across, up = np.abs(section.segments[:, 1] - section.segments[:, 0]).T
             filled &= up > across
-        if not filled.any():
-            return False
-        middles = section.segments[filled].mean(axis=1)
-        depth_mm = depth_under_hull(middles, convex_hull(section.points))
-        touched = depth_mm < LANDMARKS.touched * self.length_mm
-        crossed_mm = float(section.length_mm[filled][touched].sum())
+        crossed_mm = touched_mm(section, filled, LANDMARKS.touched * self.length_mm)
         return crossed_mm > LANDMARKS.filled_crossed * self.length_mm
 
     # ------------------------------------------------------------ the top
@@ -278,7 +270,9 @@ class Shape:
     @cached_property
     def top_cut(self) -> Bools:
         """Which faces (m,) close the shape at its top: a leg's cut, a last's cone top."""
-        return top_cut_faces(self.vertices_mm, self.faces, self.length_mm, self.x_mm(0.0))
+        top = top_cut_faces(self.vertices_mm, self.faces, self.length_mm, self.x_mm(0.0))
+        in_cut = self.kind == "last" and top.any() and self.cone_cut
+        return top & ~in_cut.holds(self.vertices_mm, self.faces) if in_cut else top
 
     @cached_property
     def at_instep(self) -> Outline:
@@ -363,7 +357,15 @@ class Shape:
 
     def cut(self, origin: Floats, axes: Floats, settings: OutlineSettings = OUTLINES) -> Outline:
         """The section by the plane through ``origin`` (3,) along ``axes`` (2, 3)."""
-        return outline(self.vertices_mm, self.faces, origin, axes, self.length_mm, settings)
+        section = outline(self.vertices_mm, self.faces, origin, axes, self.length_mm, settings)
+        near = self.kind == "last" and crosses_cone(origin, axes, self.length_mm, self.x_mm(0.0))
+        cut = self.cone_cut if near else None
+        return section if cut is None else cut.bridged(section, origin, axes, self.length_mm)
+
+    @cached_property
+    def cone_cut(self) -> ConeCut | None:
+        """The cut across a last's cone, which its sections bridge; None if it has none."""
+        return cone_cut(self.vertices_mm, self.faces, self.length_mm, self.x_mm(0.0))
 
     def opened(self, section: Outline, below_mm: float = np.inf) -> bool:
         """Whether a section has a gap, below a height (mm) if one is given."""

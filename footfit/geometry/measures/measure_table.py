@@ -195,7 +195,7 @@ MEASURES: tuple[MeasureDefinition, ...] = (
     ),
     MeasureDefinition(
         girths.short_heel_girth,
-        4,
+        5,
         0.35,
         last_sd=0.8,
         foot=off(-0.35, 0.29),

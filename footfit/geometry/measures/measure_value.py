@@ -6,6 +6,7 @@ from collections.abc import Callable
 from typing import NamedTuple
 
 from footfit.geometry.measures.landmarks import Shape
+from footfit.geometry.measures.tape import CUTS
 from footfit.geometry.mesh.outlines import Outline
 from footfit.geometry.numeric.arrays import Floats
 
@@ -14,6 +15,7 @@ OPEN = "the scan is open at the {place}"
 CUT = "the leg is cut below the {place}"
 BLOCKED = "the forepart is in the tape's way"
 UNSCANNED = "this part was not scanned"
+CUT_OUT = "a cut took away what the tape would touch"
 SAWN = "the last is sawn off below the {place}"
 
 
@@ -48,6 +50,8 @@ def lacking(shape: Shape, section: Outline, place: str, *, over_cone: bool = Fal
         return OPEN.format(place=place)
     if shape.unscanned(section):
         return UNSCANNED
+    if section.bridged_mm > CUTS.far * shape.length_mm:
+        return CUT_OUT
     if shape.kind == "last" and over_cone:
         return None
     if shape.topped(section):

@@ -54,6 +54,8 @@ class Outline:
 
     ``gaps`` (g, 2, 2) are the ends of the straight pieces that close open loops. ``face`` (m,) are
     the faces that the plane cuts, each along a segment (m, 2, 2) of the length ``length_mm`` (m,).
+    Of a last with a cut across its cone the loops have what is missing there; ``bridged_mm`` is how
+    far that is from what is left, the geometric mean of the ways to both rims.
     """
 
     loops: tuple[Floats, ...]
@@ -61,6 +63,7 @@ class Outline:
     face: Ints
     length_mm: Floats
     segments: Floats
+    bridged_mm: float = 0.0
 
     def gap_mm(self, below_mm: float = np.inf) -> float:
         """The longest straight piece with an end below a height; 0 where there is none."""

@@ -47,6 +47,12 @@ class MiddleLineSettings:
 MIDDLE_LINE = MiddleLineSettings()
 SEAT = 0.06, 0.14
 """Where the seat lies along the ground, over the standing length."""
+TOUCH = 0.50, 0.90
+"""Where the ground touches the forepart, over the standing length."""
+TOE = 0.82, 0.94
+"""Where the parabola of the toe runs, over the standing length."""
+FEWEST = 6
+"""The points that a parabola of the toe needs."""
 
 
 @dataclass(frozen=True, slots=True)

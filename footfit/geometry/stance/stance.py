@@ -16,7 +16,10 @@ from footfit.geometry.numeric.arrays import Floats, Ints
 from footfit.geometry.numeric.smoothing import local_quadratic
 from footfit.geometry.stance.cues import NO_LABELS, Cue, StanceLabels, agreed, combined, doubted
 from footfit.geometry.stance.middle_line import (
+    FEWEST,
     SEAT,
+    TOE,
+    TOUCH,
     MiddleLine,
     low_points,
     middle_line,
@@ -24,6 +27,7 @@ from footfit.geometry.stance.middle_line import (
     stretch,
     turned,
 )
+from footfit.geometry.stance.missing_bottom import missing_for_labels
 
 if TYPE_CHECKING:
     from footfit.geometry.stance.ground import BottomCues
@@ -57,10 +61,10 @@ class StanceSettings:
         A labelled ground is kept within these.
     """
 
-    touch: tuple[float, float] = (0.50, 0.90)
+    touch: tuple[float, float] = TOUCH
     bandwidth: float = 0.012
     seat: tuple[float, float] = SEAT
-    toe: tuple[float, float] = (0.82, 0.94)
+    toe: tuple[float, float] = TOE
     pitch: float = 0.78
     pitch_spread: float = 0.48
     pitch_sd_deg: float = 2.0
@@ -106,6 +110,8 @@ class Stance:
     level_sd : float
         How far the ground may be from where this very tread lies level, radians; with a label, the
         standard deviation of what the label says. ``ground_sd`` also holds how lasts differ.
+    by_shape : Stance or None
+        How a last that stands by its label stands by its shape alone: as it would without labels.
     """
 
     ground: float
@@ -117,6 +123,14 @@ class Stance:
     decided_by: str = "contact"
     cues: tuple[Cue, ...] = ()
     level_sd: float = 0.0
+    by_shape: Stance | None = None
+
+    @property
+    def alone(self) -> Stance | None:
+        """How a last stands by its shape alone, whatever a label says; None if that is not known,
+        and of a foot.
+        """
+        return self if self.decided_by == "shape" else self.by_shape
 
     @property
     def standing_transform(self) -> Floats:
@@ -203,7 +217,7 @@ class Stance:
         None if the bottom is open along the toes.
         """
         x, z = self.stretch_mm(settings.toe).T
-        if len(x) < 6:
+        if len(x) < FEWEST:
             return None
         return float(np.polyfit(x - self.length_mm, z, 2)[2])
 
@@ -226,7 +240,7 @@ def stance_of(
     Returns
     -------
     Stance or None
-        None if a last's bottom is open or has no tread. A foot always stands.
+        None if a last's bottom is open or has no tread, and no label helps. A foot always stands.
     """
     if kind == "foot":
         low_mm = vertices_mm[low_points(vertices_mm)]
@@ -235,16 +249,33 @@ def stance_of(
 
     bottom = bottom_cues(vertices_mm, faces)
     if bottom is None:
-        return None
+        return _by_label_alone(vertices_mm, faces, labels)
     last = _StandingLast(vertices_mm, faces, bottom.line)
     cues = _shape_cues(last, bottom)
-    said = _label_cues(last, labels, cues[-1].ground)
-    if not said:
-        level_sd = _doubted_level(bottom.level_sd, cues[-1].sd, last.settings)
-        return replace(last.on(cues[-1], "shape", cues), level_sd=level_sd)
+    level_sd = _doubted_level(bottom.level_sd, cues[-1].sd, last.settings)
+    labelled = replace(last)  # cut anew for the grounds of labels, without a trace here
+    alone = replace(last.on(cues[-1], "shape", cues), level_sd=level_sd)
+    said = _label_cues(labelled, labels, cues[-1].ground)
+    return replace(_by_label(labelled, cues, said), by_shape=alone) if said else alone
+
+
+def _by_label(last: _StandingLast, cues: tuple[Cue, ...], said: list[Cue]) -> Stance:
+    """The stance that labels decide."""
     label = agreed("label", said)
     cues = (*cues, *(said if len(said) > 1 else ()), label)
     return replace(last.on(label, "label", cues), level_sd=label.sd)
+
+
+def _by_label_alone(vertices_mm: Floats, faces: Ints, labels: StanceLabels) -> Stance | None:
+    """The stance of a last whose shape shows no tread, by its labels, if enough is left of it."""
+    if labels.drop_mm is None and labels.toe_spring_mm is None:
+        return None
+    line = middle_line(vertices_mm, faces, 0.0)
+    if line is None or missing_for_labels(line, labels):
+        return None
+    last = _StandingLast(vertices_mm, faces, line)
+    said = _label_cues(last, labels, 0.0)
+    return _by_label(last, (), said) if said else None
 
 
 @dataclass

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import numpy as np
+
 from footfit.errors import EmptyMesh
 from footfit.geometry.mesh.surface import area_vectors
 from footfit.geometry.mesh.topology import edge_groups, face_components
@@ -9,6 +11,7 @@ from footfit.geometry.mesh.welding import without_unused_vertices
 from footfit.geometry.numeric.arrays import Ints, row_lengths
 from footfit.geometry.pose.facing import outward_faces
 from footfit.geometry.pose.loose_pieces import KeptPieces, kept_pieces
+from footfit.meshes.clean.contacts import contact_faces
 from footfit.meshes.read import FileMesh
 from footfit.meshes.units import settled_units
 from footfit.results import MeshInfo, Notice, Scan
@@ -16,6 +19,7 @@ from footfit.results.values import count_notice
 
 SLIVER = 1e-12
 """A face whose area is below this share of the mean area has none."""
+COVERED = "faces that another body covers, inside the solid, were removed"
 PLATE_REMOVED = Notice("plate_removed", "a floor plate was taken off")
 
 
@@ -51,7 +55,12 @@ def scan_of(
         faces, vectors = faces[kept.faces], vectors[kept.faces]
         labels, flat = labels[kept.faces], flat[kept.faces]
     faces, turned = outward_faces(vertices, faces, vectors, labels)
-    open_notices = _open_notices(faces)
+    open_notices, inner = _open_notices(faces), np.zeros(len(faces), dtype=bool)
+    if any(notice.code == "non_manifold" for notice in open_notices):
+        inner = contact_faces(vertices, faces)
+    if inner.any():
+        faces, flat = faces[~inner], flat[~inner]
+        open_notices = _open_notices(faces)
     removed = file.mesh.collapsed + int(flat.sum())
     vertices, faces, number = without_unused_vertices(vertices, faces[~flat])
     unit = settled_units(vertices, units, known_length_mm, file.unit)
@@ -70,6 +79,7 @@ def scan_of(
     notices = (
         *file.notices,
         *file.mesh.notices,
+        *count_notice("inner_faces_removed", int(inner.sum()), COVERED),
         *_piece_notices(kept),
         *turned_notices(turned),
         *count_notice("degenerate_removed", removed, "faces without an area were removed"),

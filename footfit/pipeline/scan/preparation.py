@@ -18,7 +18,14 @@ from footfit.geometry.mesh.holes import ClosedMesh, closed_mesh
 from footfit.geometry.mesh.samples import SurfaceSample, gathered_sample, quadrature
 from footfit.geometry.numeric.arrays import Floats, Ints
 from footfit.geometry.numeric.rotations import moved_points, nearest_rotation, transform
-from footfit.geometry.pose.frame import FRAME, canonical_frame, length_of, toe_beyond, turned_sample
+from footfit.geometry.pose.frame import (
+    FRAME,
+    canonical_frame,
+    length_of,
+    origin_shift,
+    toe_beyond,
+    turned_sample,
+)
 from footfit.geometry.pose.missing_parts import doubtful_end, missing_part
 from footfit.geometry.pose.side import confidence, side_score
 from footfit.geometry.stance.cues import NO_LABELS, StanceLabels
@@ -49,6 +56,7 @@ class FramingSettings:
     gathered_edge: float = 0.0025  # over L
     rounds: int = 3  # of the frame from the frame: two poses then agree to 1e-8 mm
     low_leg: float = 0.24  # of L: a scan that ends lower has its leg cut low
+    level_deg: float = 0.2  # a stored last that is level across to this is not turned
 
 
 FRAMING = FramingSettings()
@@ -180,6 +188,32 @@ def stored_shape(data: bytes, side: SideName | None) -> tuple[Floats, Ints]:
     for array in shape:
         array.flags.writeable = False  # the next comparison gets the same arrays
     return shape
+
+
+def level_turn(vertices_mm: Floats, faces: Ints) -> Floats:
+    """What turns a stored last level across its tread, and puts it on z = 0 again, (4, 4).
+
+    Older versions left a last rolled by up to 4 degrees
+    ([decision 0213](docs/decisions/0213-a-last-is-level-across-its-tread.md)). A degree moves the
+    heel height by .5 mm.
+    """
+    length = low_length(vertices_mm, FRAME.length_height)[1]
+    sample = quadrature(vertices_mm, faces, FRAMING.quadrature_edge * length)
+    rotation = np.eye(3)
+    for number in range(FRAMING.rounds):
+        level = number == FRAMING.rounds - 1
+        fine = canonical_frame(turned_sample(sample, rotation), length, last=True, level=level)
+        rotation = fine.rotation @ rotation
+    roll = float(np.arctan2(rotation[2, 1], rotation[2, 2]))
+    if not fine.sole or abs(roll) < np.radians(FRAMING.level_deg):
+        return np.eye(4)
+    cosine, sine = np.cos(roll), np.sin(roll)
+    turn = np.array([[1.0, 0.0, 0.0], [0.0, cosine, -sine], [0.0, sine, cosine]])
+    level_sample = turned_sample(sample, turn)
+    ground = float(level_sample.points[:, 2].min())
+    return transform(
+        turn, np.array([0.0, 0.0, origin_shift(level_sample, ground, length, True)[2]])
+    )
 
 
 def closed_shape(vertices_mm: Floats, faces: Ints) -> tuple[Floats, Ints]:

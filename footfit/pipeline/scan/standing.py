@@ -12,7 +12,8 @@ from footfit.errors import BadOption
 from footfit.geometry.measures.heights import HEIGHTS
 from footfit.geometry.measures.measure_table import measure_named
 from footfit.geometry.stance.cues import StanceLabels
-from footfit.geometry.stance.stance import stance_of
+from footfit.geometry.stance.middle_line import middle_line
+from footfit.geometry.stance.missing_bottom import missing_for_labels
 from footfit.number_words import plain
 from footfit.pipeline.scan.trueness import measured
 from footfit.results import Notice
@@ -27,10 +28,8 @@ LABELLED_MM = {"heel_height_mm": (0, 200), "toe_spring_mm": (0, 80), "platform_m
 """What labels may say."""
 LONE_PLATFORM = "a platform counts together with a heel height only: give --heel-height too"
 OF_A_FOOT = "heel height and toe spring are labels of lasts; this is a foot, which stands flat"
-OPEN_BOTTOM = (
-    "the bottom is open or shows no tread,"
-    " so the labels of heel height and toe spring are of no use"
-)
+OPEN_BOTTOM = "the bottom {place}, so the labels of heel height and toe spring are of no use"
+NO_TREAD = "shows no tread"
 CONTRADICTED_SDS = 2.0
 """A label that is further from the shape than this many of their standard deviations is told."""
 
@@ -101,16 +100,11 @@ def heights_by_shape(stance: Stance | None) -> dict[str, float]:
     """The heel height and the toe spring at the tip (mm) of a last as its shape alone stands,
     whatever its labels say; without those that are not known.
     """
-    own = next((cue for cue in stance.cues if cue.name == "shape"), None) if stance else None
-    if stance is None or own is None:
+    alone = stance.alone if stance else None
+    if alone is None:
         return {}
-    turn, touching_mm = own.ground - stance.ground, stance.touching_x_mm
-    heel_mm, tip_mm = stance.heel_mm(), stance.tip_mm()
-    arms = (
-        ("heel_height", heel_mm, touching_mm),
-        ("toe_spring_tip", tip_mm, touching_mm - stance.length_mm),
-    )
-    return {name: mm + turn * arm_mm for name, mm, arm_mm in arms if mm is not None}
+    heights = {"heel_height": alone.heel_mm(), "toe_spring_tip": alone.tip_mm()}
+    return {name: mm for name, mm in heights.items() if mm is not None}
 
 
 def stance_notices(shape: Shape) -> tuple[Notice, ...]:
@@ -120,12 +114,11 @@ def stance_notices(shape: Shape) -> tuple[Notice, ...]:
         return (_unused(LONE_PLATFORM),) if labels.platform_mm else ()
     if shape.kind == "foot":
         return (_unused(OF_A_FOOT),)
-    if stance is None:
-        return (_unused(OPEN_BOTTOM),)
-    grounds = {cue.name: cue for cue in stance.cues}
-    if "label" not in grounds:
-        return ()
-    words = _two_labels(stance, grounds) or _contradiction(shape, stance, grounds)
+    grounds = {} if stance is None else {cue.name: cue for cue in stance.cues}
+    if stance is None or "label" not in grounds:
+        place = missing_for_labels(middle_line(shape.vertices_mm, shape.faces, 0.0), labels)
+        return (_unused(OPEN_BOTTOM.format(place=f"is open {place}" if place else NO_TREAD)),)
+    words = _two_labels(stance, grounds) or _contradiction(shape, stance)
     return (Notice("stance_label_contradicted", words),) if words else ()
 
 
@@ -143,25 +136,29 @@ def _two_labels(stance: Stance, grounds: Mapping[str, Cue]) -> str:
     """What is said if the labels of heel and toe spring do not go together."""
     if "heel_label" not in grounds:
         return ""
-    heel, spring, own = (grounds[name] for name in ("heel_label", "spring_label", "shape"))
+    heel, spring = grounds["heel_label"], grounds["spring_label"]
     apart = _apart(heel, spring)
     if not apart:
         return ""
     more = "lower" if apart < 0.0 else "higher"
-    by_heel = abs(heel.ground - own.ground) < abs(spring.ground - own.ground)
-    return (
+    words = (
         "the labels of heel height and toe spring do not go together: by the toe spring the heel"
-        f" is {abs(apart) * stance.touching_x_mm:.0f} mm {more}. The shape agrees better with the"
-        f" {'heel height' if by_heel else 'toe spring'}: check both labels"
+        f" is {abs(apart) * stance.touching_x_mm:.0f} mm {more}"
     )
+    own = grounds.get("shape")
+    if own is None:
+        return f"{words}: check both labels"
+    by_heel = abs(heel.ground - own.ground) < abs(spring.ground - own.ground)
+    nearer = "heel height" if by_heel else "toe spring"
+    return f"{words}. The shape agrees better with the {nearer}: check both labels"
 
 
-def _contradiction(shape: Shape, stance: Stance, grounds: Mapping[str, Cue]) -> str:
+def _contradiction(shape: Shape, stance: Stance) -> str:
     """What is said if the shape stands otherwise than a label says."""
-    label, own = grounds["label"], grounds["shape"]
-    alone = stance_of(shape.vertices_mm, shape.faces, "last") if _apart(label, own) else None
-    if alone is None:
+    grounds, alone = {cue.name: cue for cue in stance.cues}, stance.alone
+    if alone is None or not _apart(grounds["label"], grounds["shape"]):
         return ""
+    label, own = grounds["label"], grounds["shape"]
     of_toe = shape.labels.heel_height_mm is None
     said_mm, own_mm = (each.tip_mm() if of_toe else each.heel_mm() for each in (stance, alone))
     if said_mm is None or own_mm is None:
