@@ -63,8 +63,8 @@ FRAMING = FramingSettings()
 STORED_SHAPES = 32
 """How many stored lasts are kept ready for the next comparison; each takes 0.7 MB."""
 _MISSING = {
-    "heel": "the heel is missing, the surface is cut off there: scan the whole foot",
-    "toes": "the toes are missing, the surface is cut off there: scan the whole foot",
+    "heel": "the shape ends flat or open at the heel, as if cut off there: scan the whole foot",
+    "toes": "the shape ends flat or open at the toes, as if cut off there: scan the whole foot",
     "side": "one side is cut off along the foot: scan the whole foot",
     "upper part": "the scan shows only the sole: scan at least 50 mm from the floor up",
 }

@@ -100,7 +100,7 @@ def list_lasts_table(library: results.Library) -> RenderableType:
             _number(record.value_of("ball_girth"), 0),
             signed(record.flare.angle_deg),
             record.flare.flare_class or "-",
-            _number(record.heel_height_mm, 0),
+            _number(record.drop_mm, 0),
         )
     lines = (*_legend(marked), *_made(ordered), Text(_count(library, len(ordered)), "dim"))
     return Group(table, *lines)
