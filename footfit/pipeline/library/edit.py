@@ -20,7 +20,7 @@ Label = str | float | None
 """The value of a label: a text, a height in mm, or None for no label."""
 EDITABLE = (*LABEL_TEXTS[1:], "parent", *LABEL_HEIGHTS)
 """The labels that may change; the name has a command of its own."""
-OF_STANCE = ("stance_label_contradicted", "stance_label_unused")
+OF_STANCE = ("stance_label_contradicted", "stance_label_unused", "stance_unsure")
 """The codes of the warnings that the labels of the stance give."""
 
 

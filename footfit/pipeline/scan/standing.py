@@ -30,6 +30,8 @@ LONE_PLATFORM = "a platform counts together with a heel height only: give --heel
 OF_A_FOOT = "heel height and toe spring are labels of lasts; this is a foot, which stands flat"
 OPEN_BOTTOM = "the bottom {place}, so the labels of heel height and toe spring are of no use"
 NO_TREAD = "shows no tread"
+UNSURE_HEEL_MM = 10.0
+"""A heel without a label that is less sure than this is told, by one standard deviation."""
 CONTRADICTED_SDS = 2.0
 """A label that is further from the shape than this many of their standard deviations is told."""
 
@@ -108,10 +110,13 @@ def heights_by_shape(stance: Stance | None) -> dict[str, float]:
 
 
 def stance_notices(shape: Shape) -> tuple[Notice, ...]:
-    """A label that is of no use, or that the shape or the other label contradicts."""
+    """A label that is of no use, or that the shape or the other label contradicts; without a label,
+    a shape that does not show well how it stands.
+    """
     labels, stance = shape.labels, shape.stance
     if labels.heel_height_mm is None and labels.toe_spring_mm is None:
-        return (_unused(LONE_PLATFORM),) if labels.platform_mm else ()
+        unused = (_unused(LONE_PLATFORM),) if labels.platform_mm else ()
+        return (*unused, *_unsure(stance))
     if shape.kind == "foot":
         return (_unused(OF_A_FOOT),)
     grounds = {} if stance is None else {cue.name: cue for cue in stance.cues}
@@ -120,6 +125,20 @@ def stance_notices(shape: Shape) -> tuple[Notice, ...]:
         return (_unused(OPEN_BOTTOM.format(place=f"is open {place}" if place else NO_TREAD)),)
     words = _two_labels(stance, grounds) or _contradiction(shape, stance)
     return (Notice("stance_label_contradicted", words),) if words else ()
+
+
+def _unsure(stance: Stance | None) -> tuple[Notice, ...]:
+    """What is said of a last whose bottom does not show well where it is level."""
+    sd_mm = 0.0 if stance is None else stance.level_sd_mm(0.0)
+    heel_mm = None if stance is None else stance.heel_mm()
+    if heel_mm is None or sd_mm < UNSURE_HEEL_MM:
+        return ()
+    words = (
+        f"the bottom does not show well how it stands: the heel is {heel_mm:.0f} mm high"
+        f" ± {sd_mm:.0f} mm (one standard deviation), and lengths along the ground and the bottom"
+        " hang on it. Give --heel-height if you know it"
+    )
+    return (Notice("stance_unsure", words),)
 
 
 def _unused(words: str) -> Notice:
