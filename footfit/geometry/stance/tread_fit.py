@@ -3,9 +3,11 @@
 Along the arc length s, over the standing length, the slope of the bottom's middle is
 
     theta(s) = ground - fall (1 - S((s - tread + turn) / turn)) + spring max(0, s - tread)^power
+               - crease  where s < tread
 
 with S(u) = 3 u^2 - 2 u^3 on [0, 1]: the shank falls, turns into the tread over ``turn``, lies on
-the ground at ``tread``, and springs up to the toe. The model is smoothed as the measured slope is.
+the ground at ``tread``, and springs up to the toe. A shank may turn softly and still end in a
+``crease``. The model is smoothed as the measured slope is.
 A crisp break and a soft one are both of this form; a polynomial through the tread would mix the
 shank and the toe spring into it.
 """
@@ -45,8 +47,10 @@ class TreadFitSettings:
     toe : tuple of float
         How high toes spring there at most, over the length, and the spread of those that spring
         higher. A ground that is too low has the toe far over it.
+    crease : float
+        The angle that is seldom left at the tread: most shanks have turned before.
     least, most : tuple of float
-        Bounds of (ground, fall, turn, tread, spring, power).
+        Bounds of (ground, fall, turn, tread, spring, power, crease).
     scale : tuple of float
         A usual step of each.
     """
@@ -62,15 +66,16 @@ class TreadFitSettings:
     fall: tuple[float, float] = (0.4, 1.5)
     tip: float = 0.94
     toe: tuple[float, float] = (0.02, 0.02)
-    least: tuple[float, ...] = (-0.026, 0.01, 0.03, 0.5, 0.0, 0.5)
-    most: tuple[float, ...] = (1.2, 2.0, 0.5, 0.9, 30.0, 3.0)
-    scale: tuple[float, ...] = (0.05, 0.2, 0.1, 0.03, 1.0, 0.3)
+    crease: float = 0.03
+    least: tuple[float, ...] = (-0.026, 0.01, 0.03, 0.5, 0.0, 0.5, 0.0)
+    most: tuple[float, ...] = (1.2, 2.0, 0.5, 0.9, 30.0, 3.0, 0.7)
+    scale: tuple[float, ...] = (0.05, 0.2, 0.1, 0.03, 1.0, 0.3, 0.1)
     rounds: int = 25
     settled: float = 1e-6
 
 
 TREAD_FIT = TreadFitSettings()
-_START = 0.17, 0.70, 1.0, 1.2  # turn, tread, spring, power
+_START = 0.17, 0.70, 1.0, 1.2, 0.02  # turn, tread, spring, power, crease
 _LEAST_FALL = 0.1
 _CORRELATED = 12.0  # samples this close count as one: the smoothing ties them together
 
@@ -153,7 +158,7 @@ def fitted_tread(
         At :func:`model_arc`.
     ground : float
         The ground along which the tread's place is counted, radians.
-    start : (6,) or float
+    start : (7,) or float
         The parameters to begin with, or the ground's angle alone.
     least_ground : float
         The ground is not sought below this angle, radians.
@@ -196,7 +201,7 @@ def fitted_tread(
 def _residuals(
     parameters: Floats, line: SlopedLine, places: Floats, settings: TreadFitSettings
 ) -> tuple[Floats, Floats]:
-    """What the model leaves, over its standard deviations, and its Jacobian (r,), (r, 6)."""
+    """What the model leaves, over its standard deviations, and its Jacobian (r,), (r, 7)."""
     model, slopes = _model(parameters, settings)
     off, step = line.slope - model, 2 * settings.step
     height, height_change = np.cumsum(off) * step, -np.cumsum(slopes, axis=1) * step
@@ -204,7 +209,9 @@ def _residuals(
     height_change -= height_change.mean(axis=1, keepdims=True)
     share = np.sqrt(_CORRELATED / len(off))
     place, place_change = _place_at(parameters[3], line.arc, places)
-    toe, toe_change = _toe(parameters[3:], settings.tip)
+    crease, crease_change = _seldom(parameters[6] / settings.crease)
+    crease_change /= settings.crease
+    toe, toe_change = _toe(parameters[3:6], settings.tip)
     prior = np.array(
         [
             (place - settings.tread[0]) / settings.tread[1],
@@ -212,20 +219,31 @@ def _residuals(
             (parameters[5] - settings.power[0]) / settings.power[1],
             np.log(parameters[1] / settings.fall[0]) / settings.fall[1],
             max(toe - settings.toe[0], 0.0) / settings.toe[1],
+            crease,
         ]
     )
-    prior_change = np.zeros((5, 6))
+    prior_change = np.zeros((6, 7))
     prior_change[0, 3] = place_change / settings.tread[1]
     prior_change[1, 2] = 1.0 / (parameters[2] * settings.turn[1])
     prior_change[2, 5] = 1.0 / settings.power[1]
     prior_change[3, 1] = 1.0 / (parameters[1] * settings.fall[1])
     if toe > settings.toe[0]:
-        prior_change[4, 3:] = toe_change / settings.toe[1]
+        prior_change[4, 3:6] = toe_change / settings.toe[1]
+    prior_change[5, 6] = crease_change
     weights = share / settings.height_sd, share / settings.slope_sd
     return (
         np.concatenate([height * weights[0], off * weights[1], prior]),
         np.concatenate([height_change.T * weights[0], -slopes.T * weights[1], prior_change]),
     )
+
+
+def _seldom(share: float) -> tuple[float, float]:
+    """What is left of something that is seldom there, and seldom little if it is: the residual of a
+    distribution with heavy tails (Student's), and its derivative.
+    """
+    share = max(share, 1e-6)
+    left = float(np.sqrt(2.0 * np.log1p(0.5 * share**2)))
+    return left, share / ((1.0 + 0.5 * share**2) * left)
 
 
 def _place_at(at: float, arc: Floats, places: Floats) -> tuple[float, float]:
@@ -259,8 +277,8 @@ def _model_grid(settings: TreadFitSettings) -> tuple[Floats, Floats]:
 
 
 def _model(parameters: Floats, settings: TreadFitSettings) -> tuple[Floats, Floats]:
-    """The smoothed slopes at :func:`model_arc`, (k,), and their derivatives, (6, k)."""
-    ground, fall, turn, tread, spring, power = parameters
+    """The smoothed slopes at :func:`model_arc`, (k,), and their derivatives, (7, k)."""
+    ground, fall, turn, tread, spring, power, crease = parameters
     arc, smoothing = _model_grid(settings)
     share = (arc - tread + turn) / turn
     inside = np.clip(share, 0.0, 1.0)
@@ -269,15 +287,20 @@ def _model(parameters: Floats, settings: TreadFitSettings) -> tuple[Floats, Floa
     beyond = np.clip(arc - tread, 0.0, None)
     safe = np.where(beyond > 0.0, beyond, 1e-9)
     rise = np.where(beyond > 0.0, safe**power, 0.0)
-    slope = ground - fall * rest + spring * rise
+    behind = np.clip((tread - arc) / settings.step + 0.5, 0.0, 1.0)
+    there = (behind > 0.0) & (behind < 1.0)
+    slope = ground - fall * rest + spring * rise - crease * behind
     rows = np.stack(
         [
             np.ones_like(arc),
             -rest,
             fall * change * (tread - arc) / turn**2,
-            -fall * change / turn - spring * np.where(beyond > 0.0, power * rise / safe, 0.0),
+            -fall * change / turn
+            - spring * np.where(beyond > 0.0, power * rise / safe, 0.0)
+            - crease * there / settings.step,
             rise,
             spring * rise * np.log(safe),
+            -behind,
         ]
     )
     return smoothing @ slope, rows @ smoothing.T
