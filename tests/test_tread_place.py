@@ -9,6 +9,7 @@ import pytest
 
 from footfit.geometry.stance.cues import Cue, doubted
 from footfit.geometry.stance.stance import stance_of
+from tools.lasts import LastSpec, last_mesh, standing
 from tools.resting import at_rest
 
 LENGTH_MM = 260.0
@@ -70,9 +71,27 @@ def test_a_level_tread_is_found_where_the_bottom_has_it():
         assert stance is not None
         off_mm.append(abs(stance.heel_mm() - heel_mm))
         sd_mm.append(np.hypot(stance.level_sd_mm(0.0), REPEATED_MM))
-    assert max(off_mm) < 12.0  # 8.8: a tread without length at .69, under 100 mm of heel
+    assert max(off_mm) < 8.0  # 5.0
     within = np.array(off_mm) < 2.0 * np.array(sd_mm)
-    assert within.mean() >= 0.8  # .86
+    assert within.mean() >= 0.9  # .97
+
+
+def test_a_shank_may_turn_softly_and_end_in_a_crease():
+    off_mm, sd_mm = [], []
+    for station, heel_mm in product((0.64, 0.66, 0.68, 0.70, 0.72), (30.0, 50.0, 75.0, 100.0)):
+        spec = LastSpec(
+            length_mm=262.0, heel_height_mm=heel_mm, level_tread=True, rings=90, segments=64,
+            break_station=station, break_length=0.05, spring_station=station + 0.02,
+        )  # fmt: skip
+        vertices, faces = last_mesh(spec)
+        drafted = standing(spec)
+        stance = stance_of(at_rest(vertices)[0], faces, "last")
+        true_mm = drafted.height_mm(0.0) - drafted.middle_mm[:, 1].min()
+        off_mm.append(abs(stance.heel_mm() - true_mm))
+        sd_mm.append(np.hypot(stance.level_sd_mm(0.0), REPEATED_MM))
+    assert max(off_mm) < 25.0  # 18.5: at .72, a place that treads seldom have; it was 65
+    within = np.array(off_mm) < 2.0 * np.array(sd_mm)
+    assert within.mean() >= 0.8  # .85
 
 
 def test_cues_that_contradict_each_other_widen_the_uncertainty():
