@@ -506,8 +506,8 @@ def test_lasts_that_were_measured_otherwise_are_said(stocked: Any, tmp_path: Pat
 def test_a_last_that_is_searched_for_is_as_long_as_itself(stocked: Any) -> None:
     """Along its bottom, as every last of the library: the heel is no clearance.
 
-    The stored last stands by its label, at 25 mm of heel, and the mesh by its shape, at 23.5 mm.
-    That is 0.186 mm of length.
+    The stored last stands by its label, at 25 mm of heel, and the mesh by its shape, at 22.3 mm.
+    That is 0.309 mm of length.
     """
     found = choice(stocked, None, None)
     path = SAMPLES / "lasts" / "derby-40.stl"
