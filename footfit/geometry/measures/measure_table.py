@@ -270,9 +270,9 @@ MEASURES: tuple[MeasureDefinition, ...] = (
         0.2,
         last_sd=0.25,
         foot=off(-0.25, 0.52),
-        last=off(0.03, 0.00, 0.00, 0.00, 0.13),
+        last=off(0.04, 0.00, 0.00, 0.00, 0.13),
     ),
-    MeasureDefinition(heights.heel_height, 3, 0.5, last=off(-0.81, 0.00, 1.21, 0.84, 0.55)),
+    MeasureDefinition(heights.heel_height, 3, 0.5, last=off(-0.83, 0.00, 1.30, 1.10, 0.70)),
     MeasureDefinition(
         widths.bottom_width_ball, 2, 0.3, LAST, last=off(0.21, 0.33, 0.23, 0.31, 0.27)
     ),
@@ -280,15 +280,15 @@ MEASURES: tuple[MeasureDefinition, ...] = (
         widths.bottom_width_heel, 2, 0.2, LAST, last=off(-0.01, 0.00, 0.00, 0.00, 0.11)
     ),
     MeasureDefinition(lengths.tape_length, 3, 0.3, LAST, last=off(-0.26, 0.13, 0.40, 0.43, 0.56)),
-    MeasureDefinition(lengths.stick_length, 2, 0.3, LAST, last=off(-0.03, 0.14, 0.18, 0.23, 0.50)),
-    MeasureDefinition(lengths.bottom_length, 2, 0.35, LAST, last=off(0.15, 0.47, 0.42, 0.35, 0.72)),
+    MeasureDefinition(lengths.stick_length, 2, 0.3, LAST, last=off(-0.01, 0.15, 0.15, 0.08, 0.42)),
+    MeasureDefinition(lengths.bottom_length, 2, 0.35, LAST, last=off(0.15, 0.48, 0.41, 0.37, 0.72)),
     MeasureDefinition(
-        heights.toe_spring_tip, 1, 0.45, LAST, last=off(0.20, 0.35, 0.32, 1.30, 0.15)
+        heights.toe_spring_tip, 1, 0.45, LAST, last=off(0.21, 0.40, 0.30, 1.48, 0.14)
     ),
-    MeasureDefinition(lengths.tread_from, 1, 2.0, LAST, last=off(0.11, 1.76, 0.00, 0.59, 0.32)),
-    MeasureDefinition(lengths.tread_to, 1, 2.0, LAST, last=off(-2.05, 3.62, 4.99, 1.47, 0.72)),
+    MeasureDefinition(lengths.tread_from, 1, 2.0, LAST, last=off(0.17, 1.12, 0.00, 0.48, 0.22)),
+    MeasureDefinition(lengths.tread_to, 1, 2.0, LAST, last=off(-2.21, 3.73, 4.95, 1.42, 0.69)),
     MeasureDefinition(
-        heights.seat_angle_deg, 1, 0.4, LAST, last=off(-0.14, 0.32, 0.03, 0.00, 0.00)
+        heights.seat_angle_deg, 1, 0.4, LAST, last=off(-0.15, 0.22, 0.00, 0.00, 0.00)
     ),
 )
 
