@@ -135,8 +135,8 @@ def _unsure(stance: Stance | None) -> tuple[Notice, ...]:
         return ()
     words = (
         f"the bottom does not show well how it stands: the heel is {heel_mm:.0f} mm high"
-        f" ± {sd_mm:.0f} mm (one standard deviation), and lengths along the ground and the bottom"
-        " hang on it. Give --heel-height if you know it"
+        f" ± {sd_mm:.0f} mm (one standard deviation). Lengths along the ground and the bottom"
+        " depend on it: give --heel-height if you know it"
     )
     return (Notice("stance_unsure", words),)
 
