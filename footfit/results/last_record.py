@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from dataclasses import fields as dataclass_fields
 from typing import TYPE_CHECKING, Literal
 
@@ -28,6 +28,10 @@ if TYPE_CHECKING:
     from footfit.results.alignment import Eigenframe, PoseQuality, SideVerdict
     from footfit.results.meshes import MeshInfo
     from footfit.results.values import Measure
+
+
+ALONG_BOTTOM_NAME = "length along the bottom"
+"""What the length is called that a label of a last with a heel is compared with."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -118,20 +122,23 @@ class LastRecord:
         """
         if self.labels.size is None:
             return None
-        length_mm, raised = self._size_length()
-        check = sizes.label_check(self.labels.size, self.labels.size_system, length_mm)
-        return replace(check, length_name="length along the bottom") if check and raised else check
+        return sizes.label_check(
+            self.labels.size, self.labels.size_system, *self._length_of_a_size()
+        )
 
-    def _size_length(self) -> tuple[float | None, bool]:
-        """The length that a size label goes with, in mm, and whether it is all along the bottom."""
-        along = [self.value_of(known.name) for known in dataclass_fields(LastLengths)]
-        lengths = [value for value in along if value is not None]
-        heel_mm = self.value_of("heel_height")
-        whole = self.length_mm is not None and len(lengths) == len(along)
-        if not whole or heel_mm is None or heel_mm <= ALONG_BOTTOM.level_mm:
-            return self.length_mm, False
-        along_mm, _ = length_along_bottom(self.length_mm or 0.0, LastLengths(*lengths))
-        return float(along_mm), heel_mm >= ALONG_BOTTOM.raised_mm
+    def _length_of_a_size(self) -> tuple[float | None, str]:
+        """The length that a size label goes with, in mm, and what it is called."""
+        at_rest_mm = self.length_mm
+        values = [self.value_of(known.name) for known in dataclass_fields(LastLengths)]
+        known = [value for value in values if value is not None]
+        if at_rest_mm is None or len(known) < len(values):
+            return at_rest_mm, sizes.LENGTH_NAME
+        lengths = LastLengths(*known)
+        if lengths.heel_height <= ALONG_BOTTOM.level_mm:
+            return at_rest_mm, sizes.LENGTH_NAME
+        along_mm = float(length_along_bottom(at_rest_mm, lengths)[0])
+        raised = lengths.heel_height >= ALONG_BOTTOM.raised_mm
+        return along_mm, ALONG_BOTTOM_NAME if raised else sizes.LENGTH_NAME
 
     @property
     def label_notices(self) -> tuple[Notice, ...]:

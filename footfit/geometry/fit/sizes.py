@@ -20,6 +20,8 @@ EQUALLY_LONG_MM = 1.0
 """Two feet whose lengths differ by less are equally long for any size."""
 LABEL_TOLERANCE_SIZES = 1.0
 """A label that is further off its last's length than this is reported."""
+LENGTH_NAME = "length"
+"""What the length is called that a label is compared with, unless the caller says otherwise."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -97,7 +99,7 @@ class LabelCheck:
     system: str
     by_length: float
     off: float
-    length_name: str = "length"
+    length_name: str = LENGTH_NAME
 
     @property
     def flagged(self) -> bool:
@@ -198,10 +200,13 @@ _LABEL = re.compile(
 
 
 def label_check(
-    label: str | None, system_name: str | None, last_length_mm: float | None
+    label: str | None,
+    system_name: str | None,
+    last_length_mm: float | None,
+    length_name: str = LENGTH_NAME,
 ) -> LabelCheck | None:
-    """A last's label against its length (mm); None if the label or its system says no number, or if
-    the length is not known.
+    """A last's label against its length (mm), or one of another name; None if the label or its
+    system says no number, or if the length is not known.
 
     A label that can be an adult's or a child's counts as the one that is nearer to the length.
 
@@ -224,7 +229,7 @@ def label_check(
     by_length = {size: min(max(size, least), most) for size in meanings}
     nearest = min(meanings, key=lambda size: (abs(size - by_length[size]), size))
     off = (nearest - by_length[nearest]) / system.numbers_per_size
-    return LabelCheck(system.name, by_length[nearest], off)
+    return LabelCheck(system.name, by_length[nearest], off, length_name)
 
 
 def label_in(label: str | None, system_name: str | None, asked: str | None) -> str | None:

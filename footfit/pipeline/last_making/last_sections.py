@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import numpy as np
-
 from footfit.geometry.fit.arc_sections import (
     ARC_SIZES,
     ArcSection,
@@ -14,6 +12,7 @@ from footfit.geometry.fit.arc_sections import (
 from footfit.geometry.measures.measure_table import measure_named
 from footfit.geometry.measures.measure_value import MeasureValue
 from footfit.geometry.numeric.arrays import Floats
+from footfit.pipeline.scan.preparation import mirror_of
 from footfit.results import Measured, Profiled
 from footfit.results.last_making.section_table import LastSection, SectionTable
 
@@ -26,8 +25,7 @@ def section_table(last: Profiled, count: int) -> SectionTable:
     shape = last.aligned.prepared.shape
     arc = shape.bottom_arc
     length_mm = shape.length_mm if arc is None else arc.length_mm
-    left = last.aligned.alignment.side.side == "left"
-    own_side = np.array([1.0, -1.0 if left else 1.0, 1.0])
+    own_side = mirror_of(last.aligned.alignment.side.side)
     name = last.aligned.alignment.info.path or ""
     made = arc_sections(shape, count)
     return SectionTable(name, tuple(_section(one, length_mm, own_side) for one in made))

@@ -13,7 +13,7 @@ from footfit.geometry.numeric.rotations import moved_points
 from footfit.pipeline.scan.flare import shape_flare
 from footfit.pipeline.scan.kept_sections import kept_sections
 from footfit.pipeline.scan.measure import END_MEASURES, shape_measures
-from footfit.pipeline.scan.preparation import level_turn, stored_shape
+from footfit.pipeline.scan.preparation import level_turn, mirror_of, stored_shape
 from footfit.pipeline.scan.standing import last_stance, stance_labels, stance_notices
 from footfit.results import (
     LastRecord,
@@ -77,7 +77,7 @@ def _standing(shape: Shape, turn: Floats, side: SideName | None) -> Floats | Non
     stands = None if shape.kind == "foot" else shape.standing_transform
     if stands is None:
         return None
-    mirror = np.diag([1.0, -1.0 if side == "left" else 1.0, 1.0, 1.0])  # the shape is a right one
+    mirror = np.diag([*mirror_of(side), 1.0])  # the shape is a right one
     return np.asarray(stands @ mirror @ turn @ mirror)
 
 

@@ -190,9 +190,8 @@ def last_record(shape: Profiled, labels: LastLabels) -> LastRecord:
     alignment = shape.aligned.alignment
     kind = alignment.pose.kind
     flare = shape.flare
-    kept = (
-        each for each in alignment.warnings if each.code != "kind_doubtful"
-    )  # it is stored as one
+    # A doubt of the kind is settled: it is stored as a last.
+    kept = (notice for notice in alignment.warnings if notice.code != "kind_doubtful")
     notices = (*kept, *shape.unusual)
     if kind == "foot":
         looks = Notice("looks_like_a_foot", "its shape is nearer to a foot's than to a last's")

@@ -156,6 +156,11 @@ def on_side(prepared: PreparedScan, side: SideVerdict, notice: Notice) -> Prepar
     )
 
 
+def mirror_of(side: SideName | None) -> Floats:
+    """The factors (3,) that take points of a right shape to one of a side, and back."""
+    return np.array([1.0, -1.0 if side == "left" else 1.0, 1.0])
+
+
 def right_copy(vertices_mm: Floats, faces: Ints, side: SideName | None) -> tuple[Floats, Ints]:
     """A canonical mesh as a right one: a left mesh is mirrored, its faces turned over.
 
@@ -163,7 +168,7 @@ def right_copy(vertices_mm: Floats, faces: Ints, side: SideName | None) -> tuple
     """
     if side != "left":
         return vertices_mm, faces
-    return vertices_mm * np.array([1.0, -1.0, 1.0]), faces[:, ::-1]
+    return vertices_mm * mirror_of(side), faces[:, ::-1]
 
 
 @lru_cache(maxsize=STORED_SHAPES)

@@ -129,9 +129,10 @@ def stance_notices(shape: Shape) -> tuple[Notice, ...]:
 
 def _unsure(stance: Stance | None) -> tuple[Notice, ...]:
     """What is said of a last whose bottom does not show well where it is level."""
-    sd_mm = 0.0 if stance is None else stance.level_sd_mm(0.0)
-    heel_mm = None if stance is None else stance.heel_mm()
-    if heel_mm is None or sd_mm < UNSURE_HEEL_MM:
+    if stance is None or (sd_mm := stance.level_sd_mm(0.0)) < UNSURE_HEEL_MM:
+        return ()
+    heel_mm = stance.heel_mm()
+    if heel_mm is None:
         return ()
     words = (
         f"the bottom does not show well how it stands: the heel is {heel_mm:.0f} mm high"

@@ -101,8 +101,6 @@ COLD = replace(SOLVER, failing=3, shorter=0.3)
 """A search that begins at the base."""
 WARM = replace(COLD, shaping=3, rounds=8)
 """A search that begins where another one ended."""
-KNOWN = replace(COLD, shaping=2, rounds=4, failing=1)
-"""The same, if what that one knew of the knobs serves once more."""
 FOLLOWED = replace(COLD, shaping=0, rounds=6)
 """A search that begins where one on a light copy ended: only firm aims are still missed."""
 ENOUGH = 3000

@@ -54,6 +54,7 @@ from footfit.pipeline.last_making.custom.good_zones import (
 )
 from footfit.pipeline.last_making.custom.made_last import MadeLast
 from footfit.pipeline.last_making.custom.toe_room import toe_room_change_mm
+from footfit.pipeline.scan.preparation import mirror_of
 from footfit.results import Parentage, Profiled, SideName, Target
 from footfit.results.last_making.custom_last import CustomLast
 
@@ -188,8 +189,7 @@ def _answer(
     after = fit_in(foot, made.record, made.with_sections, question)
     judged, zones = _judged(before, after), _zones(foot, base, attempt)
     side = made.record.side.side or "right"
-    mirror = np.array([1.0, -1.0 if side == "left" else 1.0, 1.0])
-    base_vertices_mm = base.shape.vertices_mm * mirror
+    base_vertices_mm = base.shape.vertices_mm * mirror_of(side)
     shift = made.vertices_mm - base_vertices_mm
     outward = vertex_normals(base_vertices_mm, made.faces)
     info = foot.aligned.alignment.info

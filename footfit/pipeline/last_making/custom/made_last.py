@@ -20,7 +20,7 @@ from footfit.pipeline.scan.align import aligned_scan
 from footfit.pipeline.scan.flare import profiled_scan
 from footfit.pipeline.scan.kept_sections import kept_sections
 from footfit.pipeline.scan.measure import last_record
-from footfit.pipeline.scan.preparation import prepared_scan, right_copy
+from footfit.pipeline.scan.preparation import mirror_of, prepared_scan, right_copy
 from footfit.pipeline.scan.reading import read
 from footfit.pipeline.scan.standing import stance_labels
 from footfit.results import LastLabels, PreparedScan, SideName
@@ -69,7 +69,7 @@ class MadeLast:
     @property
     def to_file(self) -> Floats:
         """From the shape's canonical right frame to the axes of the file, (4, 4)."""
-        return np.asarray(mirror_of(self.prepared.side.side) @ np.linalg.inv(self.frame))
+        return np.asarray(_mirror(self.prepared.side.side) @ np.linalg.inv(self.frame))
 
     def lying(self, vertices_mm: Floats) -> Floats:
         """Right vertices (n, 3) of the base's frame in the last's canonical frame."""
@@ -99,11 +99,11 @@ def made_last(base: BaseLast, vertices_mm: Floats, side: SideName, name: str) ->
         platform_mm=old.platform_mm,
     )
     prepared = prepared_scan(replace(scan, pose=pose), side, labels=stance_labels(labels))
-    mirror = mirror_of(side)
+    mirror = _mirror(side)
     frame = mirror @ prepared.canonical_transform @ mirror
     return MadeLast(base, prepared, labels, vertices_mm, faces, np.asarray(frame, np.float64))
 
 
-def mirror_of(side: SideName | None) -> Floats:
+def _mirror(side: SideName | None) -> Floats:
     """What takes a right shape to one of a side, and back, (4, 4)."""
-    return np.diag([1.0, -1.0 if side == "left" else 1.0, 1.0, 1.0])
+    return np.diag([*mirror_of(side), 1.0])
