@@ -85,10 +85,10 @@ def footfit(
 @pytest.fixture(scope="session")
 def stocked(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """A catalogue of the sample lasts; read it, or copy it before writing."""
+    from footfit.pipeline.batch.manifest import read_manifest
     from footfit.pipeline.batch.sources import ReadingOptions
     from footfit.pipeline.library.entries import entries
     from footfit.pipeline.library.ingest import ingest
-    from footfit.pipeline.library.manifest import read_manifest
     from footfit.results import LastLabels
 
     path = tmp_path_factory.mktemp("stocked") / "lasts.footfit"

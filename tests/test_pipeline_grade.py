@@ -262,7 +262,7 @@ def test_a_last_that_stands_by_its_label_alone_is_said() -> None:
     last = GradedLast("derby-43", "43", None, 1.0, 0.0, (row,), LastLabels("derby-43"), b"")
     (warning,) = read_otherwise([last, replace(last, heel_by_shape_mm=by_shape_mm)])
     assert warning.code == "heel_by_label"
-    assert f"'derby-43' reads {plain(heel_mm - by_shape_mm)} mm too low: give" in warning.message
+    assert f"'derby-43' reads {plain(heel_mm - by_shape_mm)} mm too low: keep" in warning.message
     assert read_otherwise([last, replace(last, heel_by_shape_mm=heel_mm - 1.4)]) == ()
 
 

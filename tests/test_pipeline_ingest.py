@@ -15,11 +15,11 @@ import pytest
 from footfit.catalogue.store import Catalogue, open_catalogue
 from footfit.errors import BadOption, CatalogueLocked, EmptyMesh, FootfitError, NameTaken
 from footfit.locations import location_of
+from footfit.pipeline.batch.manifest import manifest_rows
 from footfit.pipeline.batch.sources import ReadingOptions, Source
 from footfit.pipeline.library.entries import Entry, entries, unused_rows
 from footfit.pipeline.library.holdings import Holdings
 from footfit.pipeline.library.ingest import ingest
-from footfit.pipeline.library.manifest import manifest_rows
 from footfit.results import LastLabels, LastRecord
 from tests.ready_lasts import ReadyLasts, entry_of
 from tests.records import last

@@ -10,7 +10,7 @@ from pathlib import Path
 import pytest
 
 from footfit.errors import BadManifest
-from footfit.pipeline.library.manifest import COLUMNS, manifest_rows, read_manifest
+from footfit.pipeline.batch.manifest import COLUMNS, manifest_rows, read_manifest
 
 FOLDER = Path("shop")
 

@@ -230,8 +230,8 @@ class Catalogue(CatalogueFile):
         BadOption, BadManifest
             There is nothing to ingest, one name for several files, or the manifest is not valid.
         """
+        from footfit.pipeline.batch.manifest import read_manifest
         from footfit.pipeline.library.entries import entries
-        from footfit.pipeline.library.manifest import read_manifest
 
         rows = [] if manifest is None else read_manifest(Path(manifest))
         given = [] if lasts is None else sources(lasts)

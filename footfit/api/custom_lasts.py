@@ -14,7 +14,10 @@ from footfit.api.inputs import (
     WornKeywords,
     heel_options,
     known_keywords,
+    reading_options,
+    refuse_stance,
     source_of,
+    stance_keywords,
     worn_options,
 )
 from footfit.api.scans import profiled_shape
@@ -34,6 +37,7 @@ AUTO = "auto"
 class CustomKeywords(CompareKeywords, WornKeywords, total=False):
     """How a foot is to be understood, and what is asked of its custom last.
 
+    ``heel_height_mm``, ``toe_spring_mm`` and ``platform_mm`` are those of a base that is a mesh.
     ``profile`` is the name or the file of a fit profile. ``flare_follow`` (0 to 1) says how far the
     flare goes towards the foot's, ``keep_bottom`` keeps the outline of the bottom, and ``room_mm``
     gives single places more room, such as {"ball-medial": 4.0}. ``name`` is that of the new last.
@@ -83,6 +87,7 @@ def customise(
     from footfit.pipeline.last_making.custom.custom_making import customised
 
     making, path = _making(asked), None if catalogue is None else location_of(catalogue)
+    stands = stance_keywords(asked)
     given: list[Any] = feet if isinstance(feet, list) else [feet]
     if len(given) not in (1, 2) or (both and len(given) == 2):
         raise BadOption("give one foot, with both=True or without, or the two of one customer")
@@ -92,11 +97,12 @@ def customise(
     if isinstance(base, str) and base == AUTO:
         if path is None:
             raise BadOption("the base is found in a catalogue: name a catalogue, or a base")
+        refuse_stance(stands, "the best match")
         with _naming(shapes[0]):
             chosen, first = base_choice.customised_from_best(shapes, path, making)
         lasts, rest = [first], shapes[1:]
     else:
-        chosen, rest = _base(base, path), shapes
+        chosen, rest = _base(base, path, stands), shapes
     for foot in rest:
         with _naming(foot):
             lasts.append(base_choice.customised_from(foot, chosen, making, path))
@@ -138,8 +144,9 @@ def store_custom(
 
 
 def _reading(asked: Mapping[str, Any]) -> dict[str, Any]:
-    """The keywords of `ReadingKeywords`, without any others."""
-    return {name: asked[name] for name in ReadingOptions.__dataclass_fields__ if name in asked}
+    """How the feet are read: the keywords of `ReadingKeywords`, without those of the base."""
+    names = ReadingOptions.__dataclass_fields__.keys() - stance_keywords(asked).keys()
+    return {name: asked[name] for name in names if name in asked}
 
 
 def _making(asked: CustomKeywords) -> Making:
@@ -168,13 +175,15 @@ def _making(asked: CustomKeywords) -> Making:
     return Making(question, dict(rooms), asked.get("name", "custom"))
 
 
-def _base(base: Mesh, path: Location | None) -> BaseLast:
-    """The base that is named: a last of the catalogue, or a mesh.
+def _base(base: Mesh, path: Location | None, stands: Mapping[str, float]) -> BaseLast:
+    """The base that is named: a last of the catalogue, or a mesh that ``stands`` as was given.
 
     Raises
     ------
     UnreadableFile
         There is no such file and no such last.
+    BadOption
+        It is given how a last of the catalogue stands.
     """
     from footfit.pipeline.last_making.base_last import scanned_base, stored_base
     from footfit.pipeline.last_making.custom.base_choice import base_folders
@@ -185,5 +194,6 @@ def _base(base: Mesh, path: Location | None) -> BaseLast:
             raise UnreadableFile("there is no such file: check the path", base)
         if not names_a_last(base) and stored_name(path, base) is None:
             raise UnreadableFile("there is no such file: check the path", base)
+        refuse_stance(stands, base)
         return stored_base(path, base, base_folders(path))
-    return scanned_base(source_of(base, {}), ReadingOptions())
+    return scanned_base(source_of(base, {}), reading_options(stands))

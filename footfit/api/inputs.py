@@ -258,9 +258,22 @@ def heel_options(options: Mapping[str, Any]) -> HeelQuestion:
 
 def stance_keywords(options: Mapping[str, Any]) -> dict[str, Any]:
     """What is said of how a last stands: the keywords that have a value, without any others."""
-    from footfit.pipeline.scan.standing import LABELLED_MM
+    from footfit.pipeline.batch.sources import LABELLED_MM
 
     return {name: options[name] for name in LABELLED_MM if options.get(name) is not None}
+
+
+def refuse_stance(stands: Mapping[str, Any], name: str) -> None:
+    """Refuse what is said of how a last of the catalogue stands.
+
+    Raises
+    ------
+    BadOption
+        ``stands`` has a keyword; ``name`` is the last's.
+    """
+    if stands:
+        words = "is a last of the catalogue, which stands as it was stored: leave out the options"
+        raise BadOption(f"{words} that say how", name)
 
 
 def worn_options(options: Mapping[str, Any]) -> Worn:

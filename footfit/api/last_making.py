@@ -15,6 +15,7 @@ from footfit.api.inputs import (
     Shape,
     known_keywords,
     reading_options,
+    refuse_stance,
     stance_keywords,
 )
 from footfit.api.scans import profiled_shape
@@ -109,10 +110,8 @@ def grader_of(
         base = scanned_base(Source(name), reading_options(stands))
     elif catalogue is None or not names_a_last(name):
         raise UnreadableFile("there is no such file", name)
-    elif stands:
-        words = "is a last of the catalogue, which stands as it was stored: leave out the options"
-        raise BadOption(f"{words} that say how", name)
     else:
+        refuse_stance(stands, name)
         base = stored_base(location_of(catalogue), name)
     labels = base.record.labels
     asked_system = options.get("size_system") or labels.size_system
@@ -164,11 +163,11 @@ def check_run(
         There is no such last; so many files cannot be read or measured that no run is left. Else
         ``failed`` has their errors.
     """
+    from footfit.pipeline.batch.manifest import read_manifest
     from footfit.pipeline.graded_runs import run_lasts
     from footfit.pipeline.graded_runs.grading_rules import grading_rule
     from footfit.pipeline.graded_runs.run_increments import run_check
     from footfit.pipeline.last_making.tolerances import tolerances
-    from footfit.pipeline.library.manifest import read_manifest
     from footfit.pipeline.library.named_lasts import names_a_last
 
     given: list[Any] = run if isinstance(run, list) else [run]

@@ -32,12 +32,13 @@ def compare_lasts(
     lasts: options.Lasts,
     force: bool = options.FORCE,
     reading: options.Reading,
+    standing: options.Standing,
     mode: options.OutputMode,
 ) -> None:
     """Lay a last on the bottom of another one, and say how the two differ, measure by measure.
 
     A last of the other side is mirrored. The command ends with 7 if a measure is outside of its
-    tolerance.
+    tolerance. --heel-height, --toe-spring and --platform count for both, which must be files.
 
     Example: footfit compare-lasts derby-42 returned.stl --tolerance girth=2,length=1.5,width=1
     """
@@ -69,9 +70,8 @@ def compare_lasts(
     outputs.keep([pair[0][0], pair[1][0]])
     with progress(mode) as bar:
         bar.show()
-        difference = last_making.compare_lasts(
-            pair[0][0], pair[1][0], tolerance=tolerance, **reading.keywords()
-        )
+        asked = {**reading.keywords(), **standing.keywords()}
+        difference = last_making.compare_lasts(pair[0][0], pair[1][0], tolerance=tolerance, **asked)
     answer_result(difference, mode, outputs)
     if difference.outside:
         raise CheckFailed(outside_words(difference), second)

@@ -76,12 +76,14 @@ def customise(
     force: bool = options.FORCE,
     reading: options.FootReading,
     worn: options.WornWith,
+    standing: options.Standing,
     mode: options.OutputMode,
 ) -> None:
     """Make a last that has a fit profile's allowances for a foot, from a last that fits nearly.
 
     The bottom's heights, the heel height, the toe spring, the toe, the back and the top stay.
     Widths and girths change. It exits with 5, and writes nothing, if the base cannot give them.
+    --heel-height, --toe-spring and --platform are for a base that is a file.
 
     Example: footfit customise foot.stl --base derby-42 -o custom.stl
     """
@@ -128,6 +130,7 @@ def customise(
             name=store or output.stem,
             **reading.keywords(),
             **worn.keywords(),
+            **standing.keywords(),
         )
     files_of = {side: str(path) for side, path, _ in placed(output, files.mesh_file, pair=pair)}
     made = tuple(replace(c, output=files_of.get(c.side, files_of.get(None))) for c in made)

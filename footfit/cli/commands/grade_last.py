@@ -77,14 +77,13 @@ def grade_last(
     )
     from footfit.cli.progress import progress
     from footfit.errors import BadOption
-    from footfit.pipeline.batch.sources import MESH_SUFFIXES
+    from footfit.pipeline.batch.sources import MESH_SUFFIXES, RUN_MANIFEST
     from footfit.pipeline.graded_runs.grade_store import (
         RunManifest,
         require_storable_run,
         storable_lasts,
         store_run,
     )
-    from footfit.pipeline.graded_runs.run_lasts import RUN_MANIFEST
     from footfit.report.csv import csv_text
     from footfit.results import GradedRun
     from footfit.whole_files import require_folder, safe_file_name

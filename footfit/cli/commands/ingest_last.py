@@ -73,10 +73,10 @@ def ingest_last(
     from footfit.cli.progress import progress
     from footfit.cli.signals import LISTENER
     from footfit.errors import BadManifest, BadOption
+    from footfit.pipeline.batch import manifest as manifests
     from footfit.pipeline.batch.runs import common_code
     from footfit.pipeline.batch.sources import ReadingOptions
-    from footfit.pipeline.library import manifest as manifests
-    from footfit.pipeline.library.entries import entries, unused_rows
+    from footfit.pipeline.library.entries import entries, labelled_beside, unused_rows
     from footfit.results import LastLabels
 
     given: dict[str, Any] = {
@@ -99,6 +99,7 @@ def ingest_last(
     )
     mode = changed(mode, total=len(batch))
     say_notices(unused_rows(batch, rows), str(manifest), quiet=mode.quiet)
+    say_notices(labelled_beside(batch, rows), None, quiet=mode.quiet)
     refused: list[int] = []
     warned = 0
     catalogue, notices = lasts.open_to_make(dry_run=dry_run), Notices(mode)

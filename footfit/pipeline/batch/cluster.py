@@ -19,6 +19,7 @@ from typing import Any, ParamSpec, TypeVar
 from urllib.parse import urlsplit
 
 from footfit.errors import BadOption, ClusterUnusable, FootfitError
+from footfit.pipeline.batch.run_manifest import with_said
 from footfit.pipeline.batch.sources import Source, source_bytes
 from footfit.pipeline.batch.workers import WorkerPool, settle
 from footfit.version import __version__
@@ -229,11 +230,15 @@ def _stays(item: object) -> bool:
 
 
 def _with_bytes(item: Any) -> Any:
-    """An item with the bytes of its file: the workers do not see this machine's files."""
+    """An item with the bytes of its file, and with what a manifest beside it says of it: the
+    workers do not see this machine's files.
+    """
     source = getattr(item, "source", item)
-    if not isinstance(source, Source) or source.data is not None or source.scan is not None:
+    if not isinstance(source, Source):
         return item
-    full = replace(source, data=source_bytes(source))
+    full = with_said(source)
+    if source.data is None and source.scan is None:
+        full = replace(full, data=source_bytes(source))
     return full if source is item else replace(item, source=full)
 
 

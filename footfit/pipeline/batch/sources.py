@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import hashlib
 import os
 import unicodedata
 from collections import Counter
@@ -17,7 +18,7 @@ from footfit.results import Notice, Scan
 
 if TYPE_CHECKING:
     from footfit.geometry.stance.cues import StanceLabels
-    from footfit.results import Profiled
+    from footfit.results import LastLabels, Profiled
 
 MESH_SUFFIXES = (".stl", ".obj", ".ply", ".off", ".glb", ".3mf", ".3dm")
 READ_KINDS = ", ".join(suffix[1:] for suffix in MESH_SUFFIXES)
@@ -27,6 +28,10 @@ NO_SCANS = (
 )
 """What often lies beside scans and holds none: tables, pictures, textures, notes, footfit's own."""
 GLOB_CHARACTERS = frozenset("*?[")
+RUN_MANIFEST = "run.csv"
+"""The manifest beside the files of a run: `grade-last` writes it, and it says how each stands."""
+LABELLED_MM = {"heel_height_mm": (0, 200), "toe_spring_mm": (0, 80), "platform_mm": (0, 100)}
+"""What labels may say of how a last stands."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -34,7 +39,8 @@ class Source:
     """One mesh to read: a path, or bytes that came by standard input (``path`` None).
 
     ``scan`` is one shape of a file that holds several: it has been read already. ``stored`` gives a
-    last of the catalogue, if ``path`` is its name.
+    last of the catalogue, if ``path`` is its name. ``said`` is what a manifest says of it; None if
+    that was not looked up yet.
     """
 
     path: str | None
@@ -42,6 +48,7 @@ class Source:
     format: str | None = None
     scan: Scan | None = field(default=None, compare=False)
     stored: Callable[[], Profiled] | None = None
+    said: Said | None = field(default=None, compare=False)
 
 
 NONE_NAMED: Mapping[str, Source] = MappingProxyType({})
@@ -73,6 +80,36 @@ class ReadingOptions:
         from footfit.geometry.stance.cues import StanceLabels
 
         return StanceLabels(self.heel_height_mm, self.toe_spring_mm, self.platform_mm or 0.0)
+
+
+@dataclass(frozen=True, slots=True)
+class ManifestRow:
+    """One line of a manifest; ``labels.name`` is the file's stem if the line has no name.
+
+    ``sha256`` is the hash of the file that the line was written for, if the line has it.
+    """
+
+    path: str
+    labels: LastLabels
+    reading: ReadingOptions
+    sha256: str | None = None
+
+    @property
+    def says_how_it_stands(self) -> bool:
+        """Whether the line has a heel height or a toe spring."""
+        return self.labels.heel_height_mm is not None or self.labels.toe_spring_mm is not None
+
+
+@dataclass(frozen=True, slots=True)
+class Said:
+    """What a manifest says of a file.
+
+    ``row`` is the line of the file, if it counts. Else ``doubt`` says in words why it does not; it
+    is empty if there is no such line, or if the line does not say how the last stands.
+    """
+
+    row: ManifestRow | None = None
+    doubt: str = ""
 
 
 def mesh_sources(
@@ -110,6 +147,23 @@ def source_bytes(source: Source) -> bytes:
     from footfit.meshes.read_limits import LIMITS
 
     return source.data if source.data is not None else file_bytes(source.path or "", LIMITS)
+
+
+def content_hash(source: Source) -> str:
+    """SHA-256 of the source's bytes: what a last is known by."""
+    if source.scan is not None:
+        return source.scan.info.sha256
+    return hashlib.sha256(source_bytes(source)).hexdigest()
+
+
+def lies_beside_a_manifest(source: Source) -> bool:
+    """Whether the file of a source lies in the folder of a run's manifest."""
+    if source.path is None or source.data is not None or source.stored is not None:
+        return False
+    try:
+        return (Path(source.path).parent / RUN_MANIFEST).is_file()
+    except (OSError, ValueError):  # a folder that is closed to us; a name with a NUL in it
+        return False
 
 
 def is_no_path(argument: str) -> bool:

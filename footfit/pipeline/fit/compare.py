@@ -19,6 +19,7 @@ from footfit.geometry.measures.measure_value import MeasureValue
 from footfit.geometry.numeric.arrays import Floats
 from footfit.locations import Location
 from footfit.number_words import plain
+from footfit.pipeline.batch.run_manifest import said_notices, with_said
 from footfit.pipeline.batch.sources import ReadingOptions, Source
 from footfit.pipeline.fit.heel_model import heel_question
 from footfit.pipeline.fit.heels import Heels, heel_change, heels_of, share_sd, surface_change
@@ -27,7 +28,7 @@ from footfit.pipeline.fit.worn_shifts import with_unknown_load
 from footfit.pipeline.scan.measure import last_record
 from footfit.pipeline.scan.preparation import stored_shape
 from footfit.pipeline.scan.reading import profiled_source
-from footfit.pipeline.scan.standing import LABELLED_MM, stance_notices
+from footfit.pipeline.scan.standing import stance_notices
 from footfit.results.compare import comparison_nouns
 
 SD_FROM = {
@@ -73,16 +74,27 @@ def stored_last(path: Location, name: str) -> LastShape:
 def scanned_last(source: Source, reading: ReadingOptions, nameless: str = "last") -> LastShape:
     """A last in a file of its own; its name is the file's, ``reading`` says how it stands.
 
-    What comes from no file has the name ``nameless``.
+    Its other labels are those of the run's manifest beside it. What comes from no file has the name
+    ``nameless``.
 
     Raises
     ------
     InputError, GeometryRefused
         As in reading, aligning and profiling any last.
     """
+    source = with_said(source)
     shape = profiled_source(source, reading)
-    said = {name: getattr(reading, name) for name in LABELLED_MM}
-    record = last_record(shape, results.LastLabels(Path(source.path or nameless).stem, **said))
+    row = None if source.said is None else source.said.row
+    own = results.LastLabels("") if row is None else row.labels
+    stands = shape.aligned.prepared.shape.labels
+    labels = replace(
+        own,
+        name=Path(source.path or nameless).stem,
+        heel_height_mm=stands.heel_height_mm,
+        toe_spring_mm=stands.toe_spring_mm,
+        platform_mm=stands.platform_mm or None,
+    )
+    record = last_record(shape, labels)
     return LastShape(record, replace(shape.aligned.prepared.shape, kind="last"))
 
 
@@ -150,6 +162,7 @@ def compared(
         warnings=(
             *_unused_heel(foot, heel),
             *_warnings(foot, last.record, room),
+            *said_notices(last.record.warnings, last.record.info.path),
             *stance_notices(last.shape),
         ),
         toe_room=room,

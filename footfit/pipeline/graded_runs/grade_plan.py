@@ -11,13 +11,13 @@ from fractions import Fraction
 from footfit.errors import BadOption
 from footfit.geometry.fit.sizes import SizeSystem, label_number
 from footfit.geometry.stance.cues import StanceLabels
+from footfit.pipeline.batch.sources import LABELLED_MM
 from footfit.pipeline.graded_runs.grade_shape import (
     HELD,
     HELD_BY_DEFAULT,
     THICKNESS,
 )
 from footfit.pipeline.graded_runs.run_sizes import width_numbers
-from footfit.pipeline.scan.standing import LABELLED_MM
 from footfit.results.last_making.graded_run import By
 from footfit.results.last_making.grading_rule import GradingRule
 

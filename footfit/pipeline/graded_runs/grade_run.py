@@ -12,7 +12,8 @@ from footfit.geometry.measures.measure_table import measure_named
 from footfit.geometry.stance.cues import StanceLabels
 from footfit.meshes.write import encoded_mesh
 from footfit.number_words import plain
-from footfit.pipeline.batch.sources import ReadingOptions, Source
+from footfit.pipeline.batch.run_manifest import said_notices
+from footfit.pipeline.batch.sources import RUN_MANIFEST, ReadingOptions, Source
 from footfit.pipeline.graded_runs.grade_plan import (
     HEEL,
     SPRING,
@@ -115,7 +116,10 @@ class Grader:
             rule=plan.rule,
             held=tuple(name for name in HELD if name in plan.held),
             lasts=ordered,
-            warnings=read_otherwise(ordered),
+            warnings=(
+                *said_notices(record.warnings, record.info.path),
+                *read_otherwise(ordered),
+            ),
         )
 
     def name_of(self, fitting: Fitting) -> str:
@@ -308,9 +312,7 @@ def read_otherwise(lasts: Iterable[GradedLast]) -> tuple[Notice, ...]:
     count = "" if len(off) == 1 else f", and {len(off) - 1} more lasts of the run are off"
     how = "high" if mm > 0.0 else "low"
     words = f"without its label, the heel of {name!r} reads {plain(abs(mm))} mm too {how}{count}"
-    return (
-        Notice("heel_by_label", f"{words}: give its heel height with each file, as run.csv does"),
-    )
+    return (Notice("heel_by_label", f"{words}: keep {RUN_MANIFEST} beside the files"),)
 
 
 def measures_of(shape: Shape) -> dict[str, float]:

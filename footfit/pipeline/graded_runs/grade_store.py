@@ -14,9 +14,9 @@ from footfit.catalogue.store import open_catalogue
 from footfit.errors import BadOption, NameTaken
 from footfit.locations import Location
 from footfit.meshes.copies.compact_copy import COPY_FACES, compact_copy
+from footfit.pipeline.batch.manifest import COLUMNS, SHA256
 from footfit.pipeline.batch.sources import Source
 from footfit.pipeline.graded_runs.grade_run import Grader, reading_of
-from footfit.pipeline.library.manifest import COLUMNS
 from footfit.pipeline.library.named_lasts import stored_names
 from footfit.pipeline.scan.kept_sections import kept_sections
 from footfit.pipeline.scan.measure import last_record
@@ -24,6 +24,7 @@ from footfit.pipeline.scan.reading import profiled_source
 from footfit.pipeline.scan.standing import stance_labels
 from footfit.results import Parentage, Target
 from footfit.results.last_making.graded_run import GradedLast, GradedRun
+from footfit.whole_files import safe_file_name
 
 
 def require_storable_run(path: Location, grader: Grader, *, replace_stored: bool) -> None:
@@ -150,7 +151,8 @@ class RunManifest:
         labels: Mapping[str, object] = {
             each.name: getattr(last.labels, each.name) for each in fields(last.labels)
         }
-        own = {"path": f"{last.last}.stl", "side": self._side, "units": "mm"}
+        own = {"path": safe_file_name(last.last, ".stl"), "side": self._side, "units": "mm"}
+        own[SHA256] = hashlib.sha256(last.data).hexdigest()
         values = {**labels, **own}
         return {
             name: round(value, 3) if isinstance(value := values[name], float) else value

@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import replace
-from functools import partial
 from pathlib import Path
 
 from footfit.catalogue.rows.last_names import meant_name, nearest_name
@@ -15,20 +14,18 @@ from footfit.geometry.measures.landmarks import Shape
 from footfit.geometry.stance.stance import Stance
 from footfit.locations import Location
 from footfit.number_words import first_names
+from footfit.pipeline.batch.manifest import read_manifest
+from footfit.pipeline.batch.run_manifest import UNUSED, said_in
 from footfit.pipeline.batch.runs import HERE, outcomes
-from footfit.pipeline.batch.sources import ReadingOptions, Source
+from footfit.pipeline.batch.sources import RUN_MANIFEST, ManifestRow, Said, Source
 from footfit.pipeline.graded_runs.run_increments import BY_SHAPE, CHECKED, MOST_NAMED
 from footfit.pipeline.graded_runs.run_sizes import SizeLabel, size_in_name, size_number
-from footfit.pipeline.library.manifest import LABEL_HEIGHTS, ManifestRow, read_manifest
 from footfit.pipeline.scan.measure import measured_scan
 from footfit.pipeline.scan.preparation import stored_shape
 from footfit.pipeline.scan.reading import AS_FOUND, aligned_source
 from footfit.pipeline.scan.standing import heights_by_shape, stance_labels
 from footfit.results import LastRecord, Measure, MeasuredScan, Notice
 from footfit.results.last_making.run_check import RunLast
-
-RUN_MANIFEST = "run.csv"
-"""The manifest beside a run's files: `grade-last` writes it, `check-run` reads it."""
 
 
 def family_lasts(catalogue: Location, family: str) -> tuple[RunLast, ...]:
@@ -112,9 +109,9 @@ def file_lasts(
     known = _beside(sources) if manifest is None else manifest
     rows = {str(Path(row.path).resolve()): row for row in known}
     labels = {source.path: _label(source, rows) for source in sources}
-    readings = {source.path: _reading(source, rows) for source in sources}
+    sources = [replace(source, said=_said(source, rows)) for source in sources]
     lasts, errors = [], []
-    for outcome in outcomes(partial(_measured, readings=readings), sources, jobs):
+    for outcome in outcomes(_measured, sources, jobs):
         if outcome.error is not None:
             errors.append(outcome.error)
             continue
@@ -125,7 +122,7 @@ def file_lasts(
         number = size_number(label.size, system, name)
         last = _last(name, label, number, scan.alignment.side.side, scan.measures)
         lasts.append(_stands(last, None if stance is None else stance.decided_by, stance))
-    return tuple(lasts), tuple(errors), tuple(_odd(known))
+    return tuple(lasts), tuple(errors), (*_odd(known), *_doubts(sources))
 
 
 def _odd(rows: Sequence[ManifestRow]) -> Iterator[Notice]:
@@ -146,22 +143,25 @@ def _beside(sources: Iterable[Source]) -> list[ManifestRow]:
     return [row for path in beside if path.is_file() for row in read_manifest(path)]
 
 
-def _measured(
-    source: Source, readings: Mapping[str | None, ReadingOptions]
-) -> tuple[MeasuredScan, Stance | None]:
+def _doubts(sources: Iterable[Source]) -> Iterator[Notice]:
+    """A warning for each file that is not the one that its line was written for."""
+    for source in sources:
+        if source.said is not None and source.said.doubt:
+            yield Notice(UNUSED, f"{Path(source.path or '-').name}: {source.said.doubt}")
+
+
+def _measured(source: Source) -> tuple[MeasuredScan, Stance | None]:
     """A last, and how it stands; raises OtherKind for a foot."""
-    aligned = aligned_source(source, readings[source.path])
+    aligned = aligned_source(source, AS_FOUND)
     if aligned.alignment.pose.kind == "foot":
         raise OtherKind("its shape is a foot's, not a last's: take it out of the run", source.path)
     return measured_scan(aligned), aligned.prepared.shape.stance
 
 
-def _reading(source: Source, rows: Mapping[str, ManifestRow]) -> ReadingOptions:
-    """How a file is read, and how its last stands, if the manifest says so."""
+def _said(source: Source, rows: Mapping[str, ManifestRow]) -> Said:
+    """What the manifest says of a file. The user has it for this run, so it needs no hashes."""
     row = rows.get(str(Path(source.path or "-").resolve()))
-    if row is None:
-        return AS_FOUND
-    return replace(row.reading, **{name: getattr(row.labels, name) for name in LABEL_HEIGHTS})
+    return Said() if row is None else said_in(row, source, "the manifest", trusted=True)
 
 
 def _label(source: Source, rows: Mapping[str, ManifestRow]) -> tuple[SizeLabel, str | None]:

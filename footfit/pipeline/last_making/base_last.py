@@ -10,11 +10,11 @@ from footfit.catalogue.store import open_catalogue
 from footfit.errors import FootfitError, OtherKind
 from footfit.geometry.measures.landmarks import Shape
 from footfit.locations import Location
-from footfit.pipeline.batch.sources import ReadingOptions, Source
+from footfit.pipeline.batch.sources import ReadingOptions, Source, content_hash
 from footfit.pipeline.fit.compare import scanned_last
 from footfit.pipeline.scan.kept_sections import kept_sections
 from footfit.pipeline.scan.preparation import stored_shape
-from footfit.pipeline.scan.reading import content_hash, profiled_source
+from footfit.pipeline.scan.reading import profiled_source
 from footfit.pipeline.scan.standing import stance_labels
 from footfit.results import LastRecord, ShapeSections
 from footfit.results.last_making.custom_last import BaseMesh

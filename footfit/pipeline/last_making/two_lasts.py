@@ -23,6 +23,7 @@ from footfit.geometry.numeric.arrays import Floats
 from footfit.geometry.numeric.rotations import moved_points
 from footfit.geometry.stance.cues import NO_LABELS
 from footfit.number_words import plain, signed
+from footfit.pipeline.batch.run_manifest import STANDS
 from footfit.pipeline.last_making.last_sections import size_measured
 from footfit.pipeline.last_making.tolerances import TOLERANCE_MM, kind_of
 from footfit.pipeline.scan.align import aligned_scan
@@ -208,7 +209,7 @@ def _warnings(
     for last in (first, second):
         alignment = last.aligned.alignment
         path = alignment.info.path
-        doubts = SIDE_DOUBTS if path in decided else ()
+        doubts = {*(SIDE_DOUBTS if path in decided else ()), *([STANDS] if one_label else [])}
         own = (notice for notice in alignment.warnings if notice.code not in doubts)
         notices += notices_about(path, own)
         if not last.is_last:
@@ -241,7 +242,7 @@ def _shapes_otherwise(
             words = (
                 f"by their shapes alone the {row.name.replace('_', ' ')} differs by"
                 f" {signed(by_shape)} mm, and by their labels by {signed(by_label)} mm: a label or"
-                " a shape is wrong. Compare them without labels"
+                " a shape is wrong. If the bottom was held in grading, the labels are right"
             )
             yield Notice("shapes_differ_otherwise", words)
 

@@ -11,7 +11,8 @@ from footfit.catalogue.rows.requirements import require_name
 from footfit.catalogue.store import open_catalogue
 from footfit.errors import BadOption, UnknownLast
 from footfit.locations import Location
-from footfit.pipeline.library.manifest import LABEL_HEIGHTS, LABEL_TEXTS, label_mm
+from footfit.pipeline.batch.manifest import LABEL_HEIGHTS, LABEL_TEXTS, label_mm
+from footfit.pipeline.batch.run_manifest import OF_RUNS
 from footfit.pipeline.library.measured_copy import MeasuredCopy, measured_copy, with_measured
 from footfit.pipeline.scan.measure import END_MEASURES
 from footfit.results import EditOutcome, LastRecord, Measure, Measured, MeshCopy, ShapeSections
@@ -20,7 +21,7 @@ Label = str | float | None
 """The value of a label: a text, a height in mm, or None for no label."""
 EDITABLE = (*LABEL_TEXTS[1:], "parent", *LABEL_HEIGHTS)
 """The labels that may change; the name has a command of its own."""
-OF_STANCE = ("stance_label_contradicted", "stance_label_unused", "stance_unsure")
+OF_STANCE = (*OF_RUNS, "stance_label_contradicted", "stance_label_unused", "stance_unsure")
 """The codes of the warnings that the labels of the stance give."""
 
 

@@ -16,11 +16,12 @@ from footfit.catalogue.store import Catalogue, open_catalogue
 from footfit.errors import ExitCode, FootfitError, NameTaken, NoCatalogue
 from footfit.locations import Location
 from footfit.pipeline.batch.runs import HERE, Jobs, Outcome, outcome_groups
+from footfit.pipeline.batch.sources import content_hash
 from footfit.pipeline.library.entries import Entry
 from footfit.pipeline.library.holdings import Held, Holdings, held_last
 from footfit.pipeline.scan.kept_sections import kept_sections
 from footfit.pipeline.scan.measure import last_record
-from footfit.pipeline.scan.reading import content_hash, profiled_source
+from footfit.pipeline.scan.reading import profiled_source
 from footfit.results import IngestOutcome, LastRecord, Notice
 from footfit.whole_files import require_folder
 

@@ -9,7 +9,7 @@ from typing import TypeAlias
 
 from footfit.geometry.measures.measure_table import of_kind
 from footfit.pipeline.batch.runs import Jobs, Outcome, outcomes
-from footfit.pipeline.batch.sources import ReadingOptions, Source
+from footfit.pipeline.batch.sources import ReadingOptions, Source, content_hash
 from footfit.pipeline.population.foot_measures import (
     FootMeasures,
     foot_table,
@@ -18,7 +18,6 @@ from footfit.pipeline.population.foot_measures import (
 )
 from footfit.pipeline.population.measure_cache import measure_cache
 from footfit.pipeline.population.tables import FootTable
-from footfit.pipeline.scan.reading import content_hash
 from footfit.results.population.coverage_answer import FailedFoot
 
 FootOutcome: TypeAlias = Outcome[Source, FootMeasures]

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import hashlib
 from collections.abc import Sequence
 from dataclasses import replace
 from typing import Literal, cast
@@ -13,7 +12,12 @@ from footfit.meshes.read import file_mesh
 from footfit.meshes.units import check_unit_options
 from footfit.pipeline.batch.phases import begin
 from footfit.pipeline.batch.side_words import side_of_file
-from footfit.pipeline.batch.sources import ReadingOptions, Source, source_bytes
+from footfit.pipeline.batch.sources import (
+    ReadingOptions,
+    Source,
+    lies_beside_a_manifest,
+    source_bytes,
+)
 from footfit.pipeline.scan.align import aligned_scan
 from footfit.pipeline.scan.cleaning import scan_of
 from footfit.pipeline.scan.flare import profiled_scan
@@ -26,13 +30,6 @@ from footfit.pipeline.scan.trueness import check_scanner
 AS_FOUND = ReadingOptions()
 ANY_LENGTH_MM = 250.0
 """What a shape of unknown scale is taken to be, to look at the shape alone."""
-
-
-def content_hash(source: Source) -> str:
-    """SHA-256 of the source's bytes: what a last is known by."""
-    if source.scan is not None:
-        return source.scan.info.sha256
-    return hashlib.sha256(source_bytes(source)).hexdigest()
 
 
 def read(source: Source, reading: ReadingOptions = AS_FOUND) -> results.Scan:
@@ -64,10 +61,16 @@ def _read(source: Source, reading: ReadingOptions) -> results.Scan:
 def prepared_source(source: Source, reading: ReadingOptions) -> results.PreparedScan:
     """Read and prepare one mesh; an error names its file.
 
-    If no unit makes it as long as a foot, its shape is looked at first. Half a foot, a cube or two
+    How a last of a run stands is taken from the run's manifest, if that lies beside the file. If no
+    unit makes it as long as a foot, its shape is looked at first. Half a foot, a cube or two
     feet in one file is then refused for what it is, and only a foot or last for its unknown unit.
     """
+    said: tuple[results.Notice, ...] = ()
     with errors_at(source.path):
+        if source.said is not None or lies_beside_a_manifest(source):
+            from footfit.pipeline.batch.run_manifest import as_said
+
+            reading, said = as_said(source, reading)
         try:
             begin("reading")
             scan = read(source, reading)
@@ -87,6 +90,7 @@ def prepared_source(source: Source, reading: ReadingOptions) -> results.Prepared
             kind=kind,
         )
         begin("measures")
+        prepared = replace(prepared, warnings=(*prepared.warnings, *said))
         return _with_name_checked(prepared)
 
 

@@ -15,6 +15,7 @@ from footfit.geometry.stance.cues import StanceLabels
 from footfit.geometry.stance.middle_line import middle_line
 from footfit.geometry.stance.missing_bottom import missing_for_labels
 from footfit.number_words import plain
+from footfit.pipeline.batch.sources import LABELLED_MM
 from footfit.pipeline.scan.trueness import measured
 from footfit.results import Notice
 
@@ -24,8 +25,6 @@ if TYPE_CHECKING:
     from footfit.geometry.stance.stance import Stance
     from footfit.results import LastLabels, LastStance, MeshInfo
 
-LABELLED_MM = {"heel_height_mm": (0, 200), "toe_spring_mm": (0, 80), "platform_mm": (0, 100)}
-"""What labels may say."""
 LONE_PLATFORM = "a platform counts together with a heel height only: give --heel-height too"
 OF_A_FOOT = "heel height and toe spring are labels of lasts; this is a foot, which stands flat"
 OPEN_BOTTOM = "the bottom {place}, so the labels of heel height and toe spring are of no use"

@@ -2,31 +2,23 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Sequence
-from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
 from footfit.errors import BadManifest, BadOption
 from footfit.meshes.units import UNIT_SCALES
 from footfit.pipeline.batch.csv_rows import CsvRow, Faults, csv_rows, rows_of_text
-from footfit.pipeline.batch.sources import ReadingOptions, stored_path
-from footfit.pipeline.scan.standing import LABELLED_MM
+from footfit.pipeline.batch.sources import LABELLED_MM, ManifestRow, ReadingOptions, stored_path
 from footfit.results import LastLabels
 
 LABEL_TEXTS = ("name", "style", "size", "size_system", "width_label", "family")
 LABEL_HEIGHTS = ("heel_height_mm", "toe_spring_mm", "platform_mm")
-COLUMNS = ("path", *LABEL_TEXTS, "side", "units", *LABEL_HEIGHTS)
+SHA256 = "sha256"
+"""The column with the hash of the file's content."""
+COLUMNS = ("path", *LABEL_TEXTS, "side", "units", *LABEL_HEIGHTS, SHA256)
 CHOICES = {"side": ("auto", "left", "right"), "units": ("auto", *UNIT_SCALES)}
-
-
-@dataclass(frozen=True, slots=True)
-class ManifestRow:
-    """One line of a manifest; ``labels.name`` is the file's stem if the line has no name."""
-
-    path: str
-    labels: LastLabels
-    reading: ReadingOptions
 
 
 def read_manifest(path: Path) -> list[ManifestRow]:
@@ -99,10 +91,19 @@ def _labelled_row(row: CsvRow, folder: Path, faults: Faults) -> ManifestRow:
     for name in CHOICES:
         with faults.collecting():
             reading[name] = _choice(given.get(name, "auto"), name, where)
+    sha256 = None
+    with faults.collecting():
+        sha256 = _hash(given.get(SHA256), where)
     path = stored_path(str(folder / given.get("path", "")))
-    return ManifestRow(
-        path, LastLabels(**{"name": Path(path).stem} | said), ReadingOptions(**reading)
-    )
+    labels = LastLabels(**{"name": Path(path).stem} | said)
+    return ManifestRow(path, labels, ReadingOptions(**reading), sha256)
+
+
+def _hash(value: str | None, where: str) -> str | None:
+    if value is not None and not re.fullmatch("[0-9a-fA-F]{64}", value):
+        words = f"{SHA256} is {value!r}; it must have 64 digits of 0-9 and a-f, or be empty"
+        raise BadManifest(words, where)
+    return None if value is None else value.lower()
 
 
 def _choice(value: str, column: str, where: str) -> str:
