@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Iterator, Mapping
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 
 from footfit.errors import GeometryRefused, ImplausibleSize, NotAFoot, OutOfReach
 from footfit.geometry.measures.landmarks import Shape
@@ -298,8 +298,7 @@ def file_of(shape: Shape, base: BaseLast) -> bytes:
 
 def file_shape(data: bytes, base: BaseLast, stands: StanceLabels) -> Shape:
     """The last that is read from the content of its file."""
-    reading = reading_of(base, stands)
-    return replace(prepared_source(Source(None, data, "stl"), reading).shape, kind="last")
+    return prepared_source(Source(None, data, "stl"), reading_of(base, stands)).shape
 
 
 def read_otherwise(lasts: Iterable[GradedLast]) -> tuple[Notice, ...]:
@@ -338,10 +337,11 @@ def spreads_of(shape: Shape) -> dict[str, float | None]:
 
 
 def reading_of(base: BaseLast, stands: StanceLabels) -> ReadingOptions:
-    """How the file of a graded last is read."""
+    """How the file of a graded last is read: as a last, whatever its shape is near to."""
     return ReadingOptions(
         units="mm",
         side=base.record.side.side or "auto",
+        kind="last",
         heel_height_mm=stands.heel_height_mm,
         toe_spring_mm=stands.toe_spring_mm,
         platform_mm=stands.platform_mm or None,

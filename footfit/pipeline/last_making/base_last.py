@@ -79,7 +79,9 @@ def _original(record: LastRecord, folders: Iterable[Path]) -> Shape | None:
         if not (folder / name).is_file() or content_hash(source) != record.info.sha256:
             continue
         side = record.side.side or "auto"
-        reading = ReadingOptions(units=_unit(record), side=side, known_length_mm=_scaled(record))
+        reading = ReadingOptions(
+            units=_unit(record), side=side, known_length_mm=_scaled(record), kind="last"
+        )
         try:
             return profiled_source(source, reading).aligned.prepared.shape
         except FootfitError:

@@ -19,6 +19,7 @@ from footfit.pipeline.batch.run_manifest import said_notices
 from footfit.pipeline.fit.judging.judged_lasts import JudgedLasts
 from footfit.pipeline.fit.ranking import foot_fits
 from footfit.pipeline.last_making.base_last import BaseLast
+from footfit.pipeline.last_making.custom.bent_surface import bent_notices
 from footfit.pipeline.last_making.custom.custom_aims import (
     FOLLOWING,
     LENGTH,
@@ -121,7 +122,8 @@ def customised(
         words = "the foot has a shape like a last's: give the scan of a foot"
         notices.append(results.Notice("looks_like_a_last", words))
     judged = with_reasons(made.judged, question, lost)
-    said = (*_notices(base), *zone_notices(judged, attempt.aims), *notices)
+    bent = bent_notices(made, bottom_kept=question.bottom_kept)
+    said = (*_notices(base), *zone_notices(judged, attempt.aims), *bent, *notices)
     return replace(made, judged=judged, warnings=said)
 
 

@@ -79,7 +79,8 @@ class MadeLast:
 def made_last(base: BaseLast, vertices_mm: Floats, side: SideName, name: str) -> MadeLast:
     """The right vertices (n, 3) of a changed base as a last of one side, read again from its file.
 
-    The pose is known, so it is not searched for. The labels of how the base stands stay.
+    The pose is known, so it is not searched for, and it is a last, whatever its shape is near to.
+    The labels of how the base stands stay.
     """
     vertices_mm, faces = right_copy(vertices_mm, base.shape.faces, side)
     data = encoded_mesh(vertices_mm, faces, "stl")
@@ -98,7 +99,9 @@ def made_last(base: BaseLast, vertices_mm: Floats, side: SideName, name: str) ->
         toe_spring_mm=old.toe_spring_mm,
         platform_mm=old.platform_mm,
     )
-    prepared = prepared_scan(replace(scan, pose=pose), side, labels=stance_labels(labels))
+    prepared = prepared_scan(
+        replace(scan, pose=pose), side, labels=stance_labels(labels), kind="last"
+    )
     mirror = _mirror(side)
     frame = mirror @ prepared.canonical_transform @ mirror
     return MadeLast(base, prepared, labels, vertices_mm, faces, np.asarray(frame, np.float64))
