@@ -109,6 +109,11 @@ def solution(
     if wishes.missed_mm(best.values_mm) + wishes.beyond_mm(best.values_mm) <= settings.near_mm:
         return best
     effect = _effects(best.field, knobs, goals, vertices_mm, settings)
+    if settings.ahead_mm and any(isinstance(goal.probe, Probe) for goal in goals):
+        for column in (k for k, knob in enumerate(knobs) if knob.curve == "ahead"):
+            by = np.eye(len(knobs))[column] * settings.ahead_mm
+            change = (at(values + by).values_mm - best.values_mm) / settings.ahead_mm
+            effect[:, column] = np.where(np.isfinite(change), change, effect[:, column])
     rounds, most, failed = 0, settings.most, 0
     while not (
         rounds == settings.rounds or failed > settings.failing or wishes.met(best.values_mm)

@@ -42,6 +42,9 @@ class SolverSettings:
     step, most : float
         Of the differences that a knob's effect is taken by, and the most that a knob is turned in
         a round, in the knob's unit.
+    ahead_mm : float
+        If it is not 0, the effect of a knob that moves places ahead is read, and not probed: it moves
+        the planes of girths too. The difference is taken by so many mm.
     shorter : float
         A step that does not help is tried again at this share of its length.
     loose_mm : float
@@ -60,6 +63,7 @@ class SolverSettings:
     failing: int = 12
     step: float = 3e-3
     most: float = 0.25
+    ahead_mm: float = 0.0
     shorter: float = 0.5
     loose_mm: float = 1.0
     beyond_mm: float = 0.2

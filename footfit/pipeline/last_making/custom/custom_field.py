@@ -97,7 +97,7 @@ class CustomSettings:
 
 
 CUSTOM = CustomSettings()
-COLD = replace(SOLVER, failing=3, shorter=0.3)
+COLD = replace(SOLVER, failing=3, shorter=0.3, ahead_mm=2.0)
 """A search that begins at the base."""
 WARM = replace(COLD, shaping=3, rounds=8)
 """A search that begins where another one ended."""

@@ -282,7 +282,8 @@ def _enough(tries: Sequence[Attempt], before: int, more_mm: float) -> bool:
         return True
     stuck = len(tries) > 1 and off_mm > HELPS * tries[-2].worth[-1]
     stuck = stuck or (last.beyond and last.shape.solved.met)
-    return len(tries) == len(SETTLED_MM) or (stuck and last.manner.zones)
+    lost = len(tries) > 1 and off_mm >= tries[-2].worth[-1]
+    return len(tries) == len(SETTLED_MM) or lost or (stuck and last.manner.zones)
 
 
 def _tried(
