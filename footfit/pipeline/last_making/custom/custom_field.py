@@ -97,11 +97,11 @@ class CustomSettings:
 
 
 CUSTOM = CustomSettings()
-COLD = replace(SOLVER, failing=3, shorter=0.3, ahead_mm=2.0)
+COLD = replace(SOLVER, failing=3, shorter=0.3, ahead_mm=2.0, settled_mm=0.2)
 """A search that begins at the base."""
-WARM = replace(COLD, shaping=3, rounds=8)
+WARM = replace(COLD, shaping=3, rounds=8, settled_mm=0.1)
 """A search that begins where another one ended."""
-FOLLOWED = replace(COLD, shaping=0, rounds=6)
+FOLLOWED = replace(COLD, shaping=0, rounds=6, settled_mm=0.05)
 """A search that begins where one on a light copy ended: only firm aims are still missed."""
 ENOUGH = 3000
 """The determinant and the scales are smooth, so they are taken at about so many vertices."""

@@ -253,7 +253,10 @@ class Carried:
             middle_mm=middle_mm,
         )
         shape = Shape(vertices_mm, known.faces, "last", known.labels)
-        vars(shape).update(stance=moved, filled=known.filled)  # they need not be found
+        known_parts = {"stance": moved, "filled": known.filled, "top_cut": known.top_cut}
+        if not known.cone_cut:  # where nothing was cut away, nothing is
+            known_parts["cone_cut"] = known.cone_cut
+        vars(shape).update(known_parts)  # they need not be found
         return shape
 
     def probes(self, vertices_mm: Floats, aims: Sequence[CustomAim]) -> list[Probe]:
