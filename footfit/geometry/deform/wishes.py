@@ -43,8 +43,8 @@ class SolverSettings:
         Of the differences that a knob's effect is taken by, and the most that a knob is turned in
         a round, in the knob's unit.
     ahead_mm : float
-        If it is not 0, the effect of a knob that moves places ahead is read, and not probed: it moves
-        the planes of girths too. The difference is taken by so many mm.
+        If it is not 0, the effect of a knob that moves places ahead is read, and not probed: it
+        moves the planes of girths too. The difference is taken by so many mm.
     shorter : float
         A step that does not help is tried again at this share of its length.
     loose_mm : float
