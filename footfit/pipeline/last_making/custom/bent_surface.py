@@ -9,7 +9,7 @@ from footfit.results import Notice
 from footfit.results.last_making.custom_last import CustomLast
 
 COARSE_FACES = 20_000
-"""A base with fewer faces is advised to have more: with edges half as long, 1.7 became 1.0 degrees."""
+"""For a base with fewer faces more are advised: with edges half as long, 1.7 became 1.0 degrees."""
 
 
 def bent_notices(custom: CustomLast, *, bottom_kept: bool) -> tuple[Notice, ...]:
