@@ -116,6 +116,7 @@ def test_a_file_that_was_changed_stands_by_its_shape_and_that_is_said(
     assert "derby-41.stl: run.csv beside it was written for another content" in changed.err
     checked = footfit("check-run", file, other, last)
     assert "derby-41.stl: the manifest was written for another content" in checked.err
+    assert "empty its sha256 if its heights still count" in checked.err
     catalogue = tmp_path / "lasts.footfit"
     manifest = ("--manifest", tmp_path / "run.csv", "--catalogue", catalogue)
     stored = footfit("ingest-last", *manifest, "--json")

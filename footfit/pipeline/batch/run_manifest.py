@@ -27,6 +27,8 @@ UNUSED = "run_manifest_unused"
 OF_RUNS = (STANDS, UNUSED)
 BY_SHAPE = "so it stands by its shape alone: give --heel-height if you know it"
 
+OR_EMPTY = "so it stands by its shape alone: empty its sha256 if its heights still count"
+
 
 def with_said(source: Source) -> Source:
     """A source with what the manifest beside its file says of it, if that was not looked up yet."""
@@ -74,7 +76,7 @@ def said_in(row: ManifestRow, source: Source, manifest: str, *, trusted: bool = 
     if not row.says_how_it_stands:
         return Said()
     words = f"{manifest} was written for another content of this file (sha256)"
-    return Said(doubt=f"{words}, {BY_SHAPE}")
+    return Said(doubt=f"{words}, {OR_EMPTY if trusted else BY_SHAPE}")
 
 
 def as_said(source: Source, reading: ReadingOptions) -> tuple[ReadingOptions, tuple[Notice, ...]]:
