@@ -26,8 +26,8 @@ UNUSED = "run_manifest_unused"
 """The notice of a last that stands by its shape alone, though a manifest has its name."""
 OF_RUNS = (STANDS, UNUSED)
 BY_SHAPE = "so it stands by its shape alone: give --heel-height if you know it"
-
 OR_EMPTY = "so it stands by its shape alone: empty its sha256 if its heights still count"
+"""What a doubt ends with; the second one if the user has named the manifest."""
 
 
 def with_said(source: Source) -> Source:
