@@ -39,8 +39,13 @@ HEEL_PULL_MM, HEEL_REACH_MM = 3.0, 8.0
 in its good range if it lies so near to that."""
 RANGE = 0.95
 """What should be in its zone's good range stays within so much of it."""
-GIVES_WAY = {"ball_girth_least": "ball_girth", "instep_girth_least": "instep_girth"}
-"""The least tapes whose targets move if the upright girth of their zone would not be good."""
+GIVES_WAY = {
+    "ball_girth_least": "ball_girth",
+    "waist_girth_least": "instep_girth",
+    "instep_girth_least": "instep_girth",
+}
+"""The least tapes whose targets move if the upright girth of a zone would not be good. The waist
+lies behind the ball and in front of the instep; no zone judges it."""
 ANYWHERE = (-np.inf, np.inf)
 LENGTH, BALL_LENGTH = "length", "ball_length"
 

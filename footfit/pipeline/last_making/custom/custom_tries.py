@@ -58,7 +58,7 @@ BENT_DEG, LIGHT_DEG = (2.0, 4.0), 0.06
 the bottom keeps its outline. On a light copy so much less is asked for."""
 FREE_HEEL, UNZONED = Manner(heel=False), Manner(zones=False)
 FLATTER, SLIMMER = Manner(heights=1.0), Manner(heights=0.25)
-SOFTER = Manner(heights=0.8, softer=4.0)
+SOFTER, SOFTEST = Manner(heights=0.8, softer=4.0), Manner(heights=0.8, softer=16.0)
 LIGHT_FACES, LIGHT_SHARE = 5000, 0.6
 """Of the light copy on which most tries are made; a base with not many more faces needs none."""
 TURN_DEG = 2.5
@@ -234,9 +234,10 @@ def _other_manners(attempt: Attempt) -> tuple[Manner, ...]:
     slim = attempt.shape.scales[0] > CUSTOM.wider
     other = SOFTER if attempt.bent_deg else SLIMMER if slim else FLATTER
     heel = next((aim for aim in attempt.aims if aim.measure == HEEL_GIRTH), None)
+    last = (SOFTEST, UNZONED) if attempt.bent_deg else (UNZONED,)
     if heel is None or heel.good_mm[0] <= heel.base <= heel.good_mm[1]:
-        return other, UNZONED
-    return FREE_HEEL, replace(other, heel=False), UNZONED
+        return other, *last
+    return FREE_HEEL, *(replace(each, heel=False) for each in (other, *last))
 
 
 def _best(

@@ -70,6 +70,7 @@ def zone_notices(judged: Sequence[JudgedZone], aims: Sequence[CustomAim]) -> tup
             words = f"the toe room {by_words}, so that the toe box fits better"
             notices.append(Notice("toe_room_moved", words))
         elif aim.moved_mm:
-            words = f"the {aim.words} {by_words}, so that the zone is good"
+            zone = aim.zone.replace("_", " ")
+            words = f"the {aim.words} {by_words}, so that the zone {zone} is good"
             notices.append(Notice("target_moved", words))
     return tuple(notices)
