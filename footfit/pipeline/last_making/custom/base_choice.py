@@ -15,7 +15,8 @@ from footfit.errors import FootfitError, NameTaken, NoCandidate, OutOfReach
 from footfit.locations import Location
 from footfit.pipeline.fit.match import Question, matched
 from footfit.pipeline.last_making.base_last import BaseLast, stored_base
-from footfit.pipeline.last_making.custom.custom_making import Making, customised
+from footfit.pipeline.last_making.custom.custom_making import Making, begun, customised
+from footfit.pipeline.last_making.custom.out_of_reach import reason
 from footfit.pipeline.library.named_lasts import stored_names
 from footfit.pipeline.shelf.candidates import choice
 from footfit.results import Profiled, SideName
@@ -74,15 +75,17 @@ def customised_from_best(
     NoCandidate
         The catalogue has no last with a mesh.
     """
-    first: OutOfReach | None = None
+    first: tuple[BaseLast, OutOfReach] | None = None
     for base in best_bases(feet, path, making):
         try:
             return base, customised(feet[0], base, making)
         except OutOfReach as error:
-            first = first or OutOfReach(error.message, base.path)
+            first = first or (base, error)
     if first is None:
         raise NoCandidate("no last of the catalogue has a mesh: ingest lasts first", str(path))
-    raise first
+    best, refusal = first
+    words = f"{_why(feet[0], best, making, refusal)}; {_next_step(making, others_tried=True)}"
+    raise OutOfReach(words, best.path) from refusal
 
 
 def customised_from(
@@ -92,7 +95,8 @@ def customised_from(
     path: Location | None,
     side: SideName | None = None,
 ) -> CustomLast:
-    """The custom last that a named base gives; a refusal names a better base if there is one.
+    """The custom last that a named base gives; a refusal names a better base if there is one, and
+    else what to do.
 
     Raises
     ------
@@ -103,11 +107,34 @@ def customised_from(
         return customised(foot, base, making, side)
     except OutOfReach as error:
         better = None if path is None else _better_base(foot, path, making, base)
-        turned = "; try a lower --flare-follow" if making.question.flare_follow else ""
-        words = (
-            turned if better is None else f"; use --base {better.name}{_heel_words(better, base)}"
-        )
-        raise OutOfReach(f"{error.message}{words}", base.path) from error
+        words = _why(foot, base, making, error, side)
+        step = _next_step(making, others_tried=path is not None)
+        if better is not None:
+            step = f"use --base {better.name}{_heel_words(better, base)}"
+        raise OutOfReach(f"{words}; {step}", base.path) from error
+
+
+def _why(
+    foot: Profiled,
+    base: BaseLast,
+    making: Making,
+    error: OutOfReach,
+    side: SideName | None = None,
+) -> str:
+    """Why a base is refused: which target is out of reach, or which two are so together."""
+    with suppress(FootfitError):
+        return reason(*begun(foot, base, making, side)) or error.message
+    return error.message
+
+
+def _next_step(making: Making, *, others_tried: bool) -> str:
+    """What to do about a refusal, if no better base is known."""
+    if making.question.flare_follow:
+        return "try a lower --flare-follow"
+    steps = "give another --profile, or ingest a last that is nearer to these figures"
+    if others_tried:
+        return f"the lasts of the catalogue that match best cannot be changed so far: {steps}"
+    return "give another --base, of another size or width, or another --profile"
 
 
 def _better_base(foot: Profiled, path: Location, making: Making, base: BaseLast) -> BaseLast | None:

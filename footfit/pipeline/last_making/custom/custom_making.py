@@ -90,16 +90,7 @@ def customised(
         A place for room is not known, or its room is too large.
     """
     question = making.question
-    aims = custom_aims(foot, base, question)
-    if not aims:
-        raise OutOfReach("no measure of the foot can be compared with the base: scan it again")
-    refuse_far(aims, base)
-    chart = chart_of(base.shape)
-    refuse_unknown(making.rooms_mm)
-    own: SideName = foot.aligned.alignment.side.side or "right"
-    given = Given(base, chart, side or own, making.name, _flare_turn_deg(foot, base, making))
-    given = replace(given, bottom_kept=question.bottom_kept)
-
+    given, aims = begun(foot, base, making, side)
     judged_base = judged_in(foot, base.record, base, question)
     (before,) = foot_fits(judged_base, 0, base.record)
 
@@ -110,11 +101,11 @@ def customised(
     made, notices, lost = answer(attempt), list[results.Notice](), set[str]()
     if making.rooms_mm:  # room is given on top of the targets, which are met without it
         lying_mm = attempt.made.lying(attempt.shape.vertices_mm)
-        bumps = room_bumps(base.shape, chart, making.rooms_mm, attempt.made.shape, lying_mm)
+        bumps = room_bumps(base.shape, given.chart, making.rooms_mm, attempt.made.shape, lying_mm)
         swollen = with_bumps(given, attempt, bumps)
         notices += joint_notices(attempt.made.shape, swollen.made.shape)
         ends_mm = attempt.shape.vertices_mm, swollen.shape.vertices_mm
-        rooms = reached_rooms(base.shape, chart, making.rooms_mm, bumps, ends_mm)
+        rooms = reached_rooms(base.shape, given.chart, making.rooms_mm, bumps, ends_mm)
         roomy = replace(answer(swollen), rooms=rooms)
         lost = {z.name for z in not_good(roomy.judged)} - {z.name for z in not_good(made.judged)}
         made = roomy
@@ -125,6 +116,30 @@ def customised(
     bent = bent_notices(made, bottom_kept=question.bottom_kept)
     said = (*_notices(base), *zone_notices(judged, attempt.aims), *bent, *notices)
     return replace(made, judged=judged, warnings=said)
+
+
+def begun(
+    foot: Profiled, base: BaseLast, making: Making, side: SideName | None = None
+) -> tuple[Given, tuple[CustomAim, ...]]:
+    """What a search begins with: what is given, and the aims.
+
+    Raises
+    ------
+    OutOfReach
+        There is nothing to aim at, or an aim is too far from the base.
+    BadOption
+        A place for room is not known, or its room is too large.
+    """
+    question = making.question
+    refuse_unknown(making.rooms_mm)
+    aims = custom_aims(foot, base, question)
+    if not aims:
+        raise OutOfReach("no measure of the foot can be compared with the base: scan it again")
+    refuse_far(aims, base)
+    own: SideName = foot.aligned.alignment.side.side or "right"
+    turn_deg = _flare_turn_deg(foot, base, making)
+    given = Given(base, chart_of(base.shape), side or own, making.name, turn_deg)
+    return replace(given, bottom_kept=question.bottom_kept), aims
 
 
 def _tried(

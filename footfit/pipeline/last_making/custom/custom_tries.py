@@ -218,6 +218,11 @@ def attempt_at(given: Given, aims: Sequence[CustomAim], first: Attempt | None = 
     return best
 
 
+def attempt_in(given: Given, aims: Sequence[CustomAim], manner: Manner) -> Attempt:
+    """The best try in one manner, though it may miss a target or go beyond a limit."""
+    return _best(given, aims, None, manner)
+
+
 def _better(given: Given, aims: Sequence[CustomAim], best: Attempt, manner: Manner) -> Attempt:
     """The better one of a try and the best one in another manner."""
     try:
