@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -10,8 +10,8 @@ import numpy as np
 from footfit.errors import OutOfReach
 from footfit.geometry.deform.chart import CHART, Chart, chart_of
 from footfit.geometry.deform.field import Field, least_determinant
-from footfit.geometry.deform.probes import DIRECTIONS, Probe, span_probe
-from footfit.geometry.deform.solver import Knob, solution
+from footfit.geometry.deform.probes import DIRECTIONS
+from footfit.geometry.deform.solver import Knob, solution, turned_field
 from footfit.geometry.deform.wishes import SOLVER, Goal
 from footfit.geometry.grading.length_flow import (
     LENGTHENING,
@@ -28,14 +28,13 @@ from footfit.geometry.grading.steady_lines import (
     middle_mm,
     with_top_held,
 )
-from footfit.geometry.measures.heights import HEIGHTS
-from footfit.geometry.measures.landmarks import AXES, Shape
+from footfit.geometry.measures.landmarks import Shape
 from footfit.geometry.measures.least_tape import RoughGirths
 from footfit.geometry.measures.measure_table import measure_named
 from footfit.geometry.numeric.arrays import Floats
 from footfit.geometry.stance.cues import StanceLabels
 from footfit.number_words import plain
-from footfit.pipeline.last_making.custom.custom_reading import TAPES, probe_of, tape_plane
+from footfit.pipeline.last_making.custom.custom_reading import TAPES, tape_plane
 
 
 @dataclass(frozen=True, slots=True)
@@ -141,41 +140,83 @@ def graded(shape: Shape, step: GradeStep) -> Shape:
     chart = _chart(first, step)
     top = _cone_mm(chart, first)
     names = list(step.targets_mm)
-    goals = [Goal(step.targets_mm[name], _probe(first, name)) for name in names]
 
     def finished(vertices_mm: Floats) -> Shape:
         moved = Shape(vertices_mm, shape.faces, "last", first.labels)
         return moved if grows else _lengthened(moved, step)
 
     def read(vertices_mm: Floats) -> Floats:
+        if still_mm is not None and np.array_equal(vertices_mm, first.vertices_mm):
+            return still_mm
         last = finished(vertices_mm)
         return np.array([graded_mm(last, name) for name in names])
 
+    still_mm: Floats | None = None
+    still_mm = read(first.vertices_mm)
     start, rise_mm = replace(Field.still(chart), even=True), 0.0
+    effect: Floats | None = None
     for _ in range(2):  # the second time at the height that the cone has half-way
         knobs = _knobs(chart, top + 0.5 * rise_mm, step)
+        if effect is None:
+            effect = _effect(start, knobs, first.vertices_mm, read)
+        goals = [Goal(step.targets_mm[name], row) for name, row in zip(names, effect, strict=True)]
         solved = solution(start, knobs, first.vertices_mm, goals, read, settings=GRADE_SOLVER)
+        effect = effect if solved.effect is None else solved.effect
         rise_mm = _rise_mm(solved.field, top + 0.5 * rise_mm)
         if abs(rise_mm) < GRADE.small_rise_mm:
             break
-    _refuse_missed(step, solved.values_mm)
+    refuse_missed(step, solved.values_mm)
     least = least_determinant(solved.field, first.vertices_mm)
     if least < GRADE.determinant:
         words = f"only {plain(least, 2)} of its volume would be left somewhere"
-        raise OutOfReach(f"the surface would come too near to a fold ({words}): take fewer sizes")
+        fewer = "widths" if step.ratio == 1.0 else "sizes"
+        raise OutOfReach(f"the surface would come too near to a fold ({words}): take fewer {fewer}")
     return finished(solved.vertices_mm)
 
 
-def _refuse_missed(step: GradeStep, values_mm: Floats) -> None:
-    """Raise OutOfReach for the target that is missed most, if one is."""
+def _effect(
+    start: Field, knobs: Sequence[Knob], vertices_mm: Floats, read: Callable[[Floats], Floats]
+) -> Floats:
+    """How each measure changes with each knob of a field, (measures, knobs), as it is read.
+
+    A probe keeps the places of a measure. Under a high heel the ends of the bottom's arc move on
+    the surface, and a probe took a scale of heights for a change of length.
+    """
+    before = read(vertices_mm)
+    columns = []
+    for knob in knobs:
+        by = GRADE_SOLVER.step * knob.unit
+        moved = turned_field(start, [knob], np.array([by])).moved_points(vertices_mm, None)
+        columns.append((read(moved) - before) / by)
+    return np.nan_to_num(np.stack(columns, axis=1))
+
+
+def refuse_missed(step: GradeStep, values_mm: Floats) -> None:
+    """Refuse a step that misses a target by more than `GradeSettings.met_mm`.
+
+    ``values_mm`` (n,) are what its measures came to, in the order of its targets.
+
+    Raises
+    ------
+    OutOfReach
+        The message names the target that is missed most, by how much, and what to ask for.
+    """
     targets_mm = step.targets_mm
     miss = np.array(list(targets_mm.values())) - values_mm
+    miss = np.where(np.isfinite(miss), miss, np.inf)  # a measure that is gone
     worst = int(np.argmax(np.abs(miss)))
-    if abs(miss[worst]) > GRADE.met_mm:
-        name, target = list(targets_mm.items())[worst]
-        words = f"comes to {plain(target - miss[worst])} mm and not to {plain(target)} mm"
-        hint = "do not hold the top" if "top" in step.held else "take fewer sizes or another rule"
-        raise OutOfReach(f"the {name.replace('_', ' ')} {words}: {hint}")
+    if abs(miss[worst]) <= GRADE.met_mm:
+        return
+    name, target = list(targets_mm.items())[worst]
+    words = f"the {name.replace('_', ' ')} should come to {plain(target, 2)} mm"
+    if np.isfinite(miss[worst]):
+        how = "small" if miss[worst] > 0.0 else "large"
+        words += f" and stays {plain(abs(miss[worst]), 2)} mm too {how}"
+    else:
+        words += " and can no longer be measured"
+    fewer = "widths" if step.ratio == 1.0 else "sizes"
+    hint = f"take fewer {fewer}, or another rule"
+    raise OutOfReach(f"{words}: {'do not hold the top' if 'top' in step.held else hint}")
 
 
 def _lengthened(shape: Shape, step: GradeStep) -> Shape:
@@ -292,16 +333,3 @@ def graded_mm(shape: Shape, name: str) -> float:
         return girths.at(plane.axes)
     value = measure_named(name).value_of(shape).value
     return np.nan if value is None else value
-
-
-def _probe(shape: Shape, name: str) -> Probe:
-    """What answers for a measure when the last changes a little."""
-    if name == LENGTH:
-        rear, front = shape.ends
-        return span_probe(shape.vertices_mm, rear.place, front.place, AXES[0])
-    if name == THICKNESS:
-        x_mm, section = shape.x_mm(HEIGHTS.toe), shape.across(HEIGHTS.toe).points
-        low, high = (section[at] for at in (section[:, 1].argmin(), section[:, 1].argmax()))
-        bottom, top = (np.array([x_mm, *place]) for place in (low, high))
-        return span_probe(shape.vertices_mm, bottom, top, AXES[2])
-    return probe_of(shape, name)
