@@ -85,6 +85,7 @@ def customise(
     from footfit.pipeline.fit.refused_feet import refuse_lasts
     from footfit.pipeline.last_making.custom import base_choice
     from footfit.pipeline.last_making.custom.custom_making import customised
+    from footfit.pipeline.last_making.custom.in_stock import with_stock_looked_at
 
     making, path = _making(asked), None if catalogue is None else location_of(catalogue)
     stands = stance_keywords(asked)
@@ -100,12 +101,15 @@ def customise(
         refuse_stance(stands, "the best match")
         with _naming(shapes[0]):
             chosen, first = base_choice.customised_from_best(shapes, path, making)
-        lasts, rest = [first], shapes[1:]
+        lasts, rest = [with_stock_looked_at(first, shapes[0], path, making.question)], shapes[1:]
     else:
         chosen, rest = _base(base, path, stands), shapes
     for foot in rest:
         with _naming(foot):
-            lasts.append(base_choice.customised_from(foot, chosen, making, path))
+            made = base_choice.customised_from(foot, chosen, making, path)
+        if path is not None:
+            made = with_stock_looked_at(made, foot, path, making.question)
+        lasts.append(made)
     if both:
         other: SideName = "left" if lasts[0].side == "right" else "right"
         lasts.append(customised(shapes[0], chosen, making, other))

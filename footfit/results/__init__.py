@@ -47,6 +47,7 @@ if TYPE_CHECKING:
     from footfit.results.heel import HeelQuestion as HeelQuestion
     from footfit.results.heel import HeelRule as HeelRule
     from footfit.results.last_making.custom_last import BaseMesh as BaseMesh
+    from footfit.results.last_making.custom_last import BetterInStock as BetterInStock
     from footfit.results.last_making.custom_last import CustomLast as CustomLast
     from footfit.results.last_making.custom_last import CustomZone as CustomZone
     from footfit.results.last_making.custom_last import GirthPlane as GirthPlane
@@ -124,7 +125,7 @@ _NAMES = {
     "fit": "FitProfile FootFit ToeBox ToeFit ZoneFit ZoneRule",
     "heel": "HeelChange HeelModel HeelQuestion HeelRule",
     "last_making.custom_last": (
-        "BaseMesh CustomLast CustomZone GirthPlane JudgedZone KeptPlace RoomPlace"
+        "BaseMesh BetterInStock CustomLast CustomZone GirthPlane JudgedZone KeptPlace RoomPlace"
     ),
     "last_making.drawing": "Drawing",
     "last_making.graded_run": "GradedLast GradedMeasure GradedRun",

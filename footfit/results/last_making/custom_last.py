@@ -123,6 +123,17 @@ class RoomPlace(Part):
 
 
 @dataclass(frozen=True, slots=True)
+class BetterInStock(Part):
+    """The best last of the catalogue that fits the foot better than the custom last, with both
+    verdicts.
+    """
+
+    last: str
+    verdict: Verdict
+    custom_verdict: Verdict | None
+
+
+@dataclass(frozen=True, slots=True)
 class CustomLast(Document):
     """A last that was made from a base for one foot.
 
@@ -131,6 +142,7 @@ class CustomLast(Document):
     place of the surface. ``least_determinant`` says how far the change is from a fold: 1 keeps all
     volumes, 0 folds. The mesh is in the axes of the written file, with ``moved_mm`` (n,) + outward
     at each vertex; ``base_vertices_mm`` (n, 3) is the base there. ``output`` is the written file.
+    ``better_in_stock`` is None if there is no catalogue, or no last of it fits better.
     """
 
     base: str
@@ -160,6 +172,7 @@ class CustomLast(Document):
     faces: Ints
     moved_mm: Floats
     rooms: tuple[RoomPlace, ...] = ()
+    better_in_stock: BetterInStock | None = None
     output: str | None = None
     stored_as: str | None = None
 
