@@ -3,16 +3,23 @@
 The bottom is laid flat along its own line in the side view (`flare.unrolling`), but a point goes
 to the line at right angles: what lies over the line does not move along it. Half planes that stand
 upright on the flat bottom are cut: across it along its middle, and around a centre at either end.
-In each the edge is where a line touches that is half-way between the bottom and the wall.
+In each the edge is where a line touches that is half-way between the bottom and the wall. Where the
+edge is rough from irregular facets, these are cut as curved pieces, and what is left is smoothed.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
 
+from footfit.geometry.drawing.curved_faces import corner_normals, curved_pieces
+from footfit.geometry.drawing.rough_ends import (
+    ANY_ROUGHNESS,
+    roughness,
+    without_roughness,
+)
 from footfit.geometry.flare.unrolling import SideLine
 from footfit.geometry.measures.landmarks import AXES, Shape
 from footfit.geometry.measures.lengths import FeatherEnds, feather_ends
@@ -42,6 +49,10 @@ class BottomOutlineSettings:
         How far the touching line is turned both ways to find where it touches.
     ramp : float
         The sides are smoothed from the centres on; in full so far from them.
+    parts : int
+        Into how many pieces an edge of a face is cut, for its curve.
+    rough : float
+        Curved pieces count in full where the outline of flat faces is so rough.
     """
 
     heel: float = 0.12
@@ -52,6 +63,8 @@ class BottomOutlineSettings:
     turn_deg: float = 2.0
     touch_deg: float = 15.0
     ramp: float = 0.05
+    parts: int = 3
+    rough: float = 0.00003
 
 
 BOTTOM_OUTLINE = BottomOutlineSettings()
@@ -61,6 +74,15 @@ LINE_PLACES = 400
 """Of a side line, from the nearest of which the foot of a perpendicular is looked for."""
 LEAST_GAIN = 0.2
 """Keeps a point near the line's centre of curvature on its own side."""
+
+
+@dataclass(frozen=True, slots=True)
+class _Flat:
+    """The faces (m, 3) near a bottom laid flat: vertices (n, 3) in mm, and their normals."""
+
+    vertices: Floats
+    normals: Floats
+    faces: Ints
 
 
 @dataclass(frozen=True, slots=True)
@@ -151,27 +173,47 @@ def bottom_outline(
     over_mm = standing[:, 2] - frame.line.height(standing[:, 0])
     a, b, c = (over_mm < settings.near * frame.length_mm)[shape.faces.T]
     vertices, faces, _ = without_unused_vertices(shape.vertices_mm, shape.faces[a & b & c])
-    flat = frame.flat(vertices)
-    flat[:, 0] -= frame.rear_mm
-    a, b, c = (np.abs(flat[:, 2]) < settings.low * frame.length_mm)[faces.T]
-    faces = faces[a & b & c]
-    points = [
-        centre + _touched(flat, faces, centre, angle, tilt, settings) * _towards(angle)
-        for centre, angle, tilt in _half_planes(flat, faces, frame, settings)
-    ]
-    loop = np.array(points)
+    places = frame.flat(vertices)
+    places[:, 0] -= frame.rear_mm
+    a, b, c = (np.abs(places[:, 2]) < settings.low * frame.length_mm)[faces.T]
+    flat = _Flat(places, corner_normals(places, faces), faces[a & b & c])
+    long = frame.length_mm
+    planes = tuple(_half_planes(flat, frame, settings))
+    loop = _loop(flat, planes, 1, settings)
     if not np.isfinite(loop).all():
         return None
-    return _between_ends(_steadied(loop, frame.length_mm, settings), frame.length_mm, settings)
+    first = int(np.argmax(loop[:, 0]))
+    loop, planes = np.roll(loop, -first, axis=0), planes[first:] + planes[:first]
+    rough = roughness(loop, long)
+    if rough.any():
+        share = np.minimum(1.0, rough / settings.rough)
+        curved = _loop(flat, planes, settings.parts, settings)
+        loop = loop + share[:, None] * (curved - loop)
+        rough = share * roughness(loop, long, ANY_ROUGHNESS)
+    return _between_ends(_steadied(loop, long, rough, settings), long, settings)
 
 
-def _steadied(loop: Floats, long: float, settings: BottomOutlineSettings) -> Floats:
-    """An outline without noise; along its sides also without steps.
+def _loop(
+    flat: _Flat,
+    planes: Sequence[tuple[Floats, float, float]],
+    parts: int,
+    settings: BottomOutlineSettings,
+) -> Floats:
+    """Where the edge is in each half plane, (n, 2), with faces of so many parts an edge."""
+    points = [
+        centre + _touched(flat, centre, angle, tilt, settings, parts) * _towards(angle)
+        for centre, angle, tilt in planes
+    ]
+    return np.array(points)
+
+
+def _steadied(loop: Floats, long: float, rough: Floats, settings: BottomOutlineSettings) -> Floats:
+    """An outline without roughness; along its sides also without steps.
 
     Where a chamfer lies between bottom and wall, the line goes over from one of its edges to the
     other. An insole has no such step. The ends of a last may have corners.
     """
-    steady = steady_loop(loop, long, TAPE_OUTLINES)
+    steady = without_roughness(loop, long, rough)
     smooth = steady_loop(loop, long, SIDES)
     inside = np.minimum(
         steady[:, 0] - settings.heel * long, (1 - settings.toe) * long - steady[:, 0]
@@ -202,12 +244,12 @@ def _towards(angle: float) -> Floats:
 
 
 def _half_planes(
-    flat: Floats, faces: Ints, frame: FlatFrame, settings: BottomOutlineSettings
+    flat: _Flat, frame: FlatFrame, settings: BottomOutlineSettings
 ) -> Iterator[tuple[Floats, float, float]]:
     """The centre (2,) of each half plane, its angle in plan, and how the wall leans there."""
     long = frame.length_mm
     heel_x, toe_x = settings.heel * long, (1.0 - settings.toe) * long
-    heel, toe = (np.array([x, _middle(flat, faces, x, settings)]) for x in (heel_x, toe_x))
+    heel, toe = (np.array([x, _middle(flat, x, settings)]) for x in (heel_x, toe_x))
     quarter = 0.5 * np.pi
     turns = np.linspace(-quarter, quarter, 1 + round(180.0 / settings.turn_deg))
     steps = np.linspace(0.0, 1.0, 2 + round((toe_x - heel_x) / (settings.step * long)))[1:-1]
@@ -221,23 +263,24 @@ def _half_planes(
         yield heel, float(np.pi + turn), float(np.cos(turn)) ** 2 * frame.tilts[0]
 
 
-def _middle(flat: Floats, faces: Ints, x: float, settings: BottomOutlineSettings) -> float:
+def _middle(flat: _Flat, x: float, settings: BottomOutlineSettings) -> float:
     """The middle of the bottom across, at ``x``."""
-    near = flat[faces[np.abs(flat[faces[:, 0], 0] - x) < 0.05 * np.ptp(flat[:, 0])], 1]
+    along, aside, _ = flat.vertices.T
+    near = aside[flat.faces[np.abs(along[flat.faces[:, 0]] - x) < 0.05 * np.ptp(along)]]
     guess = 0.5 * float(near.min() + near.max())
     centre, quarter = np.array([x, guess]), 0.5 * np.pi
-    medial = _touched(flat, faces, centre, quarter, 0.0, settings)
-    lateral = _touched(flat, faces, centre, -quarter, 0.0, settings)
+    medial = _touched(flat, centre, quarter, 0.0, settings)
+    lateral = _touched(flat, centre, -quarter, 0.0, settings)
     return guess + 0.5 * (medial - lateral)
 
 
 def _touched(
-    flat: Floats,
-    faces: Ints,
+    flat: _Flat,
     centre: Floats,
     angle: float,
     tilt: float,
     settings: BottomOutlineSettings,
+    parts: int = 1,
 ) -> float:
     """How far from a centre a line touches the bottom's edge from below, in one half plane.
 
@@ -247,11 +290,13 @@ def _touched(
     out, aside = np.array([*_towards(angle), 0.0]), np.array([*_towards(angle + 0.5 * np.pi), 0.0])
     origin = np.array([*centre, 0.0])
     level = float(aside @ origin)
-    values = flat @ aside
+    above = (flat.vertices @ aside > level)[flat.faces]
+    crossed = flat.faces[above.any(axis=1) & ~above.all(axis=1)]
+    points, pieces = flat.vertices, crossed
+    if parts > 1:
+        points, pieces = curved_pieces(points, flat.normals, crossed, parts)
     planes = Planes(np.array([level]), origin[None], aside[None])
-    above = (values > level)[faces]
-    crossed = faces[above.any(axis=1) & ~above.all(axis=1)]
-    cut = plane_sections(flat, crossed, values, planes).points.reshape(-1, 3) - origin
+    cut = plane_sections(points, pieces, points @ aside, planes).points.reshape(-1, 3) - origin
     section = np.column_stack([cut @ out, cut @ AXES[2]])
     section = section[section[:, 0] > 0.0]
     if not len(section):

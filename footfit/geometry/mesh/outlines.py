@@ -218,8 +218,8 @@ def smooth_loop(loop: Floats, length: float, settings: OutlineSettings = OUTLINE
 
     It runs counter-clockwise from the point farthest across, for any order of the mesh's faces.
     """
-    even = _even_loop(_ordered(loop), length, settings)
-    return _convolved(even.points, parabola_keeping_kernel(even.spread, settings.reach))
+    even = even_loop(ordered_loop(loop), length, settings)
+    return convolved(even.points, parabola_keeping_kernel(even.spread, settings.reach))
 
 
 def steady_loop(loop: Floats, length: float, settings: OutlineSettings = TAPE_OUTLINES) -> Floats:
@@ -229,12 +229,12 @@ def steady_loop(loop: Floats, length: float, settings: OutlineSettings = TAPE_OU
     less. What smoothing takes away at a place is kept if its mean square there is several times
     that of the whole loop's noise: then it is shape. So a clean section stays as it is.
     """
-    loop = _ordered(loop)
-    even = _even_loop(loop, length, settings)
-    smooth = _convolved(even.points, parabola_keeping_kernel(even.spread, settings.reach))
+    loop = ordered_loop(loop)
+    even = even_loop(loop, length, settings)
+    smooth = convolved(even.points, parabola_keeping_kernel(even.spread, settings.reach))
     off = even.points - smooth
     square = np.square(off).sum(axis=1)
-    around = _convolved(square[:, None], bell(even.spread, settings.reach))[:, 0]
+    around = convolved(square[:, None], bell(even.spread, settings.reach))[:, 0]
     noise = median(square) / MEDIAN_SQUARE - (settings.facets * length) ** 2
     is_noise = np.minimum(1.0, settings.noise_times * max(0.0, noise) / np.maximum(around, 1e-12))
     off *= is_noise[:, None]
@@ -246,7 +246,7 @@ MEDIAN_SQUARE = np.log(2.0)
 """The median of a squared length over its mean, if both its parts are noise: that of chi-square."""
 
 
-def _ordered(loop: Floats) -> Floats:
+def ordered_loop(loop: Floats) -> Floats:
     """A closed polyline (n, 2), counter-clockwise from the point farthest across."""
     after = np.roll(loop, -1, axis=0)
     if loop[:, 0] @ after[:, 1] < loop[:, 1] @ after[:, 0]:
@@ -268,7 +268,7 @@ class EvenLoop(NamedTuple):
     spread: float
 
 
-def _even_loop(loop: Floats, length: float, settings: OutlineSettings) -> EvenLoop:
+def even_loop(loop: Floats, length: float, settings: OutlineSettings) -> EvenLoop:
     """A closed polyline (n, 2) in even steps; ``length`` is the shape's."""
     arc = np.concatenate([[0.0], np.cumsum(_steps(loop))])
     around = float(arc[-1])
@@ -280,7 +280,7 @@ def _even_loop(loop: Floats, length: float, settings: OutlineSettings) -> EvenLo
     return EvenLoop(points, at, arc[:-1], around, spread)
 
 
-def _convolved(points: Floats, kernel: Floats) -> Floats:
+def convolved(points: Floats, kernel: Floats) -> Floats:
     """The rows (k, c) of a closed loop, smoothed by a kernel."""
     pad = len(kernel) // 2
     wrapped = np.concatenate([points[-pad:], points, points[:pad]]) if pad else points

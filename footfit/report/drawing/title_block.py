@@ -20,6 +20,10 @@ ROW_MM = 3.7
 LETTERS, TITLE_LETTERS = 56, 26
 """Of a line of text."""
 ACCEPT_WORDS = "both bars must measure 99.5 to 100.5 mm, on every sheet"
+FEATHER_WORDS = (
+    "Facets of 2 to 3 mm move the feather edge of the bottom by up to .15 mm, irregular ones by up"
+    " to .5 mm."
+)
 MAP_MM = 12.0
 """How high a paper is on the map of the papers."""
 
@@ -58,6 +62,8 @@ def _notes(drawing: Drawing) -> Iterable[str]:
     yield f"True size, 1:1, in mm. {PRINT_WORDS.capitalize()}: {ACCEPT_WORDS}."
     yield "The edge is the middle of the line. Outlines are drawn to .05 mm."
     alignment = drawing.alignment
+    if alignment.pose.kind == "last" and "bottom" not in drawing.missing:
+        yield FEATHER_WORDS
     yield f"SHA-256 of the mesh file: {alignment.info.sha256}"
     copies = (notice.message for notice in alignment.warnings if notice.code == "stored_copy")
     yield from (f"{words[:1].upper()}{words[1:]}." for words in copies)
