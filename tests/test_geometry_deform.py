@@ -11,6 +11,7 @@ import pytest
 from benchmarks import stance
 from footfit.geometry.deform.chart import chart_of
 from footfit.geometry.deform.field import Bump, Field, least_determinant
+from footfit.geometry.deform.hump import Hump
 from footfit.geometry.deform.probes import girth_probe, span_probe
 from footfit.geometry.deform.solver import Knob, solution
 from footfit.geometry.deform.wishes import Goal
@@ -117,6 +118,56 @@ def test_a_bump_swells_to_its_size_and_ends_at_its_radius():
     far = np.linalg.norm(chart.standing(shape.vertices_mm) - centre, axis=1) > 25.0
     assert np.abs(shift[far]).max() == 0.0
     assert shift[:, 1].max() == pytest.approx(4.0, abs=0.2)
+
+
+def family(name: str) -> Shape:
+    """A last of a family."""
+    if name == "own":
+        return last()
+    if not stance.second_family():
+        pytest.skip("../shared/tools/lasts2.py is not here; the project's own lasts are tested")
+    case = stance.other(np.random.default_rng(5), (20.0, 50.0), 0)
+    return Shape(case.vertices_mm, case.faces, "last")
+
+
+HUMPS = tuple(
+    Hump(curve, size, 0.70, 0.84, 0.93)
+    for curve, size in (("wider", 0.05), ("aside", 2.0), ("higher", 0.12))
+)
+
+
+@pytest.mark.parametrize("name", ["own", "lasts2"])
+@pytest.mark.parametrize("bottom_kept", [False, True])
+def test_a_hump_changes_only_its_stretch_of_the_arc(name, bottom_kept):
+    shape = family(name)
+    chart = chart_of(shape)
+    field = replace(Field.still(chart, bottom_kept=bottom_kept), humps=HUMPS)
+    standing = chart.standing(shape.vertices_mm)
+    places = chart.places(standing)
+    shift = field.moved(places) - standing
+    beyond = (places.share >= 0.93) | (places.share <= 0.70)
+    assert np.abs(shift[beyond]).max() == 0.0
+    assert np.abs(shift[places.scaled_mm == 0.0, 2]).max() == 0.0  # the bottom keeps its heights
+    assert np.abs(shift[:, 0]).max() == 0.0
+    at = np.abs(places.share - 0.84) < 0.01
+    assert 2.0 < shift[at, 2].max() < 4.0
+    assert shift[at, 1].max() > 3.0  # to the medial side, and wider
+    if bottom_kept:
+        assert np.abs(shift[places.risen == 0.0]).max() == 0.0
+    assert 0.9 < least_determinant(field, shape.vertices_mm) < 1.0
+    wider, higher = field.scales(shape.vertices_mm)
+    assert wider.max() == pytest.approx(np.exp(0.05), abs=2e-3) or bottom_kept
+    assert 1.05 < higher.max() < np.exp(0.12)
+
+
+def test_an_even_field_with_humps_leads_back():
+    shape = last()
+    chart = chart_of(shape)
+    even = replace(Field.still(chart), even=True, humps=HUMPS)
+    back = replace(even, humps=tuple(replace(hump, size=-hump.size) for hump in HUMPS))
+    there = even.moved_points(shape.vertices_mm)
+    assert np.abs(there - shape.vertices_mm).max() > 3.0
+    np.testing.assert_allclose(back.moved_points(there), shape.vertices_mm, atol=0.01)
 
 
 @pytest.mark.parametrize("heel_mm", [10.0, 70.0])

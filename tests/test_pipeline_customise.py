@@ -279,7 +279,7 @@ def test_the_toe_room_leaves_its_target_if_the_toe_box_needs_it(monkeypatch) -> 
     moved_mm = length.target - length.base - (room.target - room.base)
     said_mm = float(notice.message.split("aims at ")[1].split(" mm")[0])
     assert said_mm == pytest.approx(moved_mm, abs=0.06)  # it is rounded to .1
-    monkeypatch.setattr(custom_making, "toe_room_change_mm", lambda *_: 0.0)
+    monkeypatch.setattr(custom_making, "toe_box_plans", lambda *_: iter(()))
     (kept,) = footfit.customise(foot(), base(toe_shape="almond"))
     assert zone_of(kept, "length").custom == pytest.approx(14.0, abs=0.2)
     assert zone_of(kept, "toes").custom_verdict == "poor"

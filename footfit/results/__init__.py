@@ -54,6 +54,7 @@ if TYPE_CHECKING:
     from footfit.results.last_making.custom_last import JudgedZone as JudgedZone
     from footfit.results.last_making.custom_last import KeptPlace as KeptPlace
     from footfit.results.last_making.custom_last import RoomPlace as RoomPlace
+    from footfit.results.last_making.custom_last import ToeBoxChange as ToeBoxChange
     from footfit.results.last_making.drawing import Drawing as Drawing
     from footfit.results.last_making.graded_run import GradedLast as GradedLast
     from footfit.results.last_making.graded_run import GradedMeasure as GradedMeasure
@@ -125,7 +126,8 @@ _NAMES = {
     "fit": "FitProfile FootFit ToeBox ToeFit ZoneFit ZoneRule",
     "heel": "HeelChange HeelModel HeelQuestion HeelRule",
     "last_making.custom_last": (
-        "BaseMesh BetterInStock CustomLast CustomZone GirthPlane JudgedZone KeptPlace RoomPlace"
+        "BaseMesh BetterInStock CustomLast CustomZone GirthPlane JudgedZone KeptPlace RoomPlace "
+        "ToeBoxChange"
     ),
     "last_making.drawing": "Drawing",
     "last_making.graded_run": "GradedLast GradedMeasure GradedRun",

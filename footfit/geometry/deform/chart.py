@@ -111,6 +111,8 @@ class Places:
     ----------
     points_mm : (n, 3)
         In the standing frame.
+    share : (n,)
+        Where they lie along the arc.
     splines : (n, knots)
         The splines along the arc at each point; a row times a curve's coefficients is its value.
     across_mm, over_mm : (n,)
@@ -124,6 +126,7 @@ class Places:
     """
 
     points_mm: Floats
+    share: Floats
     splines: Floats
     across_mm: Floats
     over_mm: Floats
@@ -193,6 +196,7 @@ class Chart:
         gentle = self.settings.gentle
         return Places(
             points_mm=points_mm,
+            share=share,
             splines=self.splines(share),
             across_mm=y - middle,
             over_mm=over_mm,

@@ -14,6 +14,7 @@ from typing import Self
 import numpy as np
 
 from footfit.geometry.deform.chart import Chart, Places, eased
+from footfit.geometry.deform.hump import Hump, HumpCurve
 from footfit.geometry.numeric.arrays import Floats
 
 STEP_MM = 0.02
@@ -63,6 +64,8 @@ class Field:
         plan and has no bumps.
     bumps : tuple of Bump
         The top plane does not hold them, so none may reach it.
+    humps : tuple of Hump
+        What is added to the curves over short stretches of the arc.
     """
 
     chart: Chart
@@ -74,6 +77,7 @@ class Field:
     bottom_kept: bool = False
     even: bool = False
     bumps: tuple[Bump, ...] = ()
+    humps: tuple[Hump, ...] = ()
 
     @classmethod
     def still(cls, chart: Chart, *, bottom_kept: bool = False) -> Self:
@@ -89,11 +93,12 @@ class Field:
         """Where the field moves places of its chart: (n, 3) of the standing frame."""
         splines, points = places.splines, places.points_mm
         width = places.risen if self.bottom_kept else 1.0
+        wider = np.expm1(width * self._curve("wider", places))
         shift = np.column_stack(
             [
                 splines @ self.ahead,
-                places.across_mm * np.expm1(width * (splines @ self.wider)),
-                splines @ self.raised + places.scaled_mm * np.expm1(splines @ self.higher),
+                places.across_mm * wider + width * self._humps("aside", places),
+                splines @ self.raised + places.scaled_mm * np.expm1(self._curve("higher", places)),
             ]
         )
         if self.turned.any():
@@ -103,14 +108,21 @@ class Field:
             shift += bump.shift(points)
         return np.asarray(points + shift)
 
+    def _curve(self, name: HumpCurve, places: Places) -> Floats:
+        """A curve of the field with its humps, (n,)."""
+        return np.asarray(places.splines @ getattr(self, name) + self._humps(name, places))
+
+    def _humps(self, name: HumpCurve, places: Places) -> Floats | float:
+        return sum((hump.at(places.share) for hump in self.humps if hump.curve == name), 0.0)
+
     def scales(self, points_mm: Floats) -> tuple[Floats, Floats]:
         """By which factors widths and heights change at points (n, 3) of the resting frame, (n,)
         each; what holds a point holds its scales too.
         """
         places = self.chart.places(self.chart.standing(points_mm))
         width = places.risen if self.bottom_kept else 1.0
-        wider = np.expm1(width * (places.splines @ self.wider))
-        higher = np.expm1(places.splines @ self.higher)
+        wider = np.expm1(width * self._curve("wider", places))
+        higher = np.expm1(self._curve("higher", places))
         higher *= places.scaled_mm / np.maximum(places.over_mm, STEP_MM)
         return 1.0 + places.free * wider, 1.0 + places.free * higher
 
@@ -134,8 +146,9 @@ class Field:
             splines, width = places.splines, places.risen if self.bottom_kept else 1.0
             rate = [
                 splines @ self.ahead,
-                places.across_mm * width * (splines @ self.wider),
-                splines @ self.raised + places.scaled_mm * (splines @ self.higher),
+                places.across_mm * width * self._curve("wider", places)
+                + width * self._humps("aside", places),
+                splines @ self.raised + places.scaled_mm * self._curve("higher", places),
             ]
             shift = places.free[:, None] * np.column_stack(rate)
         return shift

@@ -75,17 +75,33 @@ class Walls:
 
 
 @dataclass(frozen=True, slots=True)
+class NearWalls:
+    """Where points (n, m) are nearest to the walls of n lasts.
+
+    ``off_mm`` is how far each is from the wall, + is inside, and ``wall`` indexes `WALLS`. The wall
+    is nearest at ``along_mm``; ``heading`` is the cosine between the wall there and the bottom's
+    length: + at the outer edge, - at the inner one, 0 at the front.
+    """
+
+    off_mm: Floats
+    wall: Ints
+    along_mm: Floats
+    heading: Floats
+
+
+@dataclass(frozen=True, slots=True)
 class ToesInLasts:
     """A foot's toes in n lasts: the least clearance of each toe from the wall, + is space.
 
     ``value_mm`` (n, 5) is by `TOES`; ``wall`` (n, 5) indexes `WALLS`: where that is.
-    ``outline_mm`` (n, m, 2) are points of the foot's outline in each last, and ``toe`` (m,) is the
-    toe of each.
+    ``outline_mm`` (n, m, 2) are points of the foot's outline in each last, ``near`` is how near
+    they come to its walls, and ``toe`` (m,) is the toe of each.
     """
 
     value_mm: Floats
     wall: Ints
     outline_mm: Floats
+    near: NearWalls
     toe: Ints
 
 
@@ -162,12 +178,12 @@ def toes_in_lasts(foot: ToesPlan, lasts: Walls, toe_room_mm: Floats, scale: Floa
     """
     points_mm, toe = _toe_points(foot)
     inside_mm = _placed(points_mm, foot, lasts, toe_room_mm, scale)
-    value_mm, wall = _wall_distances(inside_mm, lasts.edges_mm)
+    near = _near_walls(inside_mm, lasts.edges_mm)
     of_toe = toe == np.arange(len(TOES))[:, None, None]
-    each_mm = np.where(of_toe, value_mm, np.inf)  # (5, n, m)
+    each_mm = np.where(of_toe, near.off_mm, np.inf)  # (5, n, m)
     rows = np.arange(len(toe_room_mm))
     nearest = each_mm.argmin(axis=2)
-    return ToesInLasts(each_mm.min(axis=2).T, wall[rows, nearest].T, inside_mm, toe)
+    return ToesInLasts(each_mm.min(axis=2).T, near.wall[rows, nearest].T, inside_mm, near, toe)
 
 
 def _closed(outline_mm: Floats) -> Floats:
@@ -240,10 +256,8 @@ def _at(edges_mm: Floats, values: Floats, x: Floats) -> Floats:
     return np.asarray(first + np.clip(place - low, 0.0, 1.0) * (second - first))
 
 
-def _wall_distances(points_mm: Floats, edges_mm: Floats) -> tuple[Floats, Ints]:
-    """How far points (n, m, 2) lie from the walls of n lasts: (n, m) in mm, + is inside, and which
-    wall is the nearest.
-    """
+def _near_walls(points_mm: Floats, edges_mm: Floats) -> NearWalls:
+    """Where points (n, m, 2) are nearest to the walls of n lasts."""
     outer, inner = edges_mm[:, :, [0, 1]], edges_mm[:, ::-1, [0, 2]]
     ring = np.concatenate([outer, inner], axis=1)
     start, way = ring[:, :-1], np.diff(ring, axis=1)
@@ -258,7 +272,10 @@ def _wall_distances(points_mm: Floats, edges_mm: Floats) -> tuple[Floats, Ints]:
     along, aside = np.moveaxis(way[rows, nearest], 2, 0)
     sides = np.where(along < 0.0, WALLS.index("inner"), WALLS.index("outer"))
     wall = np.where(np.abs(aside) > np.abs(along), WALLS.index("front"), sides)
-    return np.where(_inside(points_mm, edges_mm), 1.0, -1.0) * distance.min(axis=2), wall
+    off_mm = np.where(_inside(points_mm, edges_mm), 1.0, -1.0) * distance.min(axis=2)
+    at = np.take_along_axis(share, nearest[:, :, None], axis=2)[:, :, 0]
+    heading = along / np.maximum(np.hypot(along, aside), 1e-6)
+    return NearWalls(off_mm, wall, start[rows, nearest, 0] + at * along, heading)
 
 
 def _inside(points_mm: Floats, edges_mm: Floats) -> Bools:

@@ -134,11 +134,25 @@ class BetterInStock(Part):
 
 
 @dataclass(frozen=True, slots=True)
+class ToeBoxChange(Part):
+    """By how much the toe box was changed between the ball and the toe, which keeps its shape.
+
+    Where that is most, the outer and the inner wall lie so much farther out, and the top so much
+    higher.
+    """
+
+    outer_mm: float = 0.0
+    inner_mm: float = 0.0
+    higher_mm: float = 0.0
+
+
+@dataclass(frozen=True, slots=True)
 class CustomLast(Document):
     """A last that was made from a base for one foot.
 
     ``kept`` are the parts that must not move. ``toe_shift_mm`` is how far the toe moved ahead as a
-    whole, and ``flare_turn_deg`` how far the plan was turned. ``largest_move_mm`` is that of any
+    whole, and ``flare_turn_deg`` how far the plan was turned. ``toe_box`` is what changed behind
+    the toe so that the toes fit. ``largest_move_mm`` is that of any
     place of the surface. ``least_determinant`` says how far the change is from a fold: 1 keeps all
     volumes, 0 folds. The mesh is in the axes of the written file, with ``moved_mm`` (n,) + outward
     at each vertex; ``base_vertices_mm`` (n, 3) is the base there. ``output`` is the written file.
@@ -173,6 +187,7 @@ class CustomLast(Document):
     moved_mm: Floats
     rooms: tuple[RoomPlace, ...] = ()
     better_in_stock: BetterInStock | None = None
+    toe_box: ToeBoxChange = ToeBoxChange()
     output: str | None = None
     stored_as: str | None = None
 

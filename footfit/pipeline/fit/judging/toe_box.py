@@ -133,13 +133,20 @@ def toe_height(foot: Profiled, lasts: LastColumns, rooms_mm: Floats, sentences: 
     reason = _not_kept(lasts, sentences)
     cut = np.isfinite(lasts.toes.behind_mm) & np.isfinite(last_mm) & (foot_mm is not None)
     reason[(reason == NO_WORD) & ~cut] = sentences.number(OPEN_TOES)
-    place = 1.0 - ((1.0 - HEIGHTS.toe) * (foot_mm or np.nan) + rooms_mm) / last_mm
-    place = np.clip(place, *HEIGHT_SHARES)
-    share = (HEIGHTS.toe - place) / (HEIGHTS.toe - TOES_SECTION.share)
+    share = behind_share(foot_mm or np.nan, last_mm, rooms_mm)
     level = replace(cell, value=cell.value + share * (lasts.toes.behind_mm - front_mm))
     unknown = replace(missing(len(lasts), NO_WORD), reason=reason)
     known = cell.reason == NO_WORD
     return cell.where(known, level).where(known & (reason != NO_WORD), unknown)
+
+
+def behind_share(foot_mm: float, last_mm: Floats, rooms_mm: Floats) -> Floats:
+    """How much the height of the section at the toes counts, (n,), where a foot has its toe height;
+    the toe height of the last counts the rest. Beyond the two places it is above 1 or below 0.
+    """
+    place = 1.0 - ((1.0 - HEIGHTS.toe) * foot_mm + rooms_mm) / last_mm
+    place = np.clip(place, *HEIGHT_SHARES)
+    return np.asarray((HEIGHTS.toe - place) / (HEIGHTS.toe - TOES_SECTION.share))
 
 
 def _not_kept(lasts: LastColumns, sentences: Words) -> Ints:
@@ -187,7 +194,7 @@ def tightest_mm(
     rows = np.flatnonzero(known)
     for start in range(0, len(rows), TOGETHER):
         some = rows[start : start + TOGETHER]
-        inside = _toes_in_lasts(foot, lasts.toes, some, heels, share, rooms_mm)
+        inside = toes_of_foot(foot, lasts.toes, some, heels, share, rooms_mm)
         value[some] = inside.value_mm.min(axis=1)
     return value
 
@@ -198,9 +205,10 @@ def _toe_cells(value: Floats, reason: Ints) -> Cells:
     return Cells(np.where(known, value, np.nan), sd_mm, sd_mm, reason)
 
 
-def _toes_in_lasts(
+def toes_of_foot(
     foot: FootToes, toes: ToesColumns, rows: Ints, heels: Heels, share: Floats, rooms_mm: Floats
 ) -> toe_walls.ToesInLasts:
+    """The toes of a foot in some rows of n lasts; the arrays (n,) are of all of them."""
     assert isinstance(foot.plan, toe_walls.ToesPlan)
     walls = walls_of(toes, rows)
     model = heels.question.model
@@ -231,7 +239,7 @@ def toe_box(
     if isinstance(foot.plan, str) or toe_reasons(foot, lasts, Words())[row] != NO_WORD:
         return None
     rows, rooms_mm = np.array([row]), np.full(len(lasts), room_mm)
-    inside = _toes_in_lasts(foot, lasts.toes, rows, heels, heels.share, rooms_mm)
+    inside = toes_of_foot(foot, lasts.toes, rows, heels, heels.share, rooms_mm)
     heel_sd_mm = float(heels.share[row]) * _width_sd_mm(foot.foot, heels)
     sd_mm = math.hypot(TOES_SD_MM, TOES_SD_MM, heel_sd_mm)
     values = zip(toe_walls.TOES, inside.wall[0], inside.value_mm[0], strict=True)

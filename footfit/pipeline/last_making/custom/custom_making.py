@@ -31,7 +31,6 @@ from footfit.pipeline.last_making.custom.custom_aims import (
 )
 from footfit.pipeline.last_making.custom.custom_field import (
     CUSTOM,
-    most_change_mm,
     refuse_far,
 )
 from footfit.pipeline.last_making.custom.custom_reading import tape_plane, value_mm
@@ -46,21 +45,22 @@ from footfit.pipeline.last_making.custom.custom_tries import (
     Given,
     attempt_after,
     attempt_at,
+    attempt_beside,
     on_light_copy,
     with_bumps,
 )
 from footfit.pipeline.last_making.custom.good_zones import (
     not_good,
+    toe_box_notice,
     with_reasons,
     zone_notices,
 )
 from footfit.pipeline.last_making.custom.made_last import MadeLast
-from footfit.pipeline.last_making.custom.toe_room import toe_room_change_mm
+from footfit.pipeline.last_making.custom.toe_box import TOE_FROM, toe_box_change, toe_box_plans
 from footfit.pipeline.scan.preparation import mirror_of
 from footfit.results import Parentage, Profiled, SideName, Target
 from footfit.results.last_making.custom_last import CustomLast
 
-TOE_FROM = 0.93
 BACK_TO, BACK_WIDTH_MM = 0.10, 6.0
 """The back curve runs along the middle of what lies behind this share of the arc."""
 
@@ -114,7 +114,8 @@ def customised(
         notices.append(results.Notice("looks_like_a_last", words))
     judged = with_reasons(made.judged, question, lost)
     bent = bent_notices(made, bottom_kept=question.bottom_kept)
-    said = (*_notices(base), *zone_notices(judged, attempt.aims), *bent, *notices)
+    notices = [*toe_box_notice(made.toe_box), *bent, *notices]
+    said = (*_notices(base), *zone_notices(judged, attempt.aims), *notices)
     return replace(made, judged=judged, warnings=said)
 
 
@@ -149,7 +150,7 @@ def _tried(
     question: CustomQuestion,
     before: JudgedLasts,
 ) -> Attempt:
-    """The best try at a custom last. The aim of its length gives way if the toe box needs that.
+    """The best try at a custom last. The toe room and the toe box give way if the toes need that.
 
     The search is made on a light copy of the base; the base itself only follows.
 
@@ -163,26 +164,15 @@ def _tried(
         best = attempt_at(light, own)
     except OutOfReach:  # the base itself has the last word
         return attempt_at(given, aims)
-    moved = _with_toe_room(foot, best, question, before)
-    with suppress(OutOfReach):
-        other = attempt_at(light, moved, best) if moved else best
-        best = other if other.sound_as(best) else best
-    return best if light is given else attempt_after(given, aims, best)
-
-
-def _with_toe_room(
-    foot: Profiled, attempt: Attempt, question: CustomQuestion, before: JudgedLasts
-) -> list[CustomAim] | None:
-    """The aims of a try with the toe room that its toe box needs; None if it needs none."""
-    made = attempt.made
-    length = attempt.aims[0]
-    if length.measure != LENGTH or not attempt.manner.usual:  # it is hard enough to make
-        return None
-    most_mm, longer_mm = most_change_mm(length, made.base), length.target - length.base
-    judged = judged_in(foot, made.record, made.with_sections, question)
-    by_mm = toe_room_change_mm(judged, before, (-most_mm - longer_mm, most_mm - longer_mm))
-    moved = length.moved_to(length.target + by_mm)
-    return [moved, *attempt.aims[1:]] if by_mm else None
+    for plan in toe_box_plans(foot, light, best, question, before):
+        with suppress(OutOfReach):
+            other = attempt_beside(replace(light, humps=plan.humps), plan.aims(best.aims), best)
+            if other.sound_as(best):
+                best = other
+                break
+    if light is given:
+        return best
+    return attempt_after(replace(given, humps=best.humps), aims, best)
 
 
 def _flare_turn_deg(foot: Profiled, base: BaseLast, making: Making) -> float:
@@ -240,6 +230,7 @@ def _answer(
         base_vertices_mm=base_vertices_mm,
         faces=made.faces,
         moved_mm=row_dots(shift, outward),
+        toe_box=toe_box_change(shape.solved.field),
     )
 
 

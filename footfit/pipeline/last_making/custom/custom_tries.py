@@ -17,7 +17,8 @@ import numpy as np
 from footfit.errors import FootfitError, OutOfReach
 from footfit.geometry.deform.bending import bend_deg
 from footfit.geometry.deform.chart import Chart, Places
-from footfit.geometry.deform.field import Bump
+from footfit.geometry.deform.field import Bump, Field
+from footfit.geometry.deform.hump import Hump
 from footfit.geometry.deform.solver import Solution
 from footfit.geometry.measures.landmarks import Shape
 from footfit.geometry.numeric.arrays import Floats
@@ -71,7 +72,7 @@ class Given:
     last, the turn of the flare, and whether the bottom keeps its outline.
 
     ``whole`` is the base's own shape, if ``base`` has a light copy of it: how much a surface bends
-    depends on its faces.
+    depends on its faces. ``humps`` change the toe box before a search begins.
     """
 
     base: BaseLast
@@ -81,6 +82,7 @@ class Given:
     turn_deg: float
     bottom_kept: bool = False
     whole: Shape | None = None
+    humps: tuple[Hump, ...] = ()
 
     @cached_property
     def carried(self) -> Carried:
@@ -98,16 +100,22 @@ class Given:
         assert self.whole is not None
         return self.chart.places(self.chart.standing(self.whole.vertices_mm))
 
+    def bent_more_deg(self, field: Field, after_mm: Floats | None = None) -> float:
+        """By how much farther than it may a field bends the surface of the base; - is less.
+
+        ``after_mm`` is where it moves the vertices of ``base``, if that is known.
+        """
+        whole, most_deg = self.base.shape, BENT_DEG[self.bottom_kept]
+        if self.whole is not None:
+            whole, most_deg = self.whole, most_deg - LIGHT_DEG
+            after_mm = field.moved_points(whole.vertices_mm, self._places)
+        elif after_mm is None:
+            after_mm = field.moved_points(whole.vertices_mm)
+        return bend_deg(whole.vertices_mm, after_mm, whole.faces) - most_deg
+
     def bent_deg(self, shape: CustomShape) -> float:
         """By how much too far a change bends the surface of the base."""
-        whole, after_mm = self.base.shape, shape.vertices_mm
-        most_deg = BENT_DEG[self.bottom_kept]
-        if self.whole is not None:
-            whole = self.whole
-            after_mm = shape.solved.field.moved_points(whole.vertices_mm, self._places)
-            most_deg -= LIGHT_DEG
-        bent_deg = bend_deg(whole.vertices_mm, after_mm, whole.faces)
-        return max(bent_deg - most_deg, 0.0)
+        return max(self.bent_more_deg(shape.solved.field, shape.vertices_mm), 0.0)
 
 
 def on_light_copy(given: Given, aims: Sequence[CustomAim]) -> tuple[Given, Sequence[CustomAim]]:
@@ -169,6 +177,11 @@ class Attempt:
         refused = over or missed(self.aims, self.off_mm) is not None
         return refused, self.bent_deg, off_mm > SETTLED_MM[-1], out_mm, off_mm
 
+    @property
+    def humps(self) -> tuple[Hump, ...]:
+        """How its toe box is changed."""
+        return self.shape.solved.field.humps
+
     def sound_as(self, other: Attempt) -> bool:
         """Whether it bends the surface no farther than another try, and zones are as good."""
         return self.bent_deg <= other.bent_deg and self.out_mm <= max(other.out_mm, OUT_MM)
@@ -223,6 +236,19 @@ def attempt_in(given: Given, aims: Sequence[CustomAim], manner: Manner) -> Attem
     return _best(given, aims, None, manner)
 
 
+def attempt_beside(given: Given, aims: Sequence[CustomAim], first: Attempt) -> Attempt:
+    """The best try in the manner of ``first``, which had nearly these aims; it begins there.
+
+    Raises
+    ------
+    OutOfReach
+        As :func:`attempt_at`.
+    """
+    best = _best(given, aims, first, first.manner)
+    refuse_missed(best.aims, best.off_mm, best.shape, given.turn_deg)
+    return best
+
+
 def _better(given: Given, aims: Sequence[CustomAim], best: Attempt, manner: Manner) -> Attempt:
     """The better one of a try and the best one in another manner."""
     try:
@@ -262,7 +288,7 @@ def _best(
     for step in range(1, steps):
         turned = _tried(given, aims, step / steps, carried, known, manner)
         carried, known, aims = turned.carried(given), turned.shape.solved, turned.aims
-    begun = first and alike and first.made.base is given.base
+    begun = first and alike and first.made.base is given.base and first.humps == given.humps
     tries = [first] if first and begun and tuple(first.aims) == tuple(aims) else []
     before = int(first is not None and not tries)
     more_mm = 0.0 if given.whole is None else LIGHT_MM
@@ -302,6 +328,7 @@ def _tried(
 ) -> Attempt:
     """One try, with a share of the turn."""
     start = first_field(given.chart, share * given.turn_deg, bottom_kept=given.bottom_kept)
+    start = replace(start, humps=given.humps)
     shape = custom_shape(given.base, aims, start, carried, first, manner)
     made = made_last(given.base, shape.vertices_mm, given.side, given.name)
     return Attempt(

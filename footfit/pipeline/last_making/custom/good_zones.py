@@ -5,23 +5,23 @@ from __future__ import annotations
 from collections.abc import Collection, Sequence
 from dataclasses import replace
 
-from footfit.number_words import signed
+from footfit.number_words import plain, signed
 from footfit.pipeline.last_making.custom.custom_aims import (
     LENGTH,
     MOST_BALL_MM,
     CustomAim,
     CustomQuestion,
 )
-from footfit.results import JudgedZone, Notice
+from footfit.results import JudgedZone, Notice, ToeBoxChange
 
-OTHER_ROOM = "and another good toe room does not help or cannot be made"
+NOT_ENOUGH = "another toe room or toe box does not make it good, or cannot be made"
 WHY = {
     "ball_line": f"the ball moves by at most {MOST_BALL_MM:g} mm",
     "ball_girth": "its section keeps the shape of the base, and its least tape is good",
     "instep_girth": "its section keeps the shape of the base, and its least tape is good",
     "short_heel_girth": "the bottom, the back and the top stay, and nearly set it",
-    "toe_height": f"the toe keeps its heights, {OTHER_ROOM}",
-    "toes": f"the toe keeps its shape, {OTHER_ROOM}",
+    "toe_height": f"the toe keeps its heights; {NOT_ENOUGH}",
+    "toes": f"the toe keeps its shape; {NOT_ENOUGH}",
     "flare": "the flare stays",
     "plan": "the toe and the flare keep their outlines",
 }
@@ -74,3 +74,18 @@ def zone_notices(judged: Sequence[JudgedZone], aims: Sequence[CustomAim]) -> tup
             words = f"the {aim.words} {by_words}, so that the zone {zone} is good"
             notices.append(Notice("target_moved", words))
     return tuple(notices)
+
+
+def toe_box_notice(change: ToeBoxChange) -> list[Notice]:
+    """The warning that the toe box was changed; none if it was not."""
+    sizes_mm = {
+        "outer wall {} mm out": change.outer_mm,
+        "inner wall {} mm out": change.inner_mm,
+        "top {} mm up": change.higher_mm,
+    }
+    parts = [words.format(plain(mm)) for words, mm in sizes_mm.items() if mm]
+    words = (
+        "the toe keeps its shape, and behind it the toe box is changed, so that it fits better:"
+        f" {', '.join(parts)} where that is most"
+    )
+    return [Notice("toe_box_changed", words)] if parts else []
