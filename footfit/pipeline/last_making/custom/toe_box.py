@@ -52,7 +52,7 @@ NEAR = 0.015
 SHARES = np.linspace(0.0, 1.0, 21)
 HALVINGS = 4
 """If humps would bend the surface too far, less is tried: found by so many halvings."""
-SPARE_DEG = 0.1
+SPARE_DEG = 0.2
 """The surface must stay so much below its bar: another toe room bends it too."""
 HELPS_MM = 0.5
 """A change of walls or top that changes no verdict must help by so much."""

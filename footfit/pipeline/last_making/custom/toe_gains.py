@@ -18,6 +18,10 @@ from footfit.pipeline.fit.judging.toe_box import behind_share, toes_of_foot
 from footfit.pipeline.fit.zones import TOE_HEIGHT
 from footfit.pipeline.last_making.custom.custom_tries import Attempt, Given
 
+NEAR_MM = np.array([-4.0, 0.0, 4.0])
+"""What moves least so near along the wall counts: the nearest place of the wall becomes another
+one."""
+
 
 @dataclass(frozen=True, slots=True)
 class ToeGains:
@@ -85,7 +89,8 @@ def _wider_mm(
         return np.zeros_like(along_mm), np.zeros_like(along_mm)
     x = before[:, 0]
     outer, inner = (np.interp(x, after[:, 0], after[:, k]) - before[:, k] for k in (1, 2))
-    return np.interp(along_mm, x, -outer), np.interp(along_mm, x, inner)
+    near_mm = along_mm + NEAR_MM[:, None, None]
+    return np.interp(near_mm, x, -outer).min(axis=0), np.interp(near_mm, x, inner).min(axis=0)
 
 
 def _heights_mm(shape: Shape) -> Floats:
