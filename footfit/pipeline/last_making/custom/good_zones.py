@@ -14,14 +14,14 @@ from footfit.pipeline.last_making.custom.custom_aims import (
 )
 from footfit.results import JudgedZone, Notice, ToeBoxChange
 
-NOT_ENOUGH = "another toe room or toe box does not make it good, or cannot be made"
+NOT_ENOUGH = "and another toe room or toe box does not make it good or cannot be made"
 WHY = {
     "ball_line": f"the ball moves by at most {MOST_BALL_MM:g} mm",
     "ball_girth": "its section keeps the shape of the base, and its least tape is good",
     "instep_girth": "its section keeps the shape of the base, and its least tape is good",
     "short_heel_girth": "the bottom, the back and the top stay, and nearly set it",
-    "toe_height": f"the toe keeps its heights; {NOT_ENOUGH}",
-    "toes": f"the toe keeps its shape; {NOT_ENOUGH}",
+    "toe_height": f"the toe keeps its heights, {NOT_ENOUGH}",
+    "toes": f"the toe keeps its shape, {NOT_ENOUGH}",
     "flare": "the flare stays",
     "plan": "the toe and the flare keep their outlines",
 }
