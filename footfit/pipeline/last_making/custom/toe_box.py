@@ -38,6 +38,8 @@ DOUBT_MM = {TOES: (0.2, 0.16), TOE_HEIGHT: (0.1, 0.0)}
 another toe room."""
 SURE = 0.9
 """So much of what humps should give is counted on."""
+LACK = 2.0
+"""What a zone still lacks counts so much more than a change."""
 BACK = 0.70
 PEAKS = {"outer": 0.80, "inner": 0.86, "higher": 0.85}
 """Over the bottom's arc: the walls and the top change in front of ``BACK``, and most at these
@@ -191,7 +193,7 @@ class _Choice:
             lack_mm += np.nan_to_num(low_mm - np.where(helps, mm, own_mm)).clip(0.0)
         sizes_mm *= self.most_mm[:, None]
         changed_mm = np.abs(self.more_mm) + sizes_mm.sum(axis=0)
-        best = int(np.lexsort((changed_mm + lack_mm, faults, ~self.better))[0])
+        best = int(np.lexsort((changed_mm + LACK * lack_mm, faults, ~self.better))[0])
         if not changed_mm[best]:
             return None
         return ToeBoxPlan(float(self.more_mm[best]), toe_humps(self.given, sizes_mm[:, best]))
