@@ -40,6 +40,11 @@ from footfit.pipeline.last_making.custom.custom_rooms import (
     refuse_unknown,
     room_bumps,
 )
+from footfit.pipeline.last_making.custom.custom_toe_box import (
+    TOE_FROM,
+    toe_box_change,
+    toe_box_plans,
+)
 from footfit.pipeline.last_making.custom.custom_tries import (
     Attempt,
     Given,
@@ -56,7 +61,6 @@ from footfit.pipeline.last_making.custom.good_zones import (
     zone_notices,
 )
 from footfit.pipeline.last_making.custom.made_last import MadeLast
-from footfit.pipeline.last_making.custom.toe_box import TOE_FROM, toe_box_change, toe_box_plans
 from footfit.pipeline.scan.preparation import mirror_of
 from footfit.results import Parentage, Profiled, SideName, Target
 from footfit.results.last_making.custom_last import CustomLast
