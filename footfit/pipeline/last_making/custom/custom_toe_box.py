@@ -11,11 +11,16 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from footfit.catalogue.blocks.record_columns import TOES_SECTION
 from footfit.geometry.deform.chart import Chart
 from footfit.geometry.deform.field import Field
 from footfit.geometry.deform.hump import Hump
+from footfit.geometry.fit.named_sections import toes_outline_mm
+from footfit.geometry.measures.landmarks import Shape
+from footfit.geometry.measures.measure_table import measure_named
 from footfit.geometry.numeric.arrays import Bools, Floats, Ints
 from footfit.pipeline.fit.judging.judged_lasts import JudgedLasts, judged_lasts
+from footfit.pipeline.fit.judging.toe_box import behind_share, toes_of_foot
 from footfit.pipeline.fit.scoring import room_levels
 from footfit.pipeline.fit.zones import TOE_BOX, TOE_HEIGHT, TOES
 from footfit.pipeline.last_making.custom.custom_aims import (
@@ -27,7 +32,6 @@ from footfit.pipeline.last_making.custom.custom_aims import (
 )
 from footfit.pipeline.last_making.custom.custom_field import most_change_mm
 from footfit.pipeline.last_making.custom.custom_tries import Attempt, Given
-from footfit.pipeline.last_making.custom.toe_gains import ToeGains, toe_gains
 from footfit.results import Profiled, ToeBoxChange
 
 TOE_FROM = 0.93
@@ -49,6 +53,9 @@ STEEP, STEEPEST = 0.4, 1.875
 to 1 over a length of 1 is the second number."""
 CROWN = 0.825
 """The top of a section rises by so much of its height over the bottom times its change."""
+NEAR_MM = np.array([-4.0, 0.0, 4.0])
+"""What moves least so near along the wall counts: the nearest place of the wall becomes another
+one."""
 NEAR = 0.015
 """What lies so near to a place along the arc says how wide the last is there."""
 SHARES = np.linspace(0.0, 1.0, 21)
@@ -164,7 +171,7 @@ class _Choice:
     more_mm: Floats
     better: Bools
     most_mm: Floats
-    gains: ToeGains
+    gains: _Gains
 
     def best(self, less: float) -> ToeBoxPlan | None:
         """The best plan with at most so much of what walls and top can move; None if none helps."""
@@ -276,7 +283,7 @@ def _choice(
     if given.bottom_kept:
         most_mm[:2] = 0.0
     rooms_mm = own_mm + more_mm + rule.cavity
-    gains = toe_gains(given, attempt, lasts, rooms_mm, toe_humps(given, most_mm))
+    gains = _gains(given, attempt, lasts, rooms_mm, toe_humps(given, most_mm))
     return _Choice(given, lasts, more_mm, better, most_mm, gains)
 
 
@@ -291,3 +298,80 @@ def _with_rooms(last: JudgedLasts, rooms_mm: Floats) -> JudgedLasts:
     room = last.clearances.taken(rows)
     room.value[:, _places(last)[LENGTH]] = rooms_mm
     return judged_lasts(last.asked, last.lasts.taken(rows), rows, last.heels.taken(rows), room)
+
+
+@dataclass(frozen=True, slots=True)
+class _Gains:
+    """How a foot lies in one last with n toe rooms, and what the largest humps would add.
+
+    Attributes
+    ----------
+    off_mm : (n, m)
+        How far points of the foot's outline are from the walls, + is inside; m is 0 if the toes are
+        not known.
+    heading : (n, m)
+        + for points that are nearest to the outer wall, - for the inner one, 0 for the front.
+    wider_mm : (n, m)
+        By how much farther they would be.
+    higher_mm : (n,)
+        By how much the toe box would be higher over the toe.
+    """
+
+    off_mm: Floats
+    heading: Floats
+    wider_mm: Floats
+    higher_mm: Floats
+
+
+def _gains(
+    given: Given, attempt: Attempt, lasts: JudgedLasts, rooms_mm: Floats, humps: Sequence[Hump]
+) -> _Gains:
+    """What humps would add to a try, for one foot.
+
+    Parameters
+    ----------
+    given : Given
+        What ``attempt`` was made of.
+    attempt : Attempt
+    lasts : JudgedLasts
+        The last with n toe rooms, its toes known.
+    rooms_mm : (n,)
+        The toe rooms, with the cavity.
+    humps : sequence of Hump
+    """
+    carried, field = attempt.carried(given), replace(attempt.shape.solved.field, humps=tuple(humps))
+    changed = carried.shape(field.moved_points(given.base.shape.vertices_mm))
+    every, foot = np.arange(len(rooms_mm)), lasts.asked.toes[0]
+    toes, heels = lasts.lasts.toes, lasts.heels
+    assert toes is not None
+    off_mm = heading = gains_mm = np.zeros((len(rooms_mm), 0))
+    if not isinstance(foot.plan, str) and toes.whole.all():
+        near = toes_of_foot(foot, toes, every, heels, heels.share, rooms_mm).near
+        off_mm, heading = near.off_mm, near.heading
+        outline_mm = attempt.made.with_sections.sections.toes_outline_mm
+        wider = _wider_mm(outline_mm, toes_outline_mm(changed), near.along_mm)
+        gains_mm = np.where(heading > 0.0, wider[0], wider[1]) * np.abs(heading)
+    front_mm, behind_mm = _heights_mm(changed) - _heights_mm(attempt.made.shape)
+    last_mm = lasts.lasts.measure("length").value
+    share = behind_share(foot.foot.length_mm or np.nan, last_mm, rooms_mm)
+    higher_mm = (1.0 - share) * front_mm + share * behind_mm
+    return _Gains(off_mm, heading, gains_mm, np.nan_to_num(higher_mm))
+
+
+def _wider_mm(
+    before: Floats | None, after: Floats | None, along_mm: Floats
+) -> tuple[Floats, Floats]:
+    """How far the outer and the inner edge of an outline (k, 3) moved out at places (n, m)."""
+    if before is None or after is None:
+        return np.zeros_like(along_mm), np.zeros_like(along_mm)
+    x = before[:, 0]
+    outer, inner = (np.interp(x, after[:, 0], after[:, k]) - before[:, k] for k in (1, 2))
+    near_mm = along_mm + NEAR_MM[:, None, None]
+    return np.interp(near_mm, x, -outer).min(axis=0), np.interp(near_mm, x, inner).min(axis=0)
+
+
+def _heights_mm(shape: Shape) -> Floats:
+    """The toe height of a last, and the height of its section at the toes, (2,)."""
+    front_mm = measure_named(TOE_HEIGHT).taken_of(shape).value
+    behind = shape.across(TOES_SECTION.share).points[:, 1]
+    return np.array([np.nan if front_mm is None else front_mm, np.ptp(behind)])
