@@ -361,8 +361,9 @@ def test_a_last_without_a_measure_is_left_out_of_its_check(tmp_path: Path) -> No
     path = tmp_path / "lasts.footfit"
     with open_catalogue(path, write=True) as catalogue:
         for seed, size in enumerate((40, 41, 42, 43)):
-            record = records.last(f"derby-{size}", seed, size=str(size), family="derby")
-            rows = [Measure("bottom_length", Measured(260.0 + 6.0 * seed), "bottom_length/2")]
+            labels = {"size": str(size), "family": "derby", "size_system": "eu"}
+            record = records.last(f"derby-{size}", seed, **labels)
+            rows = [Measure("bottom_length", Measured(260.0 + 6.667 * seed), "bottom_length/2")]
             if seed != 1:
                 rows.append(Measure(GIRTH, Measured(230.0 + 5.0 * seed), f"{GIRTH}/1"))
             sides = replace(record.side, side="right")

@@ -11,9 +11,13 @@ from itertools import pairwise
 import numpy as np
 
 from footfit.errors import BadOption
+from footfit.geometry.fit.sizes import system_named
 from footfit.geometry.grading.run_laws import Steps, likely_law, median_rate
 from footfit.number_words import first_names
+from footfit.pipeline.graded_runs.grading_rules import LENGTH, grading_rule
+from footfit.pipeline.graded_runs.one_run import require_one_run, run_systems
 from footfit.pipeline.graded_runs.run_sizes import width_numbers
+from footfit.pipeline.graded_runs.run_sums import run_sums
 from footfit.pipeline.last_making.tolerances import kind_of
 from footfit.results import Notice
 from footfit.results.last_making.grading_rule import GradingRule, LawName
@@ -83,18 +87,19 @@ def run_check(
     ------
     BadOption
         There are too few lasts to compare an increment with anything, or two of one size, width and
-        side.
+        side. They are of several styles, families or size systems, or the rule is for other ones.
     """
     if len(lasts) < (2 if rule else LEAST_LASTS):
         count = "is 1 last" if len(lasts) == 1 else f"are {len(lasts)} lasts"
         words = f"a run needs {LEAST_LASTS} sizes or more, and there {count}"
         raise BadOption(f"{words}: name more, or compare two with --rule")
+    require_one_run(lasts, rule)
     _refuse_twins(lasts)
     lasts, by_shape = _with_heights_by_shape(lasts)
     step = _least_step(lasts) if rule is None else rule.size_step
     lines = [*_size_lines(lasts, step)]
-    width_lines, warnings = _width_lines(lasts, rule)
-    lines += width_lines
+    widths, warnings = _widths(lasts, rule)
+    lines += _width_lines(lasts, rule, widths)
     if not any(len(line.lasts) > 1 for line in lines):
         raise BadOption("no two lasts differ in size alone, or in width alone: name the whole run")
     known = [
@@ -106,7 +111,11 @@ def run_check(
     law = rule.law if rule else likely_law(_scaled_sizes(known))
     laws = tuple(_laws(known, law, rule))
     by_kind = {(each.measure, each.kind): each for each in laws}
-    return RunCheck(
+    steps = tuple(_steps(known, by_kind, tolerance_mm))
+    if not any(each.judged for each in steps):
+        words = "each measure has one increment alone, and nothing to compare it with"
+        raise BadOption(f"{words}: name more sizes, or compare with a --rule")
+    checked = RunCheck(
         family=family,
         law=law,
         size_step=step,
@@ -114,9 +123,46 @@ def run_check(
         tolerance_mm=dict(tolerance_mm),
         lasts=tuple(sorted(lasts, key=lambda last: (last.size_number, last.width or ""))),
         laws=laws,
-        steps=tuple(_steps(known, by_kind, tolerance_mm)),
+        steps=steps,
         warnings=(*warnings, *by_shape, *_lacking(lasts), *_alone(lasts, lines)),
     )
+    if rule is None:
+        notes = (*checked.warnings, *_not_judged(laws), *_beside_its_system(checked, widths))
+        return replace(checked, warnings=notes)
+    wrong = {(off.last, off.measure) for off in checked.off_lasts}
+    sums = tuple(run_sums(lasts, rule, tolerance_mm, widths, wrong))
+    return replace(checked, sums=sums, warnings=(*checked.warnings, *_not_judged(laws)))
+
+
+def _not_judged(laws: Sequence[RunLaw]) -> Iterator[Notice]:
+    """A warning for measures that have one increment alone, which the run itself cannot judge."""
+    for kind in ("size", "width"):
+        names = [
+            each.measure.replace("_", " ") for each in laws if each.kind == kind and each.alone
+        ]
+        if names:
+            words = f"from {kind} to {kind} there is one increment alone, so it is not judged"
+            hint = f"name more {kind}s, or compare with a --rule that has it"
+            yield Notice(
+                "increment_not_judged", f"{words}: {first_names(names, MOST_NAMED)}; {hint}"
+            )
+
+
+def _beside_its_system(checked: RunCheck, widths: Mapping[str, float]) -> Iterator[Notice]:
+    """A warning if the sizes of a run are not as far apart as those of its size system are.
+
+    A run that is compared with itself may grow by any increment. A maker chooses that of the
+    girths, but not that of the length: the size system has it.
+    """
+    systems = run_systems(checked.lasts)
+    if len(systems) != 1:
+        return
+    rule = grading_rule(None, system_named(systems[0]))
+    rule = replace(rule, size={LENGTH: rule.size[LENGTH]}, width={})
+    for each in run_sums(checked.lasts, rule, checked.tolerance_mm, widths):
+        if each.broken:
+            words = f"its sizes are not as far apart as those of {systems[0]}: {each.words}"
+            yield Notice("other_size_step", f"{words}; check it with --rule {rule.name}")
 
 
 def _with_heights_by_shape(
@@ -176,29 +222,34 @@ def _size_lines(lasts: Sequence[RunLast], step: float) -> Iterator[Line]:
         yield _line("size", key, group, [last.size_number / step for last in group])
 
 
-def _width_lines(
+def _widths(
     lasts: Sequence[RunLast], rule: GradingRule | None
-) -> tuple[list[Line], tuple[Notice, ...]]:
-    """The lasts of each size and side, by width; a warning if the widths have no order."""
+) -> tuple[dict[str, float], tuple[Notice, ...]]:
+    """The widths of a run as numbers; none, and a warning, if they have no order."""
     widths = sorted({last.width for last in lasts if last.width})
     if len(widths) < 2:
-        return [], ()
+        return {}, ()
     try:
-        number = width_numbers(widths, rule.widths if rule else ())
+        return width_numbers(widths, rule.widths if rule else ()), ()
     except BadOption as error:
-        return [], (Notice("widths_without_order", f"{error.message}; they are not compared"),)
-    lines, step = [], rule.width_step if rule else 1.0
+        return {}, (Notice("widths_without_order", f"{error.message}; they are not compared"),)
+
+
+def _width_lines(
+    lasts: Sequence[RunLast], rule: GradingRule | None, number: Mapping[str, float]
+) -> Iterator[Line]:
+    """The lasts of each size and side, by width."""
+    step = rule.width_step if rule else 1.0
     groups: dict[tuple[float, str], list[RunLast]] = defaultdict(list)
     for last, side in zip(lasts, _sides(lasts), strict=True):
-        if last.width:
+        if last.width in number:
             groups[last.size_number, side].append(last)
     for key, group in sorted(groups.items()):
         group.sort(key=lambda last: number[last.width or ""])
         if len(group) > 1:
             common = (group[0].size, key[1])
             places = [number[last.width or ""] / step for last in group]
-            lines.append(_line("width", common, group, places))
-    return lines, ()
+            yield _line("width", common, group, places)
 
 
 def _line(
@@ -267,7 +318,7 @@ def _steps(
                 first=first.last,
                 second=second.last,
                 increment_mm=float(steps.increment_mm[at]),
-                expected_mm=float(expected[at]),
+                expected_mm=None if law.alone else float(expected[at]),
                 tolerance_mm=tolerance_mm[kind_of(measure)],
                 sd_mm=math.hypot(*(_sd_mm(last, measure) for last in (first, second))),
             )

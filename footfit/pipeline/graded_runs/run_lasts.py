@@ -24,7 +24,7 @@ from footfit.pipeline.scan.measure import measured_scan
 from footfit.pipeline.scan.preparation import stored_shape
 from footfit.pipeline.scan.reading import AS_FOUND, aligned_source
 from footfit.pipeline.scan.standing import heights_by_shape, stance_labels
-from footfit.results import LastRecord, Measure, MeasuredScan, Notice
+from footfit.results import LastLabels, LastRecord, Measure, MeasuredScan, Notice
 from footfit.results.last_making.run_check import RunLast
 
 
@@ -50,7 +50,7 @@ def stored_last(record: LastRecord, stance: Stance | None = None) -> RunLast:
     """
     labels = record.labels
     number = size_number(labels.size, labels.size_system, labels.name)
-    label = SizeLabel(str(labels.size), labels.width_label, "catalogue")
+    label = _labelled(labels, "catalogue")
     last = _last(labels.name, label, number, record.side.side, record.measures)
     return _stands(last, record.stance_by, stance)
 
@@ -117,9 +117,9 @@ def file_lasts(
             continue
         assert outcome.value is not None
         scan, stance = outcome.value
-        label, system = labels[outcome.item.path]
+        label = labels[outcome.item.path]
         name = Path(outcome.item.path or "-").name
-        number = size_number(label.size, system, name)
+        number = size_number(label.size, label.size_system, name)
         last = _last(name, label, number, scan.alignment.side.side, scan.measures)
         lasts.append(_stands(last, None if stance is None else stance.decided_by, stance))
     return tuple(lasts), tuple(errors), (*_odd(known), *_doubts(sources))
@@ -164,13 +164,24 @@ def _said(source: Source, rows: Mapping[str, ManifestRow]) -> Said:
     return Said() if row is None else said_in(row, source, "the manifest", trusted=True)
 
 
-def _label(source: Source, rows: Mapping[str, ManifestRow]) -> tuple[SizeLabel, str | None]:
+def _labelled(labels: LastLabels, size_from: str) -> SizeLabel:
+    """What labels say of a last's place in a run."""
+    return SizeLabel(
+        size=str(labels.size),
+        width=labels.width_label,
+        size_from=size_from,
+        size_system=labels.size_system,
+        style=labels.style,
+        family=labels.family,
+    )
+
+
+def _label(source: Source, rows: Mapping[str, ManifestRow]) -> SizeLabel:
     """The size of a file and its system."""
     path = Path(source.path or "-")
     row = rows.get(str(path.resolve()))
     if row is not None and row.labels.size is not None:
-        said = row.labels
-        return SizeLabel(row.labels.size, said.width_label, "manifest"), said.size_system
+        return _labelled(row.labels, "manifest")
     label = size_in_name(path.stem)
     if label is None and source.path is not None and not path.exists():
         raise UnreadableFile("there is no such file, folder or family: check the name", str(path))
@@ -179,7 +190,11 @@ def _label(source: Source, rows: Mapping[str, ManifestRow]) -> tuple[SizeLabel, 
         raise BadOption(
             f"{words} --manifest CSV with the columns path, size and width_label", str(path)
         )
-    return label, None
+    if row is not None:
+        said = row.labels
+        system, style = said.size_system or label.size_system, said.style or label.style
+        return replace(label, size_system=system, style=style, family=said.family)
+    return label
 
 
 def _last(
@@ -189,7 +204,13 @@ def _last(
     known = {name: mm for name in CHECKED if name in rows and (mm := rows[name].value) is not None}
     sd_mm = {name: rows[name].sd or 0.0 for name in known}
     last = RunLast(name, label.size, number, label.width, side, label.size_from, known)
-    return replace(last, sd_mm=sd_mm)
+    return replace(
+        last,
+        sd_mm=sd_mm,
+        size_system=label.size_system,
+        style=label.style,
+        family=label.family,
+    )
 
 
 def _stands(last: RunLast, stands_by: str | None, stance: Stance | None) -> RunLast:

@@ -10,25 +10,29 @@ from footfit.errors import BadOption
 from footfit.geometry.fit.sizes import label_number, system_named
 
 _IN_NAME = re.compile(
-    r"(?:eu|uk|us|fr|mp|jp|kr|cn)?(\d{1,3}(?:[.,]\d{1,3})?)([a-z]{0,4})", re.IGNORECASE
+    r"(eu|uk|us|fr|mp|jp|kr|cn)?(\d{1,3}(?:[.,]\d{1,3})?)([a-z]{0,4})", re.IGNORECASE
 )
+SIDES = ("l", "r", "left", "right")
 LETTERS = "ABCDEFGHIJKLMNOPQRSTUVWXYZ"
 
 
 @dataclass(frozen=True, slots=True)
 class SizeLabel:
-    """A size and a width as they are marked, and where they come from."""
+    """A size and a width as they are marked, where they come from, and what else is marked."""
 
     size: str
     width: str | None
     size_from: str
+    size_system: str | None = None
+    style: str | None = None
+    family: str | None = None
 
 
 def size_in_name(stem: str) -> SizeLabel | None:
     """The size and the width in a file's name; None if it has none.
 
     The last part that is a number counts, if need be with a size system before it, and with the
-    width behind it or in the next part.
+    width behind it or in the next part. The words before it are the style.
 
     Examples
     --------
@@ -43,8 +47,15 @@ def size_in_name(stem: str) -> SizeLabel | None:
         size = _IN_NAME.fullmatch(text)
         if size is None:
             continue
-        width = size[2] or _width_in(parts[at + 1 : at + 2])
-        return SizeLabel(size[1].replace(",", "."), width or None, "file name")
+        width = size[3] or _width_in(parts[at + 1 : at + 2])
+        words = (part for part in parts[:at] if part.isalpha() and part.lower() not in SIDES)
+        return SizeLabel(
+            size=size[2].replace(",", "."),
+            width=width or None,
+            size_from="file name",
+            size_system=size[1] and size[1].lower(),
+            style=" ".join(words) or None,
+        )
     return None
 
 

@@ -105,11 +105,15 @@ def check_run_table(checked: results.RunCheck) -> RenderableType:
     parts: list[RenderableType] = [_lasts_words(checked)]
     for kind, at in dict.fromkeys((step.kind, step.at) for step in checked.steps):
         parts.append(_steps_table(checked, kind, at))
+    if checked.sums:
+        parts.append(_sums_table(checked))
     parts += [Text(f"{OFF} {visible(words)}", "bold red") for words in break_words(checked)]
     limits = ", ".join(f"{kind} {plain(mm)} mm" for kind, mm in checked.tolerance_mm.items())
-    state = f"{len(checked.broken)} of {len(checked.steps)} increments are out of tolerance"
+    state = f"{len(checked.broken)} of {len(checked.judged)} increments are out of tolerance"
+    if checked.sums:
+        state += f", and {len(checked.broken_sums)} of {len(checked.sums)} sums over the run"
     spreads = "± is the spread of an increment if both lasts are scanned again"
-    unsure = len(checked.unsure)
+    unsure = len(checked.unsure) + sum(not each.sure for each in checked.sums)
     if unsure:
         verb = "is" if unsure == 1 else "are"
         spreads += f"; {unsure} {verb} so near to the tolerance that it is not sure ({UNSURE})"
@@ -133,7 +137,8 @@ def _steps_table(checked: results.RunCheck, kind: str, at: str) -> RenderableTyp
     pairs = sorted({(s.start, s.end) for s in steps}, key=lambda pair: [*map(order.index, pair)])
     heads = [f"{visible(start)}\nto {visible(end)}" for start, end in pairs]
     per = "per\nstep"
-    table = lined_table("mm", per, "±", *heads, right=frozenset((per, "±", *heads)))
+    by = ("by",) if checked.rule else ()
+    table = lined_table("mm", per, *by, "±", *heads, right=frozenset((per, "±", *heads)))
     for law in (law for law in checked.laws if law.kind == kind):
         own = {(s.start, s.end): s for s in steps if s.measure == law.measure}
         if not own:
@@ -141,7 +146,8 @@ def _steps_table(checked: results.RunCheck, kind: str, at: str) -> RenderableTyp
         unit = " %" if law.unit == "percent" else ""
         table.add_row(
             cell(law.measure.replace("_", " ")),
-            f"{signed(law.per_step)}{unit}",
+            "-" if law.alone else f"{signed(law.per_step)}{unit}",
+            *(visible(law.by) for _ in by),
             plain(max(step.sd_mm for step in own.values())),
             *(_increment(own.get(pair)) for pair in pairs),
         )
@@ -149,9 +155,31 @@ def _steps_table(checked: results.RunCheck, kind: str, at: str) -> RenderableTyp
     return Group(Text(f"{title}{', ' if at else ''}{visible(at)}"), table)
 
 
+def _sums_table(checked: results.RunCheck) -> RenderableType:
+    """A row for each measure of the rule: between which lasts it misses most over the run."""
+    numbers = ("sum", "rule", "off", "±")
+    table = lined_table("mm", "from", *numbers, right=frozenset(numbers))
+    for each in checked.sums:
+        mark = f"{OFF if each.broken else ''}{'' if each.sure else UNSURE}"
+        off = f"{signed(each.off_mm)}{mark}"
+        at = f" {visible(each.at)}" if each.at else ""
+        table.add_row(
+            cell(each.measure.replace("_", " ")),
+            f"{visible(each.start)} to {visible(each.end)}{at}",
+            signed(each.increment_mm),
+            signed(each.expected_mm or 0.0),
+            Text(off, "bold red") if each.broken else Text(off),
+            plain(each.sd_mm),
+        )
+    words = "over the run, between the two lasts that are farthest from the rule"
+    return Group(Text(words), table)
+
+
 def _increment(step: results.RunStep | None) -> Text:
     if step is None:
         return Text("-", "dim")
     doubt = "" if step.sure else UNSURE
     words = signed(step.increment_mm)
+    if not step.judged:
+        return Text(words, "dim")
     return Text(f"{words}{OFF}{doubt}", "bold red") if step.broken else Text(f"{words}{doubt}")

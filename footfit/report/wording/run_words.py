@@ -10,7 +10,8 @@ from footfit.results import RunCheck
 
 
 def break_words(checked: RunCheck) -> Iterator[str]:
-    """A line for each last that is wrong by itself, and then for each step that jumps.
+    """A line for each last that is wrong by itself, then for each step that jumps, and then for
+    what adds up over the run.
 
     A line has the measures of its last or its step that are out of tolerance, the worst first.
     """
@@ -22,6 +23,12 @@ def break_words(checked: RunCheck) -> Iterator[str]:
         common = f" ({step.at})" if step.at else ""
         head = f"from {step.kind} {step.start} to {step.end}{common}, beside what is expected"
         off_by[head].append((step.off_mm, step.measure))
+    seen = {(step.first, step.second, step.measure) for step in checked.broken}
+    for each in checked.broken_sums:
+        if (each.first, each.second, each.measure) not in seen:
+            common = f" ({each.at})" if each.at else ""
+            head = f"from size {each.start} to {each.end}{common}, over the run beside the rule"
+            off_by[head].append((each.off_mm, each.measure))
     for head, measures in off_by.items():
         # A last of two lines, of sizes and of widths, is off in both: once is enough.
         worst: dict[str, float] = {}

@@ -12,7 +12,8 @@ from footfit.number_words import plain
 from footfit.results.last_making.grading_rule import LawName
 from footfit.results.values import Document, Json, Notice, Part, fields, json_number, part, rows
 
-StepKind = Literal["size", "width"]
+StepKind = Literal["size", "width", "run"]
+"""From size to size, from width to width, or over several sizes and widths."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -22,7 +23,8 @@ class RunLast(Part):
     ``size_number`` is the size on the adults' scale. ``size_from`` says where the size comes from:
     "catalogue", "manifest" or "file name". ``stands_by`` is "label" or "shape", None if it is not
     known how the last stands. Of one that stands by its label, ``measures_mm`` also has the heights
-    as its shape alone stands. ``sd_mm`` are the spreads of a second scan, by name.
+    as its shape alone stands. ``sd_mm`` are the spreads of a second scan, by name. ``size_system``,
+    ``style`` and ``family`` are its labels, None if they are not known.
     """
 
     last: str
@@ -34,6 +36,9 @@ class RunLast(Part):
     measures_mm: Mapping[str, float]
     stands_by: str | None = None
     sd_mm: Mapping[str, float] = field(default_factory=dict)
+    size_system: str | None = None
+    style: str | None = None
+    family: str | None = None
 
     def _keys(self) -> Json:
         measures = {name: json_number(value) for name, value in self.measures_mm.items()}
@@ -43,11 +48,12 @@ class RunLast(Part):
 
 @dataclass(frozen=True, slots=True)
 class RunStep(Part):
-    """What one measure grows by from a last to the next size, or to the next width.
+    """What one measure grows by from a last to the next size, or to the next width; or from one to
+    another one that is several sizes and widths away.
 
-    ``expected_mm`` is by the run itself, or by the rule; ``off_mm`` is the increment minus that. It
-    is ``broken`` if that is more than ``tolerance_mm``. ``sd_mm`` is the spread of the increment if
-    both lasts are scanned again.
+    ``expected_mm`` is by the run itself, or by the rule; None if there is nothing to judge it by.
+    ``off_mm`` is the increment minus that. It is ``broken`` if that is more than ``tolerance_mm``.
+    ``sd_mm`` is the spread of the increment if both lasts are scanned again.
     """
 
     measure: str
@@ -58,14 +64,19 @@ class RunStep(Part):
     first: str
     second: str
     increment_mm: float
-    expected_mm: float
+    expected_mm: float | None
     tolerance_mm: float
     sd_mm: float = 0.0
 
     @property
+    def judged(self) -> bool:
+        """Is there anything to judge it by?"""
+        return self.expected_mm is not None
+
+    @property
     def off_mm(self) -> float:
-        """The increment minus the expected one."""
-        return self.increment_mm - self.expected_mm
+        """The increment minus the expected one; 0 if that is not known."""
+        return 0.0 if self.expected_mm is None else self.increment_mm - self.expected_mm
 
     @property
     def broken(self) -> bool:
@@ -75,7 +86,7 @@ class RunStep(Part):
     @property
     def sure(self) -> bool:
         """Is it farther from its tolerance than the increment's standard deviation?"""
-        return abs(abs(self.off_mm) - self.tolerance_mm) > self.sd_mm
+        return not self.judged or abs(abs(self.off_mm) - self.tolerance_mm) > self.sd_mm
 
     @property
     def words(self) -> str:
@@ -89,14 +100,16 @@ class RunStep(Part):
         size = "mm too much" if self.off_mm > 0.0 else "mm too little"
         off = f"{plain(abs(self.off_mm))} {size}"
         common = f" ({self.at})" if self.at else ""
-        step = f"{self.measure.replace('_', ' ')} from {self.kind} {self.start} to {self.end}"
-        numbers = f"{plain(self.increment_mm)} mm, {plain(self.expected_mm)} mm expected"
+        kind = "size" if self.kind == "run" else self.kind
+        step = f"{self.measure.replace('_', ' ')} from {kind} {self.start} to {self.end}"
+        numbers = f"{plain(self.increment_mm)} mm, {plain(self.expected_mm or 0.0)} mm expected"
         return f"{step}{common}: {numbers}, {off}"
 
     def _keys(self) -> Json:
         renamed = {"from": self.start, "to": self.end, "last": self.first, "next_last": self.second}
         kept = fields(self, "start", "end", "first", "second")
-        judged = {"off_mm": self.off_mm, "broken": self.broken, "sure": self.sure}
+        off_mm = self.off_mm if self.judged else None
+        judged = {"off_mm": off_mm, "broken": self.broken, "sure": self.sure}
         return kept | renamed | judged
 
 
@@ -114,6 +127,11 @@ class RunLaw(Part):
     per_step: float
     steps: int
     by: str
+
+    @property
+    def alone(self) -> bool:
+        """Is it the run's own increment, and there is one alone?"""
+        return self.by == "run" and self.steps == 1
 
 
 @dataclass(frozen=True, slots=True)
@@ -144,7 +162,9 @@ class RunCheck(Document):
     """A run that was graded: its lasts, its own increments, and each step with what it is off by.
 
     ``family`` is the label of the lasts, None for files. ``size_step`` is how far apart two sizes
-    are: in a rule, or the least in the run. ``tolerance_mm`` is by kind of measure.
+    are: in a rule, or the least in the run. ``tolerance_mm`` is by kind of measure. ``sums`` are of
+    a run that is compared with a rule: for each of its measures the two lasts that are farthest
+    from its plan, over all sizes and widths between them.
     ``failed`` are the errors of files that could not be read or measured.
     """
 
@@ -156,6 +176,7 @@ class RunCheck(Document):
     lasts: tuple[RunLast, ...]
     laws: tuple[RunLaw, ...]
     steps: tuple[RunStep, ...]
+    sums: tuple[RunStep, ...] = ()
     warnings: tuple[Notice, ...] = ()
     failed: tuple[FootfitError, ...] = ()
 
@@ -170,6 +191,17 @@ class RunCheck(Document):
         """The steps that break the run's increments, the worst first."""
         bad = (step for step in self.steps if step.broken)
         return tuple(sorted(bad, key=lambda step: -abs(step.off_mm)))
+
+    @property
+    def broken_sums(self) -> tuple[RunStep, ...]:
+        """What adds up to more than its tolerance over the run, the worst first."""
+        bad = (each for each in self.sums if each.broken)
+        return tuple(sorted(bad, key=lambda each: -abs(each.off_mm)))
+
+    @property
+    def judged(self) -> tuple[RunStep, ...]:
+        """The steps that there is anything to judge by."""
+        return tuple(step for step in self.steps if step.judged)
 
     @property
     def unsure(self) -> tuple[RunStep, ...]:
@@ -201,20 +233,37 @@ class RunCheck(Document):
 
     @property
     def worst_words(self) -> str:
-        """The worst break in words: a last that is wrong by itself, else a step."""
+        """The worst break in words: a last that is wrong by itself, else a step, else a sum."""
         if not self.broken:
-            return ""
+            return self.broken_sums[0].words if self.broken_sums else ""
         worst = self.broken[0]
         ends = worst.first, worst.second
         wrong = (each for each in self.off_lasts if each.measure == worst.measure)
         words = (each.words for each in wrong if each.last in ends)
         return next(words, worst.words)
 
+    @property
+    def broken_words(self) -> str:
+        """How much is out of tolerance, and the worst of it; nothing if nothing is."""
+        counts = [
+            f"{count} {name if count == 1 else names}"
+            for count, name, names in (
+                (len(self.broken), "increment", "increments"),
+                (len(self.broken_sums), "sum over the run", "sums over the run"),
+            )
+            if count
+        ]
+        if not counts:
+            return ""
+        verb = "is" if counts[0].startswith("1 ") and len(counts) == 1 else "are"
+        return f"{' and '.join(counts)} {verb} out of tolerance; the worst: {self.worst_words}"
+
     def _keys(self) -> Json:
         return {
             **fields(self, "warnings", "failed"),
             "tolerance_mm": part(self.tolerance_mm),
             "broken": self.broken,
+            "broken_sums": self.broken_sums,
             "off_lasts": self.off_lasts,
             "failed": [error.to_dict() for error in self.failed],
             "warnings": self.warnings,
