@@ -47,7 +47,7 @@ def test_two_targets_that_pull_against_each_other_are_named_with_their_figures()
     girth, width = has["ball_girth_least"], has["ball_width"]
     words = reason(given, asked)
     assert words is not None
-    assert words.startswith("the ball girth least and ball width are out of reach")
+    assert words.startswith("the least ball girth and ball width are out of reach")
     assert "together (each alone can be met)" in words
     assert f"it has {girth} and {width} mm, not " in words
     assert reason(given, moved(ball_girth_least=-6.0)) is None
@@ -58,14 +58,14 @@ def test_a_target_that_changes_nothing_is_not_named() -> None:
     given, _ = beginning()
     words = reason(given, moved(ball_girth_least=-6, waist_girth_least=5, instep_girth_least=16))
     assert words is not None
-    assert words.startswith("the ball girth least and waist girth least are out of reach")
+    assert words.startswith("the least ball girth and least waist girth are out of reach")
 
 
 def test_a_target_that_is_out_of_reach_alone_is_named_alone() -> None:
     given, _ = beginning()
     words = reason(given, moved(instep_girth_least=45.0, ball_girth_least=-6.0))
     assert words is not None
-    assert words.startswith("the instep girth least is out of reach of this base, which has 222.")
+    assert words.startswith("the least instep girth is out of reach of this base, which has 222.")
 
 
 def test_targets_that_a_search_meets_give_no_reason() -> None:
@@ -76,7 +76,7 @@ def test_a_refusal_without_a_better_base_says_what_to_do(monkeypatch) -> None:
     given, aims = beginning()
 
     def refused(*_: object) -> None:
-        raise OutOfReach("the ball girth least is out of reach")
+        raise OutOfReach("the least ball girth is out of reach")
 
     monkeypatch.setattr(base_choice, "customised", refused)
     monkeypatch.setattr(base_choice, "begun", lambda *_: (given, aims))

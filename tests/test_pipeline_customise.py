@@ -34,7 +34,7 @@ from footfit.pipeline.last_making.custom.good_zones import with_reasons, zone_no
 from footfit.report.page.custom_page import custom_page
 from footfit.report.terminal.custom_tables import custom_table
 from footfit.report.terminal.scan_tables import terminal_text
-from footfit.results import JudgedZone
+from footfit.results import BetterInStock, JudgedZone
 from footfit.results.worn import BAREFOOT
 from tests import shapes
 from tests.conftest import ROOT, SAMPLES, Footfit
@@ -445,8 +445,33 @@ def test_the_table_and_the_page_say_what_was_made() -> None:
     assert "follows" in table
     assert "is acceptable for this foot, because of toes" in table
     page = custom_page(made)
-    assert "ball girth least" in page
+    for words in (table, page):
+        assert "least ball girth" in words
+        assert "allow" in words
+        assert "224.5" in words  # the foot's own girth
+        assert "least: the shortest tape around the place" in " ".join(words.split())
     assert page == custom_page(made)
+
+
+@pytest.mark.parametrize("verdict", ["poor", "reject"])
+def test_a_last_that_does_not_fit_says_what_that_means_and_what_to_do(verdict) -> None:
+    made = custom_last()
+    upright = replace(made.judged[0], name="ball_girth", label="ball girth")
+    bad = replace(made.judged[1], label="ball line", custom_verdict=verdict, why="it is kept")
+    last = replace(made, judged=(upright, bad))
+    table, page = " ".join(terminal_text(custom_table(last), 100).split()), custom_page(last)
+    meaning = {"poor": "let the customer try one on first", "reject": "Do not make a shoe on it"}
+    for words in (table, page):
+        assert f"({verdict}), because of ball line" in words
+        assert meaning[verdict] in words
+        assert "or without --base from the best last" in words
+        assert "upright ball" in words
+    stock = replace(last, better_in_stock=BetterInStock("derby-43", "good", verdict))
+    assert "Use derby-43 of the catalogue, or choose" in custom_page(stock)
+    roomy = replace(last, judged=(replace(bad, why="it was good before --room was given"),))
+    assert "Give less --room" in custom_page(roomy)
+    fine = replace(last, judged=(replace(bad, custom_verdict="acceptable"),))
+    assert "Make it from another" not in custom_page(fine)
 
 
 def test_the_worked_example_says_what_comes_out() -> None:

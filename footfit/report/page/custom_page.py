@@ -6,10 +6,14 @@ from footfit.report.page.custom_figure import custom_figure
 from footfit.report.page.rendering import html_page, picture_data
 from footfit.report.wording.custom_words import (
     CUSTOM_SPREADS,
+    GIRTH_WORDS,
+    advice_words,
     custom_verdict_words,
     judged_words,
+    measure_words,
     room_words,
     with_spread,
+    zone_words,
 )
 from footfit.report.wording.fit_words import SAME_IS_ZERO
 from footfit.report.wording.text import file_name
@@ -23,6 +27,10 @@ def custom_page(custom: CustomLast) -> str:
         custom=custom,
         foot=file_name(custom.foot),
         verdict=custom_verdict_words(custom),
+        advice=advice_words(custom),
+        measure=measure_words,
+        label=zone_words,
+        girths=GIRTH_WORDS,
         rooms=room_words(custom),
         with_spread=with_spread,
         judged=judged_words,

@@ -9,10 +9,15 @@ from footfit.number_words import plain, signed
 from footfit.report.terminal.scan_tables import lined_table
 from footfit.report.wording.custom_words import (
     CUSTOM_SPREADS,
+    GIRTH_WORDS,
+    UPRIGHT,
+    advice_words,
     custom_verdict_words,
     judged_words,
+    measure_words,
     room_words,
     with_spread,
+    zone_words,
 )
 from footfit.report.wording.text import file_name, visible
 from footfit.results import CustomLast, CustomZone, JudgedZone
@@ -23,18 +28,21 @@ def custom_table(custom: CustomLast) -> RenderableType:
     return Group(
         _headline(custom),
         Text(custom_verdict_words(custom), "bold"),
+        *(Text(words) for words in [advice_words(custom)] if words is not None),
         Text(_made_words(custom)),
         Text(),
         _zones_table(custom),
         Text(CUSTOM_SPREADS, "dim"),
         Text(
-            "follows: the parts that are kept nearly set this girth, so it has no own target.",
+            "allow: what the profile allows; the target is foot + allow. follows: the parts that"
+            " are kept nearly set this girth, so it has no own target.",
             "dim",
         ),
         *(Text(words) for words in room_words(custom)),
         Text(),
         Text(f"The zones of profile {custom.profile}: last minus foot"),
         _judged_table(custom),
+        Text(GIRTH_WORDS, "dim"),
         Text(),
         Text(_kept_words(custom)),
     )
@@ -57,23 +65,25 @@ def _made_words(custom: CustomLast) -> str:
 
 
 def _zones_table(custom: CustomLast) -> RenderableType:
-    columns = ("base mm", "target mm", "reached mm", "change")
-    table = lined_table("measure", *columns, "", right=frozenset(columns))
+    columns = ("foot", "allow", "base", "target", "reached", "change")
+    notes = ("",) if any(map(_note, custom.zones)) else ()
+    table = lined_table("in mm", *columns, *notes, right=frozenset(columns))
+    table.columns[0].no_wrap = True
     for zone in custom.zones:
-        target = with_spread(plain(zone.target), zone.foot_sd)
-        values = (plain(zone.base), target, with_spread(plain(zone.reached), zone.reached_sd))
-        table.add_row(_words(zone), *values, signed(zone.reached - zone.base), _note(zone))
+        values = (
+            "-" if zone.foot is None else plain(zone.foot),
+            "-" if zone.allowance is None else signed(zone.allowance),
+            plain(zone.base),
+            "follows" if zone.follows else with_spread(plain(zone.target), zone.foot_sd),
+            with_spread(plain(zone.reached), zone.reached_sd),
+            signed(zone.reached - zone.base),
+        )
+        table.add_row(measure_words(zone), *values, *(_note(zone) for _ in notes))
     return table
-
-
-def _words(zone: CustomZone) -> str:
-    return zone.name.replace("_", " ")
 
 
 def _note(zone: CustomZone) -> str:
     """What should be known of a target."""
-    if zone.follows:
-        return "follows"
     return f"{signed(zone.room)} by --room" if abs(zone.room) >= 0.05 else ""
 
 
@@ -84,7 +94,8 @@ def _judged_table(custom: CustomLast) -> RenderableType:
         pairs = ((zone.base, zone.base_sd), (zone.custom, zone.custom_sd))
         values = (judged_words(*pair, zone.unit) for pair in pairs)
         verdicts = (zone.base_verdict or "-", zone.custom_verdict or "-")
-        table.add_row(zone.label, _target(zone), *values, *verdicts)
+        words = zone_words(zone).removesuffix(" girth") if zone.name in UPRIGHT else zone.label
+        table.add_row(words, _target(zone), *values, *verdicts)
     return table
 
 

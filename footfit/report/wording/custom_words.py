@@ -4,18 +4,76 @@ from __future__ import annotations
 
 from footfit.number_words import plain, signed
 from footfit.report.wording.text import visible
-from footfit.results import CustomLast
+from footfit.results import CustomLast, CustomZone, JudgedZone
 
 
 def custom_verdict_words(custom: CustomLast) -> str:
     """The verdict of a custom last, and the zones that it comes from."""
     if custom.verdict is None:
         return "no zone can be judged"
-    words = f"{custom.record.labels.name} is {custom.verdict} for this foot"
     worst = [z.label for z in custom.judged if z.custom_verdict == custom.verdict]
+    name = custom.record.labels.name
     if custom.verdict == "good":
-        return visible(f"{words}, in all {len(worst)} zones")
+        return visible(f"{name} is good for this foot, in all {len(worst)} zones")
+    words = f"{name} is {custom.verdict} for this foot"
+    if custom.verdict == "poor":
+        words = f"{name} fits this foot poorly (poor)"
+    elif custom.verdict == "reject":
+        words = f"{name} does not fit this foot (reject)"
     return visible(f"{words}, because of {', '.join(worst)}")
+
+
+def advice_words(custom: CustomLast) -> str | None:
+    """What to do with a last that fits poorly or not at all; None for the others.
+
+    All its targets are met. What does not fit is what it keeps of its base.
+    """
+    meaning = {
+        "reject": "Do not make a shoe on it: the customer could not wear it.",
+        "poor": "A shoe on it would hurt or be loose there: let the customer try one on first.",
+    }.get(custom.verdict or "")
+    if meaning is None:
+        return None
+    reasons = [z.why or "" for z in custom.judged if z.custom_verdict == custom.verdict]
+    for option, step in OPTIONS.items():
+        if any(option in why for why in reasons):
+            return f"{meaning} {step}."
+    cause = "Its girths are right, but there it keeps the shape of its base."
+    step = "Make it from another base (--base), or without --base from the best last"
+    if custom.better_in_stock is not None:
+        step = f"Use {visible(custom.better_in_stock.last)} of the catalogue"
+    return f"{meaning} {cause} {step}, or choose another kind of shoe (--profile)."
+
+
+OPTIONS = {"--room": "Give less --room, or none", "--keep": "Leave out --keep bottom"}
+"""What to do if an option is why a zone is not good."""
+
+
+def measure_words(zone: CustomZone) -> str:
+    """A measure that the foot sets, in words; a girth of the least tape is said to be one.
+
+    Examples
+    --------
+    >>> from footfit.results import CustomZone
+    >>> zone = CustomZone("ball_girth_least", "ball_girth", "mm", 252.2, 0.0, 255.4, 252.2, 252.2)
+    >>> measure_words(zone)
+    'least ball girth'
+    """
+    words = zone.name.replace("_", " ")
+    return f"least {words.removesuffix(' least')}" if words.endswith(" least") else words
+
+
+def zone_words(zone: JudgedZone) -> str:
+    """The label of a zone; a girth that has a least tape too is said to be the upright one."""
+    return f"upright {zone.label}" if zone.name in UPRIGHT else zone.label
+
+
+UPRIGHT = ("ball_girth", "instep_girth")
+"""The zones whose girths have least tapes among the targets."""
+GIRTH_WORDS = (
+    "least: the shortest tape around the place, as a last maker takes it. upright: the tape in a"
+    " plane that stands upright, in which a match judges; it is often longer."
+)
 
 
 def with_spread(words: str, sd: float | None, digits: int = 1) -> str:

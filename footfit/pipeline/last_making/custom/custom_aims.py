@@ -85,8 +85,9 @@ class CustomAim:
 
     @property
     def words(self) -> str:
-        """The measure in words."""
-        return self.measure.replace("_", " ")
+        """The measure in words; a girth of the least tape is said to be one."""
+        words = self.measure.replace("_", " ")
+        return f"least {words.removesuffix(' least')}" if words.endswith(" least") else words
 
     def moved_to(self, target: float) -> CustomAim:
         """The same aim with another target of the least tape, or of the toe room."""
