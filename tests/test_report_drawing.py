@@ -11,6 +11,8 @@ import numpy as np
 import pytest
 
 import footfit
+from footfit.number_words import plain
+from footfit.report.drawing.measure_words import LENGTH_WORDS, measure_words
 from footfit.report.drawing.papers import CROSS_MM, PAPERS
 from footfit.report.drawing.parts import Block
 from tests import paper
@@ -160,11 +162,29 @@ def test_a_drawing_says_every_measure_its_uncertainty_the_file_and_the_pair() ->
     text = " ".join(words)
     for measure in drawing.measures:
         assert measure.definition in words
+        assert measure_words(measure.name, "last") in words
     assert re.sub(r"\s", "", drawing.alignment.info.sha256) in re.sub(r"\s", "", text)
     assert "total ±" in words
-    assert "are a pair" in text
+    spring, resting = (
+        drawing.value_of(name).measured.value for name in ("toe_spring_tip", "toe_spring")
+    )
+    assert f"toe spring at the tip {plain(spring)} mm are a pair" in text
+    assert plain(resting) != plain(spring)
+    assert LENGTH_WORDS in text
     assert "girth 2, length 1.5, width 1" in text
     assert "right last" in text
+
+
+def test_a_millimetre_of_heel_takes_from_the_spring_at_the_tip_what_the_sheet_says() -> None:
+    mesh = last_mesh(OWN["heel 60"])
+    both = [footfit.drawing(mesh, units="mm", heel_height_mm=mm) for mm in (59.0, 61.0)]
+    texts = [" ".join(paper.svg(footfit.drawing_file(each, "svg")).words) for each in both]
+    words = r"1 mm more of heel is ([\d.]+) mm less of spring there"
+    said = np.mean([float(re.search(words, text)[1]) for text in texts])
+    names = ("heel_height", "toe_spring_tip")
+    heels, springs = ([each.value_of(name).measured.value for each in both] for name in names)
+    less = (springs[0] - springs[1]) / (heels[1] - heels[0])
+    assert less == pytest.approx(said, abs=0.02)  # measured .013: the tread is round
 
 
 def test_the_same_shape_gives_the_same_bytes() -> None:

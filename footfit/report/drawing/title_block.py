@@ -7,15 +7,19 @@ from collections.abc import Iterable
 
 import numpy as np
 
+from footfit.geometry.measures.heights import HEIGHTS
 from footfit.number_words import plain
+from footfit.report.drawing.measure_words import LENGTH_WORDS, measure_words
 from footfit.report.drawing.papers import PRINT_WORDS, Paper, Tile
 from footfit.report.drawing.parts import Anchor, Block, Line, Words, joined, paragraph, straight
 from footfit.report.wording.text import OF_RIM, SPREADS, file_name, visible
-from footfit.results import Drawing, Measure
+from footfit.results import Drawing
 from footfit.version import __version__
 
-COLUMNS_MM = (0.0, 46.0, 56.0, 70.0, 73.0)
+COLUMNS_MM = (0.0, 60.0, 69.0, 82.0, 84.0)
 """Where the columns of the table of measures are: name, value, spread, total, unit."""
+DEFINITION_MM, DEFINITION_LETTERS_MM = 28.0, 1.7
+"""Where the definition of a measure stands, in small letters."""
 ROW_MM = 3.7
 LETTERS, TITLE_LETTERS = 56, 26
 """Of a line of text."""
@@ -50,7 +54,7 @@ def title_block(drawing: Drawing) -> Block:
     notes = [line for text in _notes(drawing) for line in textwrap.wrap(text, LETTERS)]
     below = -1.75 - 7.25 * len(title)
     text = paragraph(notes, (0.0, below), 2.4)
-    table = _table(drawing.measures, below - 1.45 * 2.4 * len(notes) - 3.0)
+    table = _table(drawing, below - 1.45 * 2.4 * len(notes) - 3.0)
     return joined([Block(words=head + text), table])
 
 
@@ -68,6 +72,8 @@ def _notes(drawing: Drawing) -> Iterable[str]:
     copies = (notice.message for notice in alignment.warnings if notice.code == "stored_copy")
     yield from (f"{words[:1].upper()}{words[1:]}." for words in copies)
     yield from _pair(drawing)
+    if alignment.pose.kind == "last":
+        yield LENGTH_WORDS
     if drawing.tolerance_mm:
         rows = drawing.tolerance_mm.items()
         kinds = ", ".join(f"{kind} {value:g}" for kind, value in rows)
@@ -82,27 +88,33 @@ def _notes(drawing: Drawing) -> Iterable[str]:
 def _pair(drawing: Drawing) -> Iterable[str]:
     """Heel height and toe spring, which belong together."""
     stance = drawing.alignment.stance
-    heel, spring = drawing.value_of("heel_height"), drawing.value_of("toe_spring")
-    if stance is None or heel is None or spring is None:
+    names = ("heel_height", "toe_spring_tip", "stick_length", "length")
+    heel, spring, stick, long = (_value(drawing, name) for name in names)
+    if stance is None or heel is None or spring is None or stick is None or long is None:
         return
-    if heel.measured.value is None or spring.measured.value is None:
-        return
+    touching_mm = HEIGHTS.toe_spring * long / (1.0 - stance.spring_per_heel)
+    less = stick / touching_mm - 1.0
     yield (
-        f"Heel height {plain(heel.measured.value)} mm and toe spring {plain(spring.measured.value)}"
-        f" mm are a pair, by the {stance.decided_by}: 1 mm more of heel is"
-        f" {plain(-stance.spring_per_heel, 2)} mm less of toe spring."
+        f"Heel height {plain(heel)} mm and toe spring at the tip {plain(spring)} mm are a pair, by"
+        f" the {stance.decided_by}: 1 mm more of heel is {plain(less, 2)} mm less of spring there."
     )
 
 
-def _table(measures: Iterable[Measure], top: float) -> Block:
-    """Every measure by its definition, with both its uncertainties, or why there is none."""
+def _value(drawing: Drawing, name: str) -> float | None:
+    measure = drawing.value_of(name)
+    return None if measure is None else measure.measured.value
+
+
+def _table(drawing: Drawing, top: float) -> Block:
+    """Every measure by name and definition, with both uncertainties, or why there is none."""
     heads = zip(COLUMNS_MM, ("measure", "value", "±", "total ±", ""), strict=True)
     words = [_cell(text, column, top - ROW_MM, bold=True) for column, text in heads]
     y = top - ROW_MM - 1.2
     rule = straight((0.0, y), (COLUMNS_MM[-1] + 6.0, y))
-    for measure in measures:
+    for measure in drawing.measures:
         y -= ROW_MM
-        words.append(_cell(measure.definition, 0.0, y))
+        words.append(_cell(measure_words(measure.name, drawing.alignment.pose.kind), 0.0, y))
+        words.append(Words(measure.definition, (DEFINITION_MM, y), DEFINITION_LETTERS_MM))
         measured = measure.measured
         if measured.value is None:
             reason = textwrap.shorten(measured.reason or "not measured", 40, placeholder=" ...")

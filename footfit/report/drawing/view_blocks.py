@@ -7,6 +7,7 @@ import numpy as np
 from footfit.geometry.drawing.views import SOLE_HEIGHT_MM, Mark, View, chord
 from footfit.geometry.numeric.arrays import Floats
 from footfit.number_words import plain
+from footfit.report.drawing.measure_words import measure_words
 from footfit.report.drawing.papers import TICK_MM, UNDER_CROSS_MM
 from footfit.report.drawing.parts import (
     BOUNDARY,
@@ -90,7 +91,7 @@ def _measure_words(measure: Measure | None) -> list[str]:
     if measure is None or measure.measured.value is None:
         return []
     spread = "" if measure.measured.sd is None else f" ± {plain(measure.measured.sd)}"
-    name = measure.name.replace("_", " ")
+    name = measure_words(measure.name, "last")
     return [f"{name}: {plain(measure.measured.value)}{spread} {measure.unit}"]
 
 
