@@ -142,6 +142,15 @@ def test_the_solids_of_rhino_are_read_by_their_render_meshes(kind):
 def test_a_wide_gap_stays_open():
     raw = read(rhino.brep_model(patches(3.0)))
     assert len(boundary_edges(raw.faces)) > 100
+    assert "gaps_open" in codes(raw)
+
+
+def test_a_gap_that_stays_open_is_said_with_what_to_do():
+    raw = read(rhino.brep_model(patches(1.4)))  # sectors at 60 degrees: .7 mm apart
+    assert "gaps_open" in codes(raw)
+    message = raw.warnings[-1].message
+    assert "gaps of about 0.7 mm, and footfit closes 0.5 mm" in message
+    assert "join the surfaces in Rhino" in message
 
 
 # ---------------------------------------------------------------- what is wrong

@@ -14,6 +14,7 @@ from footfit.errors import SideUndecided
 from footfit.geometry.fit.clearance import ZONES, zone_of
 from footfit.geometry.mesh.sections import sections_across
 from footfit.meshes.read import file_mesh
+from footfit.report.wording.difference_words import surface_difference_words
 from tests.conftest import SAMPLES, Footfit
 from tests.distortions import decimated, mirrored, moved, random_pose, subdivided
 from tools.last_specs import LastSpec
@@ -109,6 +110,7 @@ def test_a_girth_that_is_changed_in_one_place_is_found_there_alone():
     assert found.surface.largest.zone == "dorsal"
     assert found.surface.largest.station == pytest.approx(0.5, abs=0.06)
     raised_mm = float((0.04 * ramp * high * shape.vertices_mm[:, 2]).max())
+    assert not found.inside
     assert 0.5 * raised_mm < found.surface.largest.value_mm <= raised_mm  # the ridge is inclined
     zones = {zone.zone: zone for zone in found.surface.zones}
     assert abs(zones["bottom"].p95_mm) < 1e-3
@@ -118,6 +120,16 @@ def test_a_girth_that_is_changed_in_one_place_is_found_there_alone():
     assert girths["instep"] == pytest.approx(truth_mm, abs=0.4)  # the plane stands upright, 8 deg
     assert abs(girths["ball"]) < 0.02
     assert abs(girths["toes"]) < 0.02
+
+
+def test_a_place_is_said_in_plain_words(last, mesh):
+    vertices, faces = mesh
+    found = difference(last, vertices, faces)
+    assert found.inside is found.to_dict()["inside"] is True
+    largest = replace(found.surface.largest, zone="dorsal", station=1.01)
+    beyond = replace(found, surface=replace(found.surface, largest=largest))
+    words = surface_difference_words(beyond)
+    assert "on the upper side, in front of the end of the bottom" in words
 
 
 def test_a_wider_ball_on_one_side_does_not_move_the_rest(last):

@@ -223,9 +223,15 @@ def notices_about(path: str | None, notices: Iterable[Notice]) -> tuple[Notice, 
     return tuple(dataclasses.replace(each, path=each.path or path) for each in notices)
 
 
-def count_notice(code: str, count: int, words: str) -> tuple[Notice, ...]:
-    """A notice of how many there were; none if there were none."""
-    return (Notice(code, f"{count:,} {words}"),) if count else ()
+def count_notice(code: str, count: int, words: str, one: str = "") -> tuple[Notice, ...]:
+    """A notice of how many there were; none if there were none. ``one`` are the words for one.
+
+    Examples
+    --------
+    >>> count_notice("spikes_pressed", 1, "spikes were pressed", "spike was pressed")[0].message
+    '1 spike was pressed'
+    """
+    return (Notice(code, f"{count:,} {one if one and count == 1 else words}"),) if count else ()
 
 
 def measured_part(values: Iterable[tuple[str, Measured]]) -> Json:

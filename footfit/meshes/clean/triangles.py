@@ -78,10 +78,17 @@ def welded_mesh(vertices: Floats, faces: Ints) -> WeldedMesh:
     words = "faces inside the solid, where two bodies touch, were removed"
     notices += count_notice("inner_faces_removed", int(inner.sum()), words)
     again = int((~once & ~inner).sum())
-    notices += count_notice("duplicates_removed", again, "repeated faces were removed")
+    notices += count_notice(
+        *("duplicates_removed", again, "repeated faces were removed", "repeated face was removed")
+    )
     faces = faces[once & ~inner]
     vertices, pressed = pressed_spikes(vertices, faces)
-    notices += count_notice("spikes_pressed", pressed, "spikes were pressed back into the surface")
+    notices += count_notice(
+        "spikes_pressed",
+        pressed,
+        "spikes were pressed back into the surface",
+        "spike was pressed back into the surface",
+    )
     return WeldedMesh(vertices, faces, source, int((~distinct).sum()), notices)
 
 

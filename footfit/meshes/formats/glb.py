@@ -77,7 +77,12 @@ def read_glb(data: bytes, limits: Limits) -> RawMesh:
         for (points, rows), (row, placing) in zip(corners, listed, strict=True)
     ]
     raw = joined_parts(parts, len(meshes), "m")
-    notices = count_notice("trailing_bytes", trailing, "bytes after the GLB were ignored")
+    notices = count_notice(
+        "trailing_bytes",
+        trailing,
+        "bytes after the GLB were ignored",
+        "byte after the GLB was ignored",
+    )
     return replace(raw, warnings=notices + raw.warnings)
 
 

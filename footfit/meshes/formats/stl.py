@@ -87,7 +87,12 @@ def read_binary_stl(data: bytes, limits: Limits) -> RawMesh:
         raise EmptyMesh("the STL holds no facets: export it again")
     check_counts(0, count, limits)
     facets = np.frombuffer(data, dtype=FACET, count=count, offset=HEADER_BYTES)
-    notices = count_notice("trailing_bytes", trailing, "bytes after the last facet were ignored")
+    notices = count_notice(
+        "trailing_bytes",
+        trailing,
+        "bytes after the last facet were ignored",
+        "byte after the last facet was ignored",
+    )
     return _soup(doubles(facets["corners"].reshape(-1, 3)), notices)
 
 

@@ -12,10 +12,11 @@ import numpy as np
 
 from footfit.errors import DamagedMesh, EmptyMesh, TooLarge, UnknownFormat
 from footfit.geometry.numeric.arrays import Floats, Ints
+from footfit.geometry.numeric.quantiles import median
 from footfit.meshes.formats.placed_parts import Part, joined_parts
 from footfit.meshes.formats.raw import RawMesh, check_counts
 from footfit.meshes.read_limits import SIMPLIFY, Limits
-from footfit.meshes.rhino.seams import closed_gaps
+from footfit.meshes.rhino.seams import Patches, closed_gaps
 from footfit.meshes.rhino.watched_process import INSTALL, RhinoFailed, is_installed, run
 from footfit.results.values import Notice
 
@@ -37,6 +38,8 @@ _UNITS = {  # the unit that footfit reports, and how many of it each unit of the
 _NO_UNIT = ("None", "Unset", "CustomUnits")
 GAP_MM = 0.5
 """Surfaces whose edges are no farther apart are joined."""
+WIDE_MM = 3.0
+"""An open edge that is so near to another surface is a gap, and no rim of the model."""
 _MM = {"mm": 1.0, "cm": 10.0, "m": 1000.0, "in": 25.4}
 _USUAL_MM = 250.0
 """About the length of a last, for the gaps of a file without a unit."""
@@ -107,7 +110,24 @@ def _joined(
         if widest_mm > 0.0:
             words = f"gaps of up to {widest_mm:.2f} mm between surfaces of the .3dm were closed"
             notices.append(Notice("gaps_closed", words))
+        notices += _open_notices(closed, mm)
     return RawMesh(vertices, faces, tuple(notices), name)
+
+
+def _open_notices(closed: Patches, mm: float) -> list[Notice]:
+    """What to say of the gaps between surfaces that stay open; the vertices are in ``mm`` units."""
+    gaps_mm = mm * closed.open_gaps(WIDE_MM / mm)
+    if not len(gaps_mm):
+        return []
+    middle_mm = median(gaps_mm)
+    why = f"gaps of about {middle_mm:.1f} mm, and footfit closes {GAP_MM} mm"
+    if middle_mm <= GAP_MM:
+        why = "their seams run zigzag along short edges"
+    words = (
+        f"{len(gaps_mm):,} places between surfaces of the .3dm stay open ({why}): join the surfaces"
+        " in Rhino, mesh them as one and save again"
+    )
+    return [Notice("gaps_open", words)]
 
 
 def _parts(vertices: Floats, faces: Ints, counts: Ints, transforms: Floats) -> list[Part]:

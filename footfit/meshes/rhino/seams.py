@@ -17,6 +17,8 @@ from footfit.geometry.numeric.arrays import Floats, Ints
 
 ROUNDS = 3
 """Edges are split so often: a face can have two edges at seams, and a new edge another vertex."""
+RIM_POINTS = 16
+"""Points of an open edge to which the width of a gap is taken."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -42,6 +44,22 @@ class Patches:
         order, starts, counts = edge_groups(self.faces)
         single = np.sort(order[starts[counts == 1]])
         return half_edges(self.faces)[single], single // 3
+
+    def open_gaps(self, wide: float) -> Floats:
+        """How far starts of open edges (g,) lie from the rim of another patch, up to ``wide``."""
+        from scipy.spatial import KDTree
+
+        edges, face = self.rim()
+        owner, shares = self.patch[face], np.arange(RIM_POINTS)[:, None, None] / RIM_POINTS
+        start, end = self.vertices[edges[:, 0]], self.vertices[edges[:, 1]]
+        along = start + shares * (end - start)
+        gaps = [np.empty(0)]
+        for name in np.unique(owner):
+            ours, theirs = start[owner == name], along[:, owner != name].reshape(-1, 3)
+            if len(theirs):
+                distance, _ = KDTree(theirs).query(ours, distance_upper_bound=wide)
+                gaps.append(distance[np.isfinite(distance) & (distance > 0.0)])
+        return np.concatenate(gaps)
 
 
 def closed_gaps(vertices: Floats, faces: Ints, patch: Ints, gap: float) -> Patches:

@@ -82,7 +82,12 @@ def scan_of(
         *count_notice("inner_faces_removed", int(inner.sum()), COVERED),
         *_piece_notices(kept),
         *turned_notices(turned),
-        *count_notice("degenerate_removed", removed, "faces without an area were removed"),
+        *count_notice(
+            "degenerate_removed",
+            removed,
+            "faces without an area were removed",
+            "face without an area was removed",
+        ),
         *open_notices,
         *unit.warnings,
     )
@@ -103,7 +108,12 @@ def _piece_notices(kept: KeptPieces) -> tuple[Notice, ...]:
 
 def turned_notices(count: int) -> tuple[Notice, ...]:
     """What to say of faces that were turned over, if any."""
-    return count_notice("winding_fixed", count, "faces looked inward and were turned over")
+    return count_notice(
+        "winding_fixed",
+        count,
+        "faces looked inward and were turned over",
+        "face looked inward and was turned over",
+    )
 
 
 def _open_notices(faces: Ints) -> tuple[Notice, ...]:
@@ -112,7 +122,15 @@ def _open_notices(faces: Ints) -> tuple[Notice, ...]:
     rims, crowded = int((counts == 1).sum()), int((counts - 2).clip(0).sum())
     return (
         *count_notice(
-            "non_manifold", crowded, "faces share an edge that two other faces have already"
+            "non_manifold",
+            crowded,
+            "faces share an edge that two other faces have already",
+            "face shares an edge that two other faces have already",
         ),
-        *count_notice("open_mesh", rims, "edges have only one face: the surface is open"),
+        *count_notice(
+            "open_mesh",
+            rims,
+            "edges have only one face: the surface is open",
+            "edge has only one face: the surface is open",
+        ),
     )

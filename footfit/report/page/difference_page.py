@@ -28,6 +28,7 @@ def difference_page(difference: LastDifference, drawn: Comparison) -> str:
             "laid": words.laid_words(difference),
             "verdict": words.verdict_words(difference),
             "sections": words.SECTION_GIRTHS,
+            "zones": words.ZONE_NAMES,
             "surface": words.surface_difference_words(difference),
         },
         measures=[(words.value_name(row), words.value_cells(row)) for row in difference.measures],

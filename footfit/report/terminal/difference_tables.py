@@ -9,6 +9,7 @@ from footfit.number_words import plain, signed
 from footfit.report.terminal.scan_tables import lined_table
 from footfit.report.wording.difference_words import (
     SECTION_GIRTHS,
+    ZONE_NAMES,
     laid_words,
     last_names,
     surface_difference_words,
@@ -54,7 +55,7 @@ def _zones_table(difference: LastDifference) -> RenderableType:
     for zone in difference.surface.zones:
         values = (zone.mean_mm, zone.p05_mm, zone.p95_mm)
         cells = ("-" if value is None else signed(value, 2) for value in values)
-        table.add_row(zone.zone, *cells)
+        table.add_row(ZONE_NAMES.get(zone.zone, zone.zone), *cells)
     return table
 
 

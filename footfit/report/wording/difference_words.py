@@ -11,10 +11,12 @@ ZONE_WORDS = {
     "bottom": "under the bottom",
     "medial": "on the inner side",
     "lateral": "on the outer side",
-    "dorsal": "on the top",
+    "dorsal": "on the upper side",
     "toe": "at the toe",
 }
 """Where each zone of the surface is."""
+ZONE_NAMES = {"medial": "inner side", "lateral": "outer side", "dorsal": "upper side"}
+"""What a zone is called in a table, if its name is not plain."""
 
 SECTION_GIRTHS = (
     "A section stands upright. The girths among the measures are of other planes: those named least"
@@ -53,7 +55,7 @@ def surface_difference_words(difference: LastDifference) -> str:
     surface, largest = difference.surface, difference.surface.largest
     if largest is None or surface.p95_mm is None or surface.mean_mm is None:
         return "the surfaces cannot be compared"
-    where = f"{ZONE_WORDS[largest.zone]}, at {plain(largest.station, 2)} of the bottom"
+    where = f"{ZONE_WORDS[largest.zone]}, {place_words(largest.station)}"
     words = (
         f"surfaces, second minus first: mean {signed(surface.mean_mm, 2)} mm; 95 % of the area"
         f" differs by {plain(surface.p95_mm, 2)} mm at most; the most is"
@@ -61,6 +63,21 @@ def surface_difference_words(difference: LastDifference) -> str:
     )
     step = plain(difference.resolution_mm, 2)
     return words if step == plain(0.0, 2) else f"{words}; less than {step} mm says nothing"
+
+
+def place_words(station: float) -> str:
+    """Where along the bottom a place is; the edges of a last reach beyond both ends of it.
+
+    Examples
+    --------
+    >>> place_words(0.5), place_words(1.01)
+    ("at .50 of the bottom's length", 'in front of the end of the bottom')
+    """
+    if station > 1.0:
+        return "in front of the end of the bottom"
+    if station < 0.0:
+        return "behind the start of the bottom"
+    return f"at {plain(station, 2).removeprefix('0')} of the bottom's length"
 
 
 def value_cells(row: ValueDifference) -> tuple[str, str, str, str, str]:

@@ -118,6 +118,11 @@ class LastDifference(Document):
         """Those that are outside of it."""
         return tuple(row for row in self.judged if not row.inside)
 
+    @property
+    def inside(self) -> bool:
+        """Whether no judged measure is outside of its tolerance."""
+        return not self.outside
+
     def _keys(self) -> Json:
         surface, largest = self.surface, self.surface.largest
         return {
@@ -127,7 +132,7 @@ class LastDifference(Document):
             "laid": part(fields(self.laid)),
             "tolerance_mm": part(self.tolerance_mm),
             "tolerance_source": TOLERANCE_SOURCE,
-            "inside": not self.outside,
+            "inside": self.inside,
             "outside": [row.name for row in self.outside],
             "measures": part({row.name: row for row in self.measures}),
             "surface": part(
