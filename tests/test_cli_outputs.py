@@ -66,7 +66,7 @@ def test_several_files_are_written_all_or_none(
             raise OSError(errno.ENOSPC, "No space left on device")
 
     monkeypatch.setattr(os, "fsync", full)
-    with pytest.raises(BadOption, match="cannot be written") as refused:
+    with pytest.raises(BadOption, match=r"cannot be written: .*; make room on the disk") as refused:
         write_outputs({first: b"a", second: b"b"}, force=False)
     assert refused.value.path == str(second)
     assert list(tmp_path.iterdir()) == []
@@ -222,6 +222,24 @@ def test_what_goes_with_files_is_done_with_all_of_them_or_not_at_all(
     with pytest.raises(BadOption, match="cannot be written"):
         write_outputs({path: b"a"}, force=False, then=lambda: stored.append(1))
     assert (stored, list(tmp_path.iterdir())) == ([], [])
+
+
+@pytest.mark.parametrize(
+    ("number", "step"),
+    [
+        (errno.EROFS, "name a file in a folder that you may write to"),
+        (errno.EFBIG, "name a folder on a disk that takes larger files"),
+    ],
+)
+def test_what_the_system_refuses_is_said_with_what_to_do(
+    number: int, step: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def refused(_descriptor: int) -> None:
+        raise OSError(number, os.strerror(number))
+
+    monkeypatch.setattr(os, "fsync", refused)
+    with pytest.raises(BadOption, match=f"cannot be written: {os.strerror(number)}; {step}"):
+        write_outputs({tmp_path / "a.stl": b"a"}, force=False)
 
 
 def test_a_csv_is_written_with_the_other_files_or_not_at_all(

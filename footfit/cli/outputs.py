@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import errno
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence, Sized
 from contextlib import ExitStack, contextmanager, suppress
 from dataclasses import dataclass, replace
@@ -288,7 +289,7 @@ def refuse_existing(path: Path | None, *, force: bool, kinds: tuple[str, ...] = 
     try:
         require_free(path, replace=force)
     except OSError as error:  # such as a name that is too long
-        raise BadOption(f"cannot be written: {error.strerror}", str(path)) from error
+        raise _not_written(error, path) from error
     if kinds:
         file_kind(path, kinds)
     if _is_catalogue(path):
@@ -345,10 +346,25 @@ def write_outputs(
                 give_name(partial, path, replace=force)
 
 
+NEXT_STEP = {
+    errno.ENOSPC: "make room on the disk, or name a folder on another one",
+    errno.EDQUOT: "make room on the disk, or name a folder on another one",
+    errno.EFBIG: "name a folder on a disk that takes larger files, or raise the limit (ulimit -f)",
+    errno.ENAMETOOLONG: "give a shorter name",
+}
+"""What to do about what the system refuses; anything else goes away in another folder."""
+
+
+def _not_written(error: OSError, path: Path) -> BadOption:
+    """What the system refused, and what to do."""
+    step = NEXT_STEP.get(error.errno or 0, "name a file in a folder that you may write to")
+    return BadOption(f"cannot be written: {error.strerror}; {step}", str(path))
+
+
 @contextmanager
 def _refused_by_system(path: Path) -> Iterator[None]:
     """Say what the system refused, and of which file."""
     try:
         yield
     except OSError as error:
-        raise BadOption(f"cannot be written: {error.strerror}", str(path)) from error
+        raise _not_written(error, path) from error

@@ -58,7 +58,8 @@ def place_of(connection: Driver, record: LastRecord, *, replace: bool) -> Place:
 
 def same_scan(holder: str) -> NameTaken:
     """The refusal of a file whose content the catalogue has under the name ``holder``."""
-    return NameTaken(f"the same mesh is in the catalogue as {holder!r}; nothing was stored")
+    words = f"the same mesh is in the catalogue as {holder!r}, so nothing was stored"
+    return NameTaken(f"{words}: use that last, or take it out first with footfit remove-last")
 
 
 def require_storable(name: str) -> None:

@@ -35,6 +35,7 @@ from footfit.pipeline.last_making.custom.custom_field import (
 )
 from footfit.pipeline.last_making.custom.custom_reading import tape_plane, value_mm
 from footfit.pipeline.last_making.custom.custom_rooms import (
+    change_notices,
     joint_notices,
     reached_rooms,
     refuse_unknown,
@@ -108,6 +109,7 @@ def customised(
         bumps = room_bumps(base.shape, given.chart, making.rooms_mm, attempt.made.shape, lying_mm)
         swollen = with_bumps(given, attempt, bumps)
         notices += joint_notices(attempt.made.shape, swollen.made.shape)
+        notices += change_notices(swollen.aims, swollen.room_mm)
         ends_mm = attempt.shape.vertices_mm, swollen.shape.vertices_mm
         rooms = reached_rooms(base.shape, given.chart, making.rooms_mm, bumps, ends_mm)
         roomy = replace(answer(swollen), rooms=rooms)

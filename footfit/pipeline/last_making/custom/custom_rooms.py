@@ -12,7 +12,9 @@ from footfit.geometry.deform.chart import Chart
 from footfit.geometry.deform.field import Bump, least_determinant
 from footfit.geometry.measures.landmarks import AXES, Shape
 from footfit.geometry.numeric.arrays import Bools, Floats
+from footfit.number_words import signed
 from footfit.pipeline.last_making.base_last import BaseLast
+from footfit.pipeline.last_making.custom.custom_aims import CustomAim
 from footfit.pipeline.last_making.custom.custom_field import CustomShape, limit_words
 from footfit.pipeline.last_making.custom.custom_reading import tape_plane
 from footfit.results import Notice, RoomPlace
@@ -35,6 +37,8 @@ class RoomSettings:
         A place of a side lies lower over the bottom than this.
     same_joint : float
         A joint that is read farther than this from where it was is another place.
+    said_mm : float
+        A measure that the room brings farther than this from its target is said.
     """
 
     most_mm: float = 12.0
@@ -44,6 +48,7 @@ class RoomSettings:
     near_tape: float = 0.01
     low: float = 0.16
     same_joint: float = 0.02
+    said_mm: float = 0.25
 
 
 ROOM = RoomSettings()
@@ -72,7 +77,8 @@ def refuse_unknown(rooms_mm: Mapping[str, float]) -> None:
         if name not in ROOM_PLACES:
             raise BadOption(f"no place is named {name!r}; --room takes {', '.join(ROOM_PLACES)}")
         if not 0.0 < size_mm <= ROOM.most_mm:
-            raise BadOption(f"--room {name} takes up to {ROOM.most_mm:g} mm, not {size_mm:g}")
+            words = f"more than 0 and up to {ROOM.most_mm:g} mm, not {size_mm:g}"
+            raise BadOption(f"--room {name} takes {words}")
 
 
 def room_bumps(
@@ -173,3 +179,18 @@ def joint_notices(before: Shape, after: Shape) -> tuple[Notice, ...]:
         return ()
     words = "the room swells so far that the ball is now measured at it: give less --room"
     return (Notice("room_at_ball", words),)
+
+
+def change_notices(aims: Sequence[CustomAim], room_mm: Floats) -> tuple[Notice, ...]:
+    """A warning of the measures that the room brings away from their targets; ``room_mm`` (aims,)
+    is by how much.
+    """
+    changes = [
+        f"{aim.words} {signed(more_mm)} mm"
+        for aim, more_mm in zip(aims, room_mm.tolist(), strict=True)
+        if aim.firm and abs(more_mm) > ROOM.said_mm
+    ]
+    if not changes:
+        return ()
+    words = f"the room changes measures from their targets: {', '.join(changes)}"
+    return (Notice("room_changes", words),)
