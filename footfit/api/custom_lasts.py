@@ -57,6 +57,7 @@ def customise(
     *,
     catalogue: LocationName | None = None,
     both: bool = False,
+    store: bool = False,
     **asked: Unpack[CustomKeywords],
 ) -> tuple[results.CustomLast, ...]:
     """A last for each foot, made from a base so that it has the fit profile's allowances.
@@ -69,6 +70,9 @@ def customise(
     catalogue : path, optional
     both : bool
         One foot gets two lasts: its own, and the mirror image for the other side.
+    store : bool
+        Whether the lasts will be stored with `store_custom`. A base that is a file is then the last
+        of the catalogue that has its content, with its labels.
     **asked
         See `CustomKeywords`.
 
@@ -103,7 +107,7 @@ def customise(
             chosen, first = base_choice.customised_from_best(shapes, path, making)
         lasts, rest = [with_stock_looked_at(first, shapes[0], path, making.question)], shapes[1:]
     else:
-        chosen, rest = _base(base, path, stands), shapes
+        chosen, rest = _base(base, path, stands, store=store), shapes
     for foot in rest:
         with _naming(foot):
             made = base_choice.customised_from(foot, chosen, making, path)
@@ -179,8 +183,11 @@ def _making(asked: CustomKeywords) -> Making:
     return Making(question, dict(rooms), asked.get("name", "custom"))
 
 
-def _base(base: Mesh, path: Location | None, stands: Mapping[str, float]) -> BaseLast:
-    """The base that is named: a last of the catalogue, or a mesh that ``stands`` as was given.
+def _base(
+    base: Mesh, path: Location | None, stands: Mapping[str, float], *, store: bool
+) -> BaseLast:
+    """The base that is named: a last of the catalogue, or a mesh that ``stands`` as was given. If
+    the lasts will be stored, a file is the last of the catalogue that has its content.
 
     Raises
     ------
@@ -189,7 +196,7 @@ def _base(base: Mesh, path: Location | None, stands: Mapping[str, float]) -> Bas
     BadOption
         It is given how a last of the catalogue stands.
     """
-    from footfit.pipeline.last_making.base_last import scanned_base, stored_base
+    from footfit.pipeline.last_making.base_last import base_of_content, scanned_base, stored_base
     from footfit.pipeline.last_making.custom.base_choice import base_folders
     from footfit.pipeline.library.named_lasts import names_a_last, stored_name
 
@@ -200,4 +207,7 @@ def _base(base: Mesh, path: Location | None, stands: Mapping[str, float]) -> Bas
             raise UnreadableFile("there is no such file: check the path", base)
         refuse_stance(stands, base)
         return stored_base(path, base, base_folders(path))
-    return scanned_base(source_of(base, {}), reading_options(stands))
+    source = source_of(base, {})
+    kept = store and path is not None and source.path is not None and not stands
+    known = base_of_content(path, source) if kept and path is not None else None
+    return known or scanned_base(source, reading_options(stands))

@@ -20,7 +20,6 @@ from footfit.api.inputs import (
 )
 from footfit.api.scans import profiled_shape
 from footfit.errors import BadOption, FootfitError, SideUndecided, UnreadableFile
-from footfit.geometry.fit.sizes import system_named
 from footfit.locations import LocationName, location_of
 from footfit.pipeline.batch.runs import HERE
 from footfit.pipeline.batch.sources import Source, is_no_path, mesh_sources
@@ -69,7 +68,7 @@ def grade(
         store_run,
     )
 
-    grading = grader_of(last, sizes, catalogue=catalogue, **options)
+    grading = grader_of(last, sizes, catalogue=catalogue, store=store, **options)
     if not store:
         return grading.run(grading.lasts())
     if catalogue is None:
@@ -86,14 +85,20 @@ def grader_of(
     sizes: str,
     *,
     catalogue: LocationName | None = None,
+    store: bool = False,
     **options: Unpack[GradeKeywords],
 ) -> Grader:
-    """What makes the lasts of a run one after the other; raises as `grade`."""
+    """What makes the lasts of a run one after the other; raises as `grade`.
+
+    If the run is to be stored, a base that is a file is the last of the catalogue that has its
+    content.
+    """
     from footfit.catalogue.rows.requirements import require_name
+    from footfit.pipeline.graded_runs.base_labels import known_labels
     from footfit.pipeline.graded_runs.grade_plan import grade_plan
     from footfit.pipeline.graded_runs.grade_run import family_of, grader
-    from footfit.pipeline.graded_runs.grading_rules import grading_rule, known_system
-    from footfit.pipeline.last_making.base_last import scanned_base, stored_base
+    from footfit.pipeline.graded_runs.grading_rules import grading_rule
+    from footfit.pipeline.last_making.base_last import base_of_content, scanned_base, stored_base
     from footfit.pipeline.library.named_lasts import names_a_last
 
     if not isinstance(sizes, str):
@@ -107,23 +112,18 @@ def grader_of(
     name = os.fspath(last)
     stands = stance_keywords(options)
     if not is_no_path(name):
-        base = scanned_base(Source(name), reading_options(stands))
+        held = None
+        if store and catalogue is not None and not stands:
+            held = base_of_content(location_of(catalogue), Source(name))
+        base = held or scanned_base(Source(name), reading_options(stands))
     elif catalogue is None or not names_a_last(name):
         raise UnreadableFile("there is no such file", name)
     else:
         refuse_stance(stands, name)
         base = stored_base(location_of(catalogue), name)
     labels = base.record.labels
-    asked_system = options.get("size_system") or labels.size_system
-    if asked_system is None:
-        raise BadOption("the size system is not known: add --size-system, such as eu")
-    system = known_system(asked_system)
-    own = labels.size_system is None or system_named(labels.size_system) == system
-    size = options.get("base_size") or (labels.size if own else None)
-    if size is None and labels.size is not None:
-        words = f"its size {labels.size} is of {labels.size_system}: add --base-size in"
-        raise BadOption(f"{words} {system.name}", name)
-    width = options.get("base_width") or labels.width_label
+    known = known_labels(labels, options, name)
+    system, size, width = known.system, known.size, known.width
     rule = grading_rule(options.get("rule"), system)
     asked = sizes, options.get("widths")
     plan = grade_plan(rule, system, (size, width), asked, options.get("hold"))

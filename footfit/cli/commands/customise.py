@@ -123,6 +123,7 @@ def customise(
             base,
             catalogue=location if base == "auto" or there else None,
             both=both,
+            store=store is not None,
             profile=profile,
             flare_follow=flare_follow,
             keep_bottom=keep == "bottom",

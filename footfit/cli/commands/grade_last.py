@@ -102,6 +102,7 @@ def grade_last(
             last,
             sizes,
             catalogue=lasts.path(),
+            store=store,
             widths=widths,
             size_system=size_system,
             base_size=base_size,

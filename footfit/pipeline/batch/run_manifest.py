@@ -24,7 +24,9 @@ STANDS = "stance_by_run"
 """The notice of a last that stands as its run's manifest says."""
 UNUSED = "run_manifest_unused"
 """The notice of a last that stands by its shape alone, though a manifest has its name."""
-OF_RUNS = (STANDS, UNUSED)
+OF_CONTENT = "base_in_catalogue"
+"""The notice of a base that was given as a file, and whose content a last of the catalogue has."""
+OF_RUNS = (STANDS, UNUSED, OF_CONTENT)
 BY_SHAPE = "so it stands by its shape alone: give --heel-height if you know it"
 OR_EMPTY = "so it stands by its shape alone: empty its sha256 if its heights still count"
 """What a doubt ends with; the second one if the user has named the manifest."""

@@ -43,6 +43,12 @@ def require_storable_run(path: Location, grader: Grader, *, replace_stored: bool
     if caseless(grader.base.name) not in names:
         words = "--store needs a base of the catalogue: footfit ingest-last FILE --keep-mesh full"
         raise BadOption(words, grader.base.name)
+    with open_catalogue(path) as catalogue:
+        sha256 = catalogue.record(grader.base.name).info.sha256
+    if sha256 != grader.base.record.info.sha256:
+        words = f"--store needs a base of the catalogue, and {grader.base.name!r} has another"
+        hint = "content there: footfit ingest-last FILE --keep-mesh full, by a name of its own"
+        raise BadOption(f"{words} {hint}", grader.base.record.info.path)
     taken = [names[key] for name in grader.names() if (key := caseless(name)) in names]
     taken = [name for name in taken if name != grader.base.name]
     if taken and not replace_stored:

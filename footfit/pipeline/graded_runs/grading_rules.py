@@ -50,6 +50,11 @@ BY_SYSTEM = {
     "mondopoint": "mondopoint",
 }
 """The rule of each size system, if none is named."""
+COUNTED_BY = {
+    **dict.fromkeys(("jis", "jp", "japan", "kr", "korea"), "jis"),
+    **dict.fromkeys(("cn", "china"), "china"),
+}
+"""The rules of countries whose sizes have no system of their own."""
 
 
 def shipped_rules() -> tuple[str, ...]:
@@ -67,6 +72,9 @@ def known_system(name: str) -> SizeSystem:
     """
     system = system_named(name)
     if system is None:
+        if rule := COUNTED_BY.get(name.casefold()):
+            words = f"sizes of {name!r} are counted in mm of Mondopoint"
+            raise BadOption(f"{words}: take --size-system mondopoint --rule {rule}")
         known = ", ".join(SYSTEMS)
         raise BadOption(f"no size system is named {name!r}: take one of {known}")
     return system

@@ -198,6 +198,8 @@ def store_custom_lasts(
         for custom in customs:
             copy = compact_copy(custom.vertices_mm, custom.faces, len(custom.faces))
             parent = custom.base if custom.base in names else None
+            if parent and catalogue.record(parent).info.sha256 != custom.base_sha256:
+                parent = None  # another last of that name
             # it has no size, so it is no last of the base's run
             labels = replace(custom.record.labels, parent=parent, family=None)
             record = replace(custom.record, labels=labels)

@@ -15,7 +15,7 @@ from footfit.geometry.deform.field import Field
 from footfit.geometry.measures.landmarks import Shape
 from footfit.geometry.mesh.surface import face_normals, vertex_normals
 from footfit.geometry.numeric.arrays import Floats, row_dots
-from footfit.pipeline.batch.run_manifest import said_notices
+from footfit.pipeline.batch.run_manifest import OF_CONTENT, said_notices
 from footfit.pipeline.fit.judging.judged_lasts import JudgedLasts
 from footfit.pipeline.fit.ranking import foot_fits
 from footfit.pipeline.last_making.base_last import BaseLast
@@ -350,9 +350,10 @@ def _not_rigid(before: Floats, after: Floats) -> Floats:
 
 def _notices(base: BaseLast) -> tuple[results.Notice, ...]:
     """What should be known of how the base stands, and of its mesh."""
-    record = base.record
+    said = said_notices(base.record.warnings, base.record.info.path)
     if base.mesh.kind != "light copy":
-        return said_notices(record.warnings, record.info.path) if base.mesh.kind == "file" else ()
+        of_file = base.mesh.kind == "file"
+        return tuple(each for each in said if of_file or each.code == OF_CONTENT)
     words = (
         f"the base is a light copy, up to {base.mesh.error_mm:.2f} mm from its file: ingest it"
         " with --keep-mesh full, or run footfit where the file lies"
