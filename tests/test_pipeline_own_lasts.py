@@ -11,7 +11,7 @@ import pytest
 import footfit
 from footfit.meshes.write import encoded_mesh
 from footfit.pipeline.batch.sources import ReadingOptions, Source
-from footfit.pipeline.graded_runs.grade_run import file_of, file_shape
+from footfit.pipeline.graded_runs.grade_run import file_of, file_scan
 from footfit.pipeline.last_making.base_last import scanned_base
 from footfit.pipeline.last_making.custom.bent_surface import bent_notices
 from footfit.pipeline.last_making.custom.made_last import made_last
@@ -33,7 +33,7 @@ def test_a_last_that_footfit_makes_is_a_last_even_if_its_shape_is_near_to_a_foot
     monkeypatch.setattr(one_shape, "TOELESS_KIND", np.inf)
     monkeypatch.setattr(one_shape, "has_toes", lambda *_: True)
     assert footfit.align(file).alignment.pose.kind == "foot"
-    graded = file_shape(file_of(base.shape, base), base, stands)
+    graded = file_scan(file_of(base.shape, base), base, stands).shape
     made = made_last(base, base.shape.vertices_mm, "right", "custom")
     assert (graded.kind, made.shape.kind, made.prepared.pose.kind) == ("last", "last", "last")
     assert (graded.stance is None, made.record.stance_by) == (False, "shape")

@@ -6,9 +6,8 @@ import math
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, field
 
-from footfit.errors import GeometryRefused, ImplausibleSize, NotAFoot, OutOfReach
+from footfit.errors import ImplausibleSize, NotAFoot, OutOfReach
 from footfit.geometry.measures.landmarks import Shape
-from footfit.geometry.measures.measure_table import measure_named
 from footfit.geometry.stance.cues import StanceLabels
 from footfit.meshes.write import encoded_mesh
 from footfit.number_words import plain
@@ -24,15 +23,18 @@ from footfit.pipeline.graded_runs.grade_plan import (
     targets,
 )
 from footfit.pipeline.graded_runs.grade_shape import HELD, LENGTH, GradeStep, graded, graded_mm
-from footfit.pipeline.graded_runs.run_increments import CHECKED
+from footfit.pipeline.graded_runs.graded_reading import (
+    flare_of,
+    measures_of,
+    planes_of,
+    spreads_of,
+)
 from footfit.pipeline.last_making.base_last import BaseLast
 from footfit.pipeline.last_making.tolerances import TOLERANCE_MM
-from footfit.pipeline.scan.flare import shape_flare
 from footfit.pipeline.scan.preparation import right_copy
 from footfit.pipeline.scan.reading import prepared_source
 from footfit.pipeline.scan.standing import heights_by_shape
-from footfit.pipeline.scan.trueness import measured
-from footfit.results import LastLabels, Notice
+from footfit.results import LastLabels, Notice, PreparedScan
 from footfit.results.last_making.graded_run import GradedLast, GradedMeasure, GradedRun
 
 REFINED_MM = 0.03
@@ -212,8 +214,10 @@ class Grader:
             platform_mm=said.platform_mm,
             family=self.family,
         )
-        shape = file_shape(data, self.base, stands)
+        scan = file_scan(data, self.base, stands)
+        shape = scan.shape
         reached, sd = measures_of(shape), spreads_of(shape)
+        planes = planes_of(scan, frozenset(reached))
         measures = tuple(
             GradedMeasure(
                 name=name,
@@ -223,6 +227,7 @@ class Grader:
                 reached=reached.get(name),
                 by=planned[name].by if name in planned else "follows",
                 sd=sd.get(name),
+                plane=planes.get(name),
             )
             for name, value in self.base_mm.items()
         )
@@ -271,7 +276,7 @@ def grader(base: BaseLast, plan: GradePlan, family: str) -> Grader:
     base_mm: dict[str, float] = {}
     read = base.shape
     for _ in range(2):  # the second time on the ground that its own heel and spring give
-        read = file_shape(file_of(base.shape, base), base, stands)
+        read = file_scan(file_of(base.shape, base), base, stands).shape
         base_mm = measures_of(read)
         if LENGTH not in base_mm:
             raise OutOfReach("its length along the bottom cannot be measured: take a whole last")
@@ -296,9 +301,9 @@ def file_of(shape: Shape, base: BaseLast) -> bytes:
     return encoded_mesh(*right_copy(shape.vertices_mm, shape.faces, base.record.side.side), "stl")
 
 
-def file_shape(data: bytes, base: BaseLast, stands: StanceLabels) -> Shape:
+def file_scan(data: bytes, base: BaseLast, stands: StanceLabels) -> PreparedScan:
     """The last that is read from the content of its file."""
-    return prepared_source(Source(None, data, "stl"), reading_of(base, stands)).shape
+    return prepared_source(Source(None, data, "stl"), reading_of(base, stands))
 
 
 def read_otherwise(lasts: Iterable[GradedLast]) -> tuple[Notice, ...]:
@@ -312,28 +317,6 @@ def read_otherwise(lasts: Iterable[GradedLast]) -> tuple[Notice, ...]:
     how = "high" if mm > 0.0 else "low"
     words = f"without its label, the heel of {name!r} reads {plain(abs(mm))} mm too {how}{count}"
     return (Notice("heel_by_label", f"{words}: keep {RUN_MANIFEST} beside the files"),)
-
-
-def measures_of(shape: Shape) -> dict[str, float]:
-    """The checked measures of a last, in mm by name."""
-    values = {name: measure_named(name).taken_of(shape).value for name in CHECKED}
-    return {name: value for name, value in values.items() if value is not None}
-
-
-def flare_of(shape: Shape) -> tuple[float, float] | None:
-    """The flare angle of a last and its standard deviation, degrees; None if it is not shown."""
-    try:
-        flare = shape_flare(shape)
-    except GeometryRefused:
-        return None
-    angle_deg, sd_deg = flare.angle_deg, flare.angle_sd_deg
-    return (angle_deg, sd_deg) if math.isfinite(angle_deg) else None
-
-
-def spreads_of(shape: Shape) -> dict[str, float | None]:
-    """The spread of a second scan of each checked measure of a last, in mm by name."""
-    entries = map(measure_named, CHECKED)
-    return {each.name: measured(each, each.taken_of(shape), "last", None).sd for each in entries}
 
 
 def reading_of(base: BaseLast, stands: StanceLabels) -> ReadingOptions:

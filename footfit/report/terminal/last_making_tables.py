@@ -20,7 +20,8 @@ OFF, UNSURE = "!", "?"
 def graded_run_table(run: results.GradedRun) -> RenderableType:
     """What was planned of each measure and what each last has, and what was held."""
     width = "" if run.base_width is None else f", width {visible(run.base_width)}"
-    base = f"{visible(run.base)} (size {visible(run.base_size)}{width})"
+    size = f"size {visible(run.base_size)} of {run.size_system}"
+    base = f"{visible(run.base)} ({size}{width})"
     held = ", ".join(run.held) or "nothing"
     sources = f"by the rule {visible(run.rule.name)}, {run.rule.law}; held: {held}"
     parts: list[RenderableType] = [Text(f"{base} graded {sources}", "bold")]
@@ -35,13 +36,21 @@ def graded_run_table(run: results.GradedRun) -> RenderableType:
     )
     if worst is not None and worst.difference is not None:
         words = f"farthest from its plan: {worst.name.replace('_', ' ')}"
-        parts.append(Text(f"{words}, {signed(worst.difference, 3)} mm", "dim"))
+        flare = _farthest_flare(run)
+        turned = "" if flare is None else f"; flare {signed(flare, 3)} degrees"
+        parts.append(Text(f"{words}, {signed(worst.difference, 3)} mm{turned}", "dim"))
     parts.append(Text("± is the spread of a second scan of the last", "dim"))
     if run.mesh.error_mm >= 0.005:  # what the line can show
         error = plain(run.mesh.error_mm, 2)
         words = f"made from the {run.mesh.kind} of the base, at most {error} mm from its scan"
         parts.append(Text(words, "yellow"))
     return Group(*parts)
+
+
+def _farthest_flare(run: results.GradedRun) -> float | None:
+    """By how many degrees the flare of a last is off most; None if no bottom shows it."""
+    off = [last.flare.difference for last in run.lasts if last.flare is not None]
+    return max((each for each in off if each is not None), key=abs, default=None)
 
 
 def _run_table(run: results.GradedRun) -> RenderableType:

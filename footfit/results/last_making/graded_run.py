@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Literal
 
-from footfit.results.last_making.custom_last import BaseMesh
+from footfit.results.last_making.custom_last import BaseMesh, GirthPlane
 from footfit.results.last_making.grading_rule import GradingRule
 from footfit.results.values import (
     Document,
@@ -32,7 +32,8 @@ flare is kept: a longer bottom keeps the heading of its middle.
 class GradedMeasure(Part):
     """One measure of a graded last: of the base, as planned, and as the written file has it.
 
-    ``planned`` is None if the measure follows. ``sd`` is the spread of a second scan of the last.
+    ``planned`` is None if the measure follows. ``sd`` is the spread of a second scan of the last. A
+    girth has its ``plane``, in the axes of the written file.
     """
 
     name: str
@@ -42,6 +43,7 @@ class GradedMeasure(Part):
     reached: float | None
     by: By
     sd: float | None = None
+    plane: GirthPlane | None = None
 
     @property
     def difference(self) -> float | None:
