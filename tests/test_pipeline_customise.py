@@ -275,10 +275,10 @@ def test_the_toe_room_leaves_its_target_if_the_toe_box_needs_it(monkeypatch) -> 
     room, toes = (zone_of(made, name) for name in ("length", "toes"))
     assert (room.custom_verdict, toes.custom_verdict) == ("good", "acceptable")
     (notice,) = (notice for notice in made.warnings if notice.code == "toe_room_moved")
-    length = next(zone for zone in made.zones if zone.name == "length")
-    moved_mm = length.target - length.base - (room.target - room.base)
     said_mm = float(notice.message.split("aims at ")[1].split(" mm")[0])
-    assert said_mm == pytest.approx(moved_mm, abs=0.06)  # it is rounded to .1
+    assert room.custom is not None
+    assert said_mm > 3.0
+    assert room.custom == pytest.approx(room.target + said_mm, abs=0.1)  # a half of it is rounding
     monkeypatch.setattr(custom_making, "toe_box_plans", lambda *_: iter(()))
     (kept,) = footfit.customise(foot(), base(toe_shape="almond"))
     assert zone_of(kept, "length").custom == pytest.approx(14.0, abs=0.2)
