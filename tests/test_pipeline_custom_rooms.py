@@ -14,7 +14,9 @@ from footfit.pipeline.last_making.custom.custom_rooms import change_notices, ref
 
 @pytest.mark.parametrize("size_mm", [0.0, -3.0, float("nan"), 12.1])
 def test_room_is_more_than_nothing(size_mm) -> None:
-    with pytest.raises(BadOption, match=r"takes more than 0 and up to 12 mm, not "):
+    with pytest.raises(
+        BadOption, match=r"the room at .* must be more than 0 and up to 12 mm, not "
+    ):
         refuse_unknown({"ball-medial": size_mm})
 
 

@@ -35,6 +35,7 @@ from footfit.report.page.custom_page import custom_page
 from footfit.report.terminal.custom_tables import custom_table
 from footfit.report.terminal.scan_tables import terminal_text
 from footfit.results import BetterInStock, JudgedZone
+from footfit.results.last_making.custom_last import ROOM_WHY
 from footfit.results.worn import BAREFOOT
 from tests import shapes
 from tests.conftest import ROOT, SAMPLES, Footfit
@@ -422,6 +423,9 @@ def test_the_command_writes_stores_and_draws(footfit: Footfit, tmp_path) -> None
     assert run.code == 0
     document = run.document
     assert (document["base"], document["stored_as"]) == ("derby", "anna")
+    stored = replace(custom_last(), stored_as="anna")
+    assert terminal_text(custom_table(stored), 100).rstrip().endswith("stored as anna")
+    assert "stored as" not in terminal_text(custom_table(custom_last()), 100)
     assert document["output"] == str(output)
     assert document["base_mesh"]["kind"] == "full copy"
     assert max(map(abs, girth_misses(output.read_bytes(), document).values())) < CLOSE_MM
@@ -453,6 +457,38 @@ def test_the_table_and_the_page_say_what_was_made() -> None:
     assert page == custom_page(made)
 
 
+def test_the_targets_add_up_with_the_room_that_was_asked_for() -> None:
+    made = custom_last()
+    length, girth, heel = made.zones
+    plain_page = custom_page(made)
+    assert "<th>room mm</th>" not in plain_page
+    roomy = replace(made, zones=(length, replace(girth, room=4.0, target=228.5), heel))
+    page = custom_page(roomy)
+    assert "<th>allowance mm</th><th>room mm</th><th>base mm</th>" in page
+    row = next(line for line in page.splitlines() if "<td>least ball girth</td>" in line)
+    cells = re.findall(r"<td>([^<]*)</td>", row)
+    foot_mm, allowance_mm, room_mm, _, target_mm = map(float, cells[1:6])
+    assert (room_mm, target_mm) == (4.0, 228.5)
+    assert foot_mm + allowance_mm + room_mm == pytest.approx(target_mm)
+    heads, rows = page.count("<th>room mm</th>"), page.split("<tbody>")[1].split("</tbody>")[0]
+    assert (heads, rows.count("<td>")) == (1, 8 * len(made.zones))
+    assert "allow + what --room adds" in " ".join(terminal_text(custom_table(roomy), 100).split())
+
+
+def test_the_rows_have_each_measure_with_the_numbers_of_the_document() -> None:
+    made = replace(custom_last(), output="own.stl")
+    table, zones = made.rows(), made.to_dict()["zones"]
+    assert [row["measure"] for row in table] == [zone["name"] for zone in zones]
+    for row, zone in zip(table, zones, strict=True):
+        assert tuple(row) == made.columns
+        assert (row["last"], row["side"], row["output"]) == (
+            *(made.record.labels.name, "right", "own.stl"),
+        )
+        assert {name: row[name] for name in zone.keys() & row.keys()} == {
+            name: zone[name] for name in zone if name not in ("name", "plane")
+        }
+
+
 @pytest.mark.parametrize("verdict", ["poor", "reject"])
 def test_a_last_that_does_not_fit_says_what_that_means_and_what_to_do(verdict) -> None:
     made = custom_last()
@@ -468,8 +504,12 @@ def test_a_last_that_does_not_fit_says_what_that_means_and_what_to_do(verdict) -
         assert "upright ball" in words
     stock = replace(last, better_in_stock=BetterInStock("derby-43", "good", verdict))
     assert "Use derby-43 of the catalogue, or choose" in custom_page(stock)
-    roomy = replace(last, judged=(replace(bad, why="it was good before --room was given"),))
-    assert "Give less --room" in custom_page(roomy)
+    roomy = replace(last, judged=(replace(bad, why=ROOM_WHY),))
+    mixed = replace(roomy, judged=(*roomy.judged, bad))
+    for words in (terminal_text(custom_table(roomy), 400), custom_page(roomy)):
+        assert "ball line: this is the room that was asked for, and not a fault" in words
+        assert meaning[verdict] not in words
+    assert meaning[verdict] in custom_page(mixed)  # another zone is bad without the room too
     fine = replace(last, judged=(replace(bad, custom_verdict="acceptable"),))
     assert "Make it from another" not in custom_page(fine)
 

@@ -224,6 +224,9 @@ def test_a_run_reaches_its_plan_and_is_stored_with_its_parentage(
     assert footfit("check-run", "derby", *even, "--catalogue", catalogue).code == 0
     manifest = footfit("check-run", folder, *even)
     assert manifest.code == 0, manifest.err
+    not_stored = [(last["stored"], last["not_stored"]) for last in document["lasts"]]
+    why = "it is the base itself, which the catalogue has as derby-42"
+    assert not_stored == [(True, None), (False, why), (True, None)]
     with open_catalogue(catalogue) as opened:
         record, made = opened.record("derby-eu43-G"), opened.parentage("derby-eu43-G")
         assert opened.record("derby-42").labels.family == "derby"
@@ -375,6 +378,12 @@ def test_the_table_shows_every_measure_of_every_last(tmp_path: Path) -> None:
         (line,) = (line for line in many.splitlines() if line.startswith(f" {size.size} "))
         assert plain(size.measures[0].reached) in line
     assert "--csv FILE has every measure" in many
+    assert "stored" not in many
+    kept = [replace(each, stored=True) for each in sizes[1:]]
+    base = replace(sizes[0], not_stored="it is the base itself")
+    lines = terminal_text(graded_run_table(replace(run, lasts=(base, *kept))), 200).splitlines()
+    assert f"stored as {', '.join(each.last for each in kept)}" in map(str.strip, lines)
+    assert "not stored: derby-38, because it is the base itself" in map(str.strip, lines)
     assert isinstance(run, GradedRun)
     assert run.to_dict()["lasts"][0]["measures"][0]["difference"] == pytest.approx(0.0, abs=0.01)
     assert "data" not in run.to_dict()["lasts"][0]

@@ -201,6 +201,10 @@ def _base(
     from footfit.pipeline.library.named_lasts import names_a_last, stored_name
 
     if isinstance(base, str) and is_no_path(base):
+        if path is None and names_a_last(base):
+            words = "there is no such file, and no catalogue with a last of this name"
+            hint = "give a catalogue (catalogue= or --catalogue), or the path of a file"
+            raise UnreadableFile(f"{words}: {hint}", base)
         if path is None:
             raise UnreadableFile("there is no such file: check the path", base)
         if not names_a_last(base) and stored_name(path, base) is None:

@@ -88,7 +88,12 @@ def store_run(path: Location, grader: Grader, run: GradedRun, *, replace_stored:
                     None,
                 ),
             )
-    return replace(run, lasts=tuple(replace(last, stored=not is_base(last)) for last in run.lasts))
+    why = f"it is the base itself, which the catalogue has as {name}"
+    lasts = (
+        replace(last, not_stored=why) if is_base(last) else replace(last, stored=True)
+        for last in run.lasts
+    )
+    return replace(run, lasts=tuple(lasts))
 
 
 def is_base(last: GradedLast) -> bool:

@@ -13,6 +13,7 @@ from footfit.report.wording.custom_words import (
     UPRIGHT,
     advice_words,
     custom_verdict_words,
+    has_room,
     judged_words,
     measure_words,
     room_words,
@@ -34,8 +35,8 @@ def custom_table(custom: CustomLast) -> RenderableType:
         _zones_table(custom),
         Text(CUSTOM_SPREADS, "dim"),
         Text(
-            "allow: what the profile allows; the target is foot + allow. follows: the parts that"
-            " are kept nearly set this girth, so it has no own target.",
+            f"allow: what the profile allows; the target is foot + allow{_room_term(custom)}."
+            " follows: the parts that are kept nearly set this girth, so it has no own target.",
             "dim",
         ),
         *(Text(words) for words in room_words(custom)),
@@ -45,6 +46,7 @@ def custom_table(custom: CustomLast) -> RenderableType:
         Text(GIRTH_WORDS, "dim"),
         Text(),
         Text(_kept_words(custom)),
+        *([] if custom.stored_as is None else [Text(f"stored as {visible(custom.stored_as)}")]),
     )
 
 
@@ -82,9 +84,14 @@ def _zones_table(custom: CustomLast) -> RenderableType:
     return table
 
 
+def _room_term(custom: CustomLast) -> str:
+    """What room for single places adds to a target, if there is some."""
+    return " + what --room adds" if any(map(has_room, custom.zones)) else ""
+
+
 def _note(zone: CustomZone) -> str:
     """What should be known of a target."""
-    return f"{signed(zone.room)} by --room" if abs(zone.room) >= 0.05 else ""
+    return f"{signed(zone.room)} by --room" if has_room(zone) else ""
 
 
 def _judged_table(custom: CustomLast) -> RenderableType:

@@ -44,7 +44,18 @@ def graded_run_table(run: results.GradedRun) -> RenderableType:
         error = plain(run.mesh.error_mm, 2)
         words = f"made from the {run.mesh.kind} of the base, at most {error} mm from its scan"
         parts.append(Text(words, "yellow"))
-    return Group(*parts)
+    return Group(*parts, *map(Text, _stored_words(run)))
+
+
+def _stored_words(run: results.GradedRun) -> list[str]:
+    """The names that lasts of a run are stored as, and why others of it are not stored."""
+    names = [visible(last.last) for last in run.lasts if last.stored]
+    lines = [f"stored as {', '.join(names)}"] if names else []
+    return lines + [
+        f"not stored: {visible(last.last)}, because {visible(last.not_stored)}"
+        for last in run.lasts
+        if last.not_stored is not None
+    ]
 
 
 def _farthest_flare(run: results.GradedRun) -> float | None:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from footfit.number_words import plain, signed
 from footfit.report.wording.text import visible
 from footfit.results import CustomLast, CustomZone, JudgedZone
+from footfit.results.last_making.custom_last import ROOM_WHY
 
 
 def custom_verdict_words(custom: CustomLast) -> str:
@@ -34,10 +35,11 @@ def advice_words(custom: CustomLast) -> str | None:
     }.get(custom.verdict or "")
     if meaning is None:
         return None
-    reasons = [z.why or "" for z in custom.judged if z.custom_verdict == custom.verdict]
-    for option, step in OPTIONS.items():
-        if any(option in why for why in reasons):
-            return f"{meaning} {step}."
+    worst = [z for z in custom.judged if z.custom_verdict == custom.verdict]
+    if all(zone.why == ROOM_WHY for zone in worst):
+        return f"{visible(', '.join(z.label for z in worst))}: {ROOM_ADVICE}"
+    if any("--keep" in (zone.why or "") for zone in worst):
+        return f"{meaning} Leave out --keep bottom."
     cause = "Its girths are right, but there it keeps the shape of its base."
     step = "Make it from another base (--base), or without --base from the best last"
     if custom.better_in_stock is not None:
@@ -45,8 +47,11 @@ def advice_words(custom: CustomLast) -> str | None:
     return f"{meaning} {cause} {step}, or choose another kind of shoe (--profile)."
 
 
-OPTIONS = {"--room": "Give less --room, or none", "--keep": "Leave out --keep bottom"}
-"""What to do if an option is why a zone is not good."""
+ROOM_ADVICE = (
+    "this is the room that was asked for, and not a fault of the last. Without the room it is good"
+    " there. Keep the room if the foot needs it, and let the customer try a shoe on."
+)
+"""What to do if nothing but the room for single places is why the last is not good."""
 
 
 def measure_words(zone: CustomZone) -> str:
@@ -97,6 +102,11 @@ def judged_words(value: float | None, sd: float | None, unit: str) -> str:
     """
     digits = 2 if unit == "ratio" else 1
     return "-" if value is None else with_spread(signed(value, digits), sd, digits)
+
+
+def has_room(zone: CustomZone) -> bool:
+    """Whether the room for single places changes the target of a measure so much that it shows."""
+    return abs(zone.room) >= 0.05
 
 
 CUSTOM_SPREADS = (

@@ -14,6 +14,7 @@ from footfit.results.values import (
     Verdict,
     fields,
     in_mm,
+    rows,
 )
 
 if TYPE_CHECKING:
@@ -23,6 +24,8 @@ if TYPE_CHECKING:
     from footfit.results.meshes import ShapeSections
 
 
+ROOM_WHY = "this is the room that was asked for, and without it the zone is good"
+"""Why a zone is not good, if it was good before room for single places was added."""
 MeshOfBase = Literal["file", "full copy", "original file", "light copy"]
 
 
@@ -192,6 +195,10 @@ class CustomLast(Document):
     stored_as: str | None = None
 
     schema = "customise/1"
+    columns = (
+        *("last", "side", "output", "measure", "zone", "unit", "foot", "allowance", "room"),
+        *("base", "target", "reached", "follows", "foot_sd", "base_sd", "reached_sd"),
+    )
     not_written = (
         *("record", "sections", "parentage", "vertices_mm", "base_vertices_mm"),
         *("faces", "moved_mm"),
@@ -203,6 +210,15 @@ class CustomLast(Document):
         order: tuple[Verdict, ...] = ("good", "acceptable", "poor", "reject")
         known = [zone.custom_verdict for zone in self.judged if zone.custom_verdict is not None]
         return max(known, key=order.index) if known else None
+
+    def rows(self) -> list[Json]:
+        """A table: a row for each measure that the foot sets, with what was asked and reached."""
+        start = (self.record.labels.name, self.side, self.output)
+        values = []
+        for zone in self.zones:
+            known = zone.to_dict()  # with the decimals that JSON has
+            values.append((*start, zone.name, *(known[name] for name in self.columns[4:])))
+        return rows(self.columns, values)
 
     def _keys(self) -> Json:
         mesh = {"faces": len(self.faces), "vertices": len(self.vertices_mm)}

@@ -60,10 +60,11 @@ class GradedMeasure(Part):
 class GradedLast(Part):
     """One last of a graded run, ``sizes`` and ``widths`` from the base.
 
-    ``output`` is its file, ``stored`` whether the catalogue has it now. ``data`` is the content of
-    the file, an STL in mm in the base's canonical frame. ``heel_by_shape_mm`` is what its heel
-    height reads without its labels. ``flare`` is the flare angle in degrees, as planned and as
-    reached; None if the bottom does not show it.
+    ``output`` is its file, ``stored`` whether the catalogue has it now, and ``not_stored`` why it
+    was not stored, if that was asked for. ``data`` is the content of the file, an STL in mm in the
+    base's canonical frame. ``heel_by_shape_mm`` is what its heel height reads without its labels.
+    ``flare`` is the flare angle in degrees, as planned and as reached; None if the bottom does not
+    show it.
     """
 
     last: str
@@ -76,6 +77,7 @@ class GradedLast(Part):
     data: bytes = field(repr=False)
     output: str | None = None
     stored: bool = False
+    not_stored: str | None = None
     heel_by_shape_mm: float | None = None
     flare: GradedMeasure | None = None
     warnings: tuple[Notice, ...] = ()

@@ -61,7 +61,7 @@ from footfit.pipeline.last_making.custom.good_zones import (
     with_reasons,
     zone_notices,
 )
-from footfit.pipeline.last_making.custom.made_last import MadeLast
+from footfit.pipeline.last_making.custom.made_last import MadeLast, heel_notices
 from footfit.pipeline.scan.preparation import mirror_of
 from footfit.results import Parentage, Profiled, SideName, Target
 from footfit.results.last_making.custom_last import CustomLast
@@ -104,6 +104,7 @@ def customised(
 
     attempt = _tried(foot, given, aims, question, judged_base)
     made, notices, lost = answer(attempt), list[results.Notice](), set[str]()
+    last = attempt.made
     if making.rooms_mm:  # room is given on top of the targets, which are met without it
         lying_mm = attempt.made.lying(attempt.shape.vertices_mm)
         bumps = room_bumps(base.shape, given.chart, making.rooms_mm, attempt.made.shape, lying_mm)
@@ -114,14 +115,14 @@ def customised(
         rooms = reached_rooms(base.shape, given.chart, making.rooms_mm, bumps, ends_mm)
         roomy = replace(answer(swollen), rooms=rooms)
         lost = {z.name for z in not_good(roomy.judged)} - {z.name for z in not_good(made.judged)}
-        made = roomy
+        made, last = roomy, swollen.made
     if foot.aligned.alignment.pose.kind == "last":
         words = "the foot has a shape like a last's: give the scan of a foot"
         notices.append(results.Notice("looks_like_a_last", words))
     judged = with_reasons(made.judged, question, lost)
     bent = bent_notices(made, bottom_kept=question.bottom_kept)
     notices = [*toe_box_notice(made.toe_box), *bent, *notices]
-    said = (*_notices(base), *zone_notices(judged, attempt.aims), *notices)
+    said = (*_notices(base), *heel_notices(last), *zone_notices(judged, attempt.aims), *notices)
     return replace(made, judged=judged, warnings=said)
 
 

@@ -75,10 +75,11 @@ def refuse_unknown(rooms_mm: Mapping[str, float]) -> None:
     """Raise BadOption if there is no such place, or if its room is too large."""
     for name, size_mm in rooms_mm.items():
         if name not in ROOM_PLACES:
-            raise BadOption(f"no place is named {name!r}; --room takes {', '.join(ROOM_PLACES)}")
+            places = ", ".join(ROOM_PLACES)
+            raise BadOption(f"no place is named {name!r}: room can be given at {places}")
         if not 0.0 < size_mm <= ROOM.most_mm:
             words = f"more than 0 and up to {ROOM.most_mm:g} mm, not {size_mm:g}"
-            raise BadOption(f"--room {name} takes {words}")
+            raise BadOption(f"the room at {name} must be {words}")
 
 
 def room_bumps(
@@ -139,7 +140,7 @@ def with_room(base: BaseLast, shape: CustomShape, bumps: Sequence[Bump]) -> Cust
     roomy = replace(shape, vertices_mm=moved, least_determinant=least)
     words = limit_words(roomy)
     if words is not None:
-        raise OutOfReach(f"there is no place for so much room: {words}; give less --room")
+        raise OutOfReach(f"there is no place for so much room: {words}; give less room")
     return roomy
 
 
@@ -173,11 +174,11 @@ def joint_notices(before: Shape, after: Shape) -> tuple[Notice, ...]:
     if before.joints is None:
         return ()
     if after.joints is None:
-        raise OutOfReach("with so much room the ball of the last is not found: give less --room")
+        raise OutOfReach("with so much room the ball of the last is not found: give less room")
     ends = zip(before.joints, after.joints, strict=True)
     if all(abs(after.share_of(new) - before.share_of(old)) < ROOM.same_joint for old, new in ends):
         return ()
-    words = "the room swells so far that the ball is now measured at it: give less --room"
+    words = "the room swells so far that the ball is now measured at it: give less room"
     return (Notice("room_at_ball", words),)
 
 

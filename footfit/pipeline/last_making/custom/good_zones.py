@@ -13,6 +13,7 @@ from footfit.pipeline.last_making.custom.custom_aims import (
     CustomQuestion,
 )
 from footfit.results import JudgedZone, Notice, ToeBoxChange
+from footfit.results.last_making.custom_last import ROOM_WHY
 
 NOT_ENOUGH = "and another toe room or toe box does not make it good or cannot be made"
 WHY = {
@@ -51,7 +52,7 @@ def _why(zone: JudgedZone, question: CustomQuestion, roomy: Collection[str]) -> 
     if question.bottom_kept and zone.name.endswith("_width"):
         return "--keep bottom keeps the outline of the bottom"
     if zone.name in roomy:
-        return "it was good before --room was given"
+        return ROOM_WHY
     why = WHY.get(zone.name, "the base's shape is kept there")
     turnable = zone.name == "flare" and question.flare_follow == 0.0
     return f"{why}; --flare-follow turns it" if turnable else why

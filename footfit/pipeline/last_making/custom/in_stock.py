@@ -38,9 +38,14 @@ def with_stock_looked_at(
 ) -> CustomLast:
     """The custom last, with a warning if a last of the catalogue fits the foot better.
 
+    A last of the catalogue lacks the room that was asked for at single places, and a match does
+    not count that room. So with such room no last is named.
+
     It is ranked as ``match`` would rank it, among the lasts with its heel. Lasts that were made for
     a customer do not count. One that is tied with it is no better.
     """
+    if custom.rooms:
+        return custom
     better = None
     with suppress(FootfitError, BadBlocks, OtherCatalogue):  # `match` says what is damaged
         better = _better(custom, foot, path, question)

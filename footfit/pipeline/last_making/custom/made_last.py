@@ -13,17 +13,21 @@ from footfit.geometry.numeric.arrays import Floats, Ints
 from footfit.geometry.numeric.rotations import moved_points
 from footfit.geometry.search.pose_search import RoughPose
 from footfit.meshes.write import encoded_mesh
+from footfit.number_words import plain
 from footfit.pipeline.batch.sources import ReadingOptions, Source
 from footfit.pipeline.last_making.base_last import BaseLast
 from footfit.pipeline.last_making.custom.custom_reading import gain_mm, value_mm
+from footfit.pipeline.last_making.tolerances import TOLERANCE_MM
 from footfit.pipeline.scan.align import aligned_scan
 from footfit.pipeline.scan.flare import profiled_scan
 from footfit.pipeline.scan.kept_sections import kept_sections
 from footfit.pipeline.scan.measure import last_record
 from footfit.pipeline.scan.preparation import mirror_of, prepared_scan, right_copy
 from footfit.pipeline.scan.reading import read
-from footfit.pipeline.scan.standing import stance_labels
+from footfit.pipeline.scan.standing import heights_by_shape, stance_labels
 from footfit.results import LastLabels, PreparedScan, SideName
+
+HEEL = "heel_height"
 
 
 @dataclass(frozen=True)
@@ -105,6 +109,34 @@ def made_last(base: BaseLast, vertices_mm: Floats, side: SideName, name: str) ->
     mirror = _mirror(side)
     frame = mirror @ prepared.canonical_transform @ mirror
     return MadeLast(base, prepared, labels, vertices_mm, faces, np.asarray(frame, np.float64))
+
+
+def heel_notices(made: MadeLast) -> tuple[results.Notice, ...]:
+    """A warning if the written file, read without the labels of the base, has another heel.
+
+    The file has no labels, so a command that reads it needs them.
+    """
+    labels = made.labels
+    given = {
+        "--heel-height": labels.heel_height_mm,
+        "--toe-spring": labels.toe_spring_mm,
+        "--platform": labels.platform_mm or None,
+    }
+    options = " ".join(f"{name} {mm:g}" for name, mm in given.items() if mm is not None)
+    by_shape_mm = heights_by_shape(made.shape.stance).get(HEEL)
+    reached = {each.name: each.measured.value for each in made.record.measures}.get(HEEL)
+    if not options or by_shape_mm is None or reached is None:
+        return ()
+    if abs(by_shape_mm - reached) <= TOLERANCE_MM["height"]:
+        return ()
+    words = (
+        f"without the label of the base, the heel of the written file reads {plain(by_shape_mm)} mm"
+        f" high and not {plain(reached)} mm"
+    )
+    advice = f"give its heel height with the file ({options})"
+    if labels.heel_height_mm is None:
+        advice = f"give its toe spring with the file ({options})"
+    return (results.Notice("heel_by_label", f"{words}: {advice}"),)
 
 
 def _mirror(side: SideName | None) -> Floats:
