@@ -66,6 +66,9 @@ PROFILE = tomllib.loads(
 )
 STYLES = ("shoe", "pump", "boot", "sandal")
 SPARSE = 10
+Grid = tuple[int, int]
+AT_30K, AT_35K = ((150, 100), (150, 84)), ((160, 110), (160, 110))
+"""Rings and segments of both families: 25,200 to 30,000 faces, and about 35,000."""
 LIMITS = {"widths": (1.0 / 1.25, 1.25), "heights": (1.0 / 1.4, 1.4)}
 """The stated limits of stretch, by which a refused pair is shown to be out of reach."""
 KEPT = ("toes", "toe_height", "flare", "plan", "short_heel_girth")
@@ -110,11 +113,11 @@ def question() -> CustomQuestion:
     return CustomQuestion(fit_profile("walking"), heel_question(), BAREFOOT)
 
 
-def base_of(rng: np.random.Generator, rings: int, segments: int) -> BaseLast:
-    """A random last of one of the families."""
+def base_of(rng: np.random.Generator, own: Grid, second: Grid) -> BaseLast:
+    """A random last of one of the families, each with its grid of rings and segments."""
     heel_mm = float(rng.uniform(*HEELS_MM))
     if stance.second_family() and rng.random() < 0.5:
-        case = stance.other(rng, (heel_mm, heel_mm + 0.1), 0)
+        case = stance.other(rng, (heel_mm, heel_mm + 0.1), 0, *second)
         mesh = case.vertices_mm, case.faces
     else:
         style = str(rng.choice(STYLES))
@@ -124,8 +127,8 @@ def base_of(rng: np.random.Generator, rings: int, segments: int) -> BaseLast:
             style,
             (heel_mm, heel_mm + 0.1),
             length_mm=length_mm,
-            rings=rings,
-            segments=segments,
+            rings=own[0],
+            segments=own[1],
         )
         mesh = last_mesh(spec)
     from footfit.api.inputs import source_of
@@ -198,14 +201,14 @@ def _value_mm(shape: Shape, measure: str) -> float:
     return np.nan if value is None else value
 
 
-def pairs(rng: np.random.Generator, rings: int, segments: int) -> Iterator[Pair]:
+def pairs(rng: np.random.Generator, own: Grid, second: Grid) -> Iterator[Pair]:
     """Pairs without an end: every firm target lies within 15 mm of its base."""
     files = [file for folder in FOLDERS for file in sorted(folder.glob("*_R.stl"))]
     scans = [footfit.flare(str(file)) for file in files]
     asked = question()
     while True:
         try:
-            base = base_of(rng, rings, segments)
+            base = base_of(rng, own, second)
             foot = foot_for(rng, scans[int(rng.integers(len(scans)))], base)
             aims = [aim for aim in custom_aims(foot, base, asked) if aim.firm]
         except FootfitError:
@@ -315,7 +318,7 @@ def _moved_by_equal_targets(pair: Pair) -> float:
 def timed(rng: np.random.Generator, count: int) -> tuple[float, float]:
     """The core time of a custom last over that of an align, at 35,000 faces: median and worst."""
     ratios = []
-    for pair, _ in zip(pairs(rng, 160, 110), range(count), strict=False):
+    for pair, _ in zip(pairs(rng, *AT_35K), range(count), strict=False):
         mesh = pair.base.shape.vertices_mm, pair.base.shape.faces
         start = time.process_time()
         footfit.align(mesh, units="mm")
@@ -332,7 +335,7 @@ def found(options: argparse.Namespace) -> Iterator[dict[str, Any]]:
     """What is found of each pair of this part: its rows, or why it was refused."""
     rng = np.random.default_rng(options.seed)
     part, parts = (int(each) for each in options.part.split("/"))
-    for number, pair in zip(range(options.count), pairs(rng, 150, 100), strict=False):
+    for number, pair in zip(range(options.count), pairs(rng, *AT_30K), strict=False):
         if number % parts != part - 1:
             continue
         try:

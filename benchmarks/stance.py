@@ -67,12 +67,18 @@ def second_family() -> bool:
     return SHARED.exists()
 
 
-def other(rng: np.random.Generator, band: tuple[float, float], _: int) -> Case:
+def other(
+    rng: np.random.Generator,
+    band: tuple[float, float],
+    _: int,
+    rings: int = 150,
+    segments: int = 84,
+) -> Case:
     """A last of the second family, laid on its resting line."""
     import lasts2
 
     spec = other_spec(rng, band)
-    mesh = lasts2.mesh(spec, n_long=150, n_round=84)
+    mesh = lasts2.mesh(spec, n_long=rings, n_round=segments)
     vertices_mm = at_rest(np.array(mesh.vertices))[0]
     return Case(vertices_mm, np.array(mesh.faces), spec.heel_height, spec.toe_spring)
 
