@@ -500,7 +500,7 @@ def test_a_last_that_does_not_fit_says_what_that_means_and_what_to_do(verdict) -
     for words in (table, page):
         assert f"({verdict}), because of ball line" in words
         assert meaning[verdict] in words
-        assert "or without --base from the best last" in words
+        assert "footfit match lists lasts, and --base names one" in words
         assert "upright ball" in words
     stock = replace(last, better_in_stock=BetterInStock("derby-43", "good", verdict))
     assert "Use derby-43 of the catalogue, or choose" in custom_page(stock)

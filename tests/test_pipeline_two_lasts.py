@@ -10,7 +10,7 @@ import pytest
 from scipy.spatial import ConvexHull
 
 import footfit as library
-from footfit.errors import SideUndecided
+from footfit.errors import OtherKind, SideUndecided
 from footfit.geometry.fit.clearance import ZONES, zone_of
 from footfit.geometry.mesh.sections import sections_across
 from footfit.meshes.read import file_mesh
@@ -41,6 +41,13 @@ def difference(first, vertices, faces):
 def most(found) -> float:
     """The largest difference of a judged measure, mm."""
     return max(abs(row.difference.value) for row in found.judged)
+
+
+def test_a_foot_is_no_last_to_compare(last):
+    foot = library.flare(SAMPLES / "feet" / "mh008_R.stl")
+    for pair in ((last, foot), (foot, last)):
+        with pytest.raises(OtherKind, match="give two lasts"):
+            library.compare_lasts(*pair)
 
 
 def test_a_last_turned_and_moved_is_the_same_last(last, mesh):

@@ -8,7 +8,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from footfit.errors import NoSole
+from footfit.errors import NoSole, OtherKind
 from footfit.geometry.fit.arc_sections import (
     ARC_SIZES,
     ArcSection,
@@ -56,6 +56,9 @@ NOT_JUDGED = ("tread_from", "tread_to")
 """Where the tread begins and ends is no length, and a second scan differs by 2 mm."""
 MOST_NAMED = 3
 """So many measures are named in the error's line; the table has all."""
+FOOT_WORDS = (
+    "its shape is a foot's, not a last's: give two lasts; footfit compare lays a foot into a last"
+)
 
 
 def last_difference(
@@ -70,12 +73,17 @@ def last_difference(
 
     Raises
     ------
+    OtherKind
+        One is read from a file, and is a foot by its shape.
     SideUndecided
         The shape of one does not show its side.
     NoSole
         The bottoms do not lie together: one of the two has none.
     """
     for last in (first, second):
+        info = last.aligned.alignment.info
+        if not last.is_last and not info.is_stored_last:
+            raise OtherKind(FOOT_WORDS, info.path)
         check_side(last.aligned.alignment)
     said = [_has_labels(last) for last in (first, second)]
     if any(said) and not all(said):

@@ -41,7 +41,7 @@ def advice_words(custom: CustomLast) -> str | None:
     if any("--keep" in (zone.why or "") for zone in worst):
         return f"{meaning} Leave out --keep bottom."
     cause = "Its girths are right, but there it keeps the shape of its base."
-    step = "Make it from another base (--base), or without --base from the best last"
+    step = "Make it from another base: footfit match lists lasts, and --base names one"
     if custom.better_in_stock is not None:
         step = f"Use {visible(custom.better_in_stock.last)} of the catalogue"
     return f"{meaning} {cause} {step}, or choose another kind of shoe (--profile)."
