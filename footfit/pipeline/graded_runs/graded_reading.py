@@ -10,7 +10,7 @@ from footfit.errors import GeometryRefused
 from footfit.geometry.measures.landmarks import Shape
 from footfit.geometry.measures.measure_table import measure_named
 from footfit.pipeline.graded_runs.run_increments import CHECKED
-from footfit.pipeline.last_making.custom.custom_reading import TAPES, tape_plane
+from footfit.pipeline.last_making.custom.custom_reading import TAPES, file_plane
 from footfit.pipeline.scan.flare import shape_flare
 from footfit.pipeline.scan.preparation import mirror_of
 from footfit.pipeline.scan.trueness import measured
@@ -42,14 +42,6 @@ def flare_of(shape: Shape) -> tuple[float, float] | None:
 def planes_of(scan: PreparedScan, names: frozenset[str]) -> dict[str, GirthPlane]:
     """The planes of those girths that are among ``names``, in the axes of the file of a last."""
     mirror = np.diag([*mirror_of(scan.side.side), 1.0])
-    to_file = np.linalg.inv(scan.canonical_transform) @ mirror
-    result: dict[str, GirthPlane] = {}
-    for name in names & TAPES.keys():
-        plane = tape_plane(scan.shape, name)
-        if plane is None:
-            continue
-        x, y, z = (to_file[:3, :3] @ plane.origin + to_file[:3, 3]).tolist()
-        normal = to_file[:3, :3] @ plane.normal
-        a, b, c = (normal / np.linalg.norm(normal)).tolist()
-        result[name] = GirthPlane((x, y, z), (a, b, c))
-    return result
+    to_file = np.asarray(np.linalg.inv(scan.canonical_transform) @ mirror, np.float64)
+    planes = {name: file_plane(scan.shape, name, to_file) for name in names & TAPES.keys()}
+    return {name: plane for name, plane in planes.items() if plane is not None}

@@ -15,7 +15,6 @@ from footfit.report.wording.custom_words import (
     custom_verdict_words,
     has_room,
     judged_words,
-    measure_words,
     room_words,
     with_spread,
     zone_words,
@@ -80,7 +79,7 @@ def _zones_table(custom: CustomLast) -> RenderableType:
             with_spread(plain(zone.reached), zone.reached_sd),
             signed(zone.reached - zone.base),
         )
-        table.add_row(measure_words(zone), *values, *(_note(zone) for _ in notes))
+        table.add_row(zone.words, *values, *(_note(zone) for _ in notes))
     return table
 
 

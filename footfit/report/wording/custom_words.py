@@ -54,20 +54,6 @@ ROOM_ADVICE = (
 """What to do if nothing but the room for single places is why the last is not good."""
 
 
-def measure_words(zone: CustomZone) -> str:
-    """A measure that the foot sets, in words; a girth of the least tape is said to be one.
-
-    Examples
-    --------
-    >>> from footfit.results import CustomZone
-    >>> zone = CustomZone("ball_girth_least", "ball_girth", "mm", 252.2, 0.0, 255.4, 252.2, 252.2)
-    >>> measure_words(zone)
-    'least ball girth'
-    """
-    words = zone.name.replace("_", " ")
-    return f"least {words.removesuffix(' least')}" if words.endswith(" least") else words
-
-
 def zone_words(zone: JudgedZone) -> str:
     """The label of a zone; a girth that has a least tape too is said to be the upright one."""
     return f"upright {zone.label}" if zone.name in UPRIGHT else zone.label

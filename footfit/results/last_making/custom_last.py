@@ -29,6 +29,18 @@ ROOM_WHY = "this is the room that was asked for, and without it the zone is good
 MeshOfBase = Literal["file", "full copy", "original file", "light copy"]
 
 
+def target_words(measure: str) -> str:
+    """A measure that the foot sets, in words; a girth of the least tape is said to be one.
+
+    Examples
+    --------
+    >>> target_words("ball_girth_least"), target_words("heel_width")
+    ('least ball girth', 'heel width')
+    """
+    words = measure.replace("_", " ")
+    return f"least {words.removesuffix(' least')}" if words.endswith(" least") else words
+
+
 @dataclass(frozen=True, slots=True)
 class BaseMesh(Part):
     """Which mesh of the base was changed: its file, the full copy, or a light copy.
@@ -76,6 +88,11 @@ class CustomZone(Part):
     foot_sd: float | None = None
     base_sd: float | None = None
     reached_sd: float | None = None
+
+    @property
+    def words(self) -> str:
+        """The measure in words."""
+        return target_words(self.name)
 
     def _keys(self) -> Json:
         return in_mm(fields(self))

@@ -17,6 +17,7 @@ from footfit.pipeline.fit.judging.judged_lasts import JudgedLasts, asked_of
 from footfit.pipeline.fit.ranking import foot_fits, judged_last
 from footfit.pipeline.last_making.base_last import BaseLast
 from footfit.results import FitProfile, FootFit, HeelQuestion, LastRecord, Profiled, Worn, ZoneRule
+from footfit.results.last_making.custom_last import target_words
 
 LEAST_TAPES = {
     "ball_girth_least": ("ball_girth",),
@@ -85,9 +86,8 @@ class CustomAim:
 
     @property
     def words(self) -> str:
-        """The measure in words; a girth of the least tape is said to be one."""
-        words = self.measure.replace("_", " ")
-        return f"least {words.removesuffix(' least')}" if words.endswith(" least") else words
+        """The measure in words."""
+        return target_words(self.measure)
 
     def moved_to(self, target: float) -> CustomAim:
         """The same aim with another target of the least tape, or of the toe room."""

@@ -33,7 +33,7 @@ from footfit.pipeline.last_making.custom.custom_field import (
     CUSTOM,
     refuse_far,
 )
-from footfit.pipeline.last_making.custom.custom_reading import tape_plane, value_mm
+from footfit.pipeline.last_making.custom.custom_reading import file_plane, value_mm
 from footfit.pipeline.last_making.custom.custom_rooms import (
     change_notices,
     joint_notices,
@@ -61,7 +61,7 @@ from footfit.pipeline.last_making.custom.good_zones import (
     with_reasons,
     zone_notices,
 )
-from footfit.pipeline.last_making.custom.made_last import MadeLast, heel_notices
+from footfit.pipeline.last_making.custom.made_last import heel_notices
 from footfit.pipeline.scan.preparation import mirror_of
 from footfit.results import Parentage, Profiled, SideName, Target
 from footfit.results.last_making.custom_last import CustomLast
@@ -267,25 +267,13 @@ def _zones(foot: Profiled, base: BaseLast, attempt: Attempt) -> tuple[results.Cu
                 reached=reached,
                 room=room if aim.firm else 0.0,
                 follows=not aim.firm,
-                plane=_plane(made, aim.measure),
+                plane=file_plane(made.shape, aim.measure, made.to_file),
                 foot_sd=None if aim.foot is None else foot_sd.get(aim.measure),
                 base_sd=base_sd.get(aim.measure),
                 reached_sd=reached_sd.get(aim.measure),
             )
         )
     return tuple(zones)
-
-
-def _plane(made: MadeLast, measure: str) -> results.GirthPlane | None:
-    """The plane of a girth in the axes of the written file."""
-    plane = tape_plane(made.shape, measure)
-    if plane is None:
-        return None
-    point = made.to_file[:3, :3] @ plane.origin + made.to_file[:3, 3]
-    normal = made.to_file[:3, :3] @ plane.normal
-    x, y, z = point.tolist()
-    a, b, c = (normal / np.linalg.norm(normal)).tolist()
-    return results.GirthPlane((x, y, z), (a, b, c))
 
 
 def _judged(before: results.FootFit, after: results.FootFit) -> tuple[results.JudgedZone, ...]:

@@ -35,7 +35,7 @@ from footfit.pipeline.last_making.custom.custom_aims import (
     LENGTH,
     CustomAim,
 )
-from footfit.results import Measure, Measured
+from footfit.results import GirthPlane, Measure, Measured
 
 LEVEL = np.array([1.0, 1.0, 0.0])
 BALL = ("ball_girth_least", "ball_girth", "ball_width", BALL_LENGTH)
@@ -96,6 +96,20 @@ def tape_plane(shape: Shape, measure: str) -> TapePlane | None:
         forward = np.cos(rise) * AXES[0] + np.sin(rise) * AXES[2]
         return TapePlane(shape.heel_base, np.stack([AXES[1], forward]))
     return None
+
+
+def file_plane(shape: Shape, measure: str, to_file: Floats) -> GirthPlane | None:
+    """The plane of a girth in the axes of a file; None of a measure that is no girth.
+
+    ``to_file`` (4, 4) leads there from the shape's frame.
+    """
+    plane = tape_plane(shape, measure)
+    if plane is None:
+        return None
+    x, y, z = (to_file[:3, :3] @ plane.origin + to_file[:3, 3]).tolist()
+    normal = to_file[:3, :3] @ plane.normal
+    a, b, c = (normal / np.linalg.norm(normal)).tolist()
+    return GirthPlane((x, y, z), (a, b, c))
 
 
 def value_mm(shape: Shape, measure: str, base: BaseLast, longer_mm: float | None = None) -> float:
